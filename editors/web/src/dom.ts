@@ -74,6 +74,11 @@ export function button({ icon: node, label, key, wide, class: name, press }: But
   );
 }
 
+/** Formats text between backticks as code. */
+export function inCode(text: string): (Node | string)[] {
+  return text.split("`").map((piece, at) => (at % 2 === 1 ? h("code", {}, piece) : piece));
+}
+
 /** A number and a noun. */
 export function count(number: number, one: string, many = `${one}s`): string {
   return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;

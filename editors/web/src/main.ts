@@ -42,10 +42,14 @@ function start(page: HTMLElement): void {
   };
   const tree = new Tree(state, picked);
   const inspector = new Inspector(state, viewer, commands, choose);
-  const findings = new Findings(state, ({ line, column }) => {
-    const part = state.parts.all.find(({ string }) => string?.line === line);
-    if (part) state.select(part.name);
-    if (state.current !== null) host.send({ type: "open", drawing: state.current, line, column });
+  const findings = new Findings(state, {
+    opening: host.showsFindings ? "byHand" : "byItself",
+    go: ({ line, column }) => {
+      const part = state.parts.all.find(({ string }) => string?.line === line);
+      if (part) state.select(part.name);
+      if (state.current !== null) host.send({ type: "open", drawing: state.current, line, column });
+    },
+    unfocused: () => viewer.canvas.focus(),
   });
   const poseBar = new PoseBar(viewer, commands);
   const pointer = new Pointer(viewer, state, picked, (part, degrees) => poseBar.show(part, degrees));
@@ -56,8 +60,9 @@ function start(page: HTMLElement): void {
   const camera = new CameraPanel(host, state, page);
   if (camera.isPossible) commands.recordPuppet = () => camera.toggle();
 
-  place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer).element, findings.element);
-  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, new Side(state, tree, inspector).element);
+  const side = new Side(state, tree, inspector);
+  place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer).element, findings.element, side.opener);
+  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, side.element);
   page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element);
 
   const shows = (): boolean => state.current !== null;
@@ -73,7 +78,7 @@ function start(page: HTMLElement): void {
   viewer.setShading("smooth");
   followTheme(({ accent, grid, ink }) => viewer.setColors(accent, grid, ink));
   followAddress(state);
-  listenToKeys(viewer, commands, { clips, findings, tree, gallery: () => state.list.length > 1 && openGallery() }, shows);
+  listenToKeys(viewer, commands, { clips, findings, side, gallery: () => state.list.length > 1 && openGallery() }, shows);
   host.listen(
     (message) => state.receive(message),
     (link, note) => state.setLink(link, note),

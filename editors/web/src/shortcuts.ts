@@ -6,7 +6,7 @@ import type { Viewer } from "./viewport/viewer";
 export interface Places {
   readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; followTravel(): void; film(): void; readonly chart: { toggle(): void }; readonly performance: { toggle(): void } };
   readonly findings: { flip(): void };
-  readonly tree: { focus(): void; focusSearch(): void };
+  readonly side: { focusTree(): void; focusSearch(): void };
   /** Shows all drawings, if there are several. */
   readonly gallery: () => void;
 }
@@ -30,7 +30,7 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
     if (!shows()) return;
     if (target?.closest("button, a") && (event.key === " " || event.key === "Enter")) return;
     // Wherever the key is: on some keyboards it is one of the digits with Shift.
-    const act = event.key === "/" ? () => places.tree.focusSearch() : byPlace(event) ?? byLetter(event);
+    const act = event.key === "/" ? () => places.side.focusSearch() : byPlace(event) ?? byLetter(event);
     if (!act) return;
     event.preventDefault();
     act();
@@ -97,7 +97,7 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
       case "d":
         return () => void commands.download();
       case "t":
-        return () => places.tree.focus();
+        return () => places.side.focusTree();
       case "h":
         return shiftKey ? () => commands.isolate() : () => commands.hide();
       case "a":

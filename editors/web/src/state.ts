@@ -78,7 +78,7 @@ export class State {
         return this.notify("drawings");
       }
       case "build":
-        return this.change(message.drawing, { build: message.build, parts: new Parts(message.build.parts), gone: false, connection: this.connection });
+        return this.change(message.drawing, { build: message.build, parts: this.partsOf(message.drawing, message.build), gone: false, connection: this.connection });
       case "gone":
         return this.change(message.drawing, { gone: true });
       case "light":
@@ -144,6 +144,12 @@ export class State {
   private hide(hidden: ReadonlySet<string>): void {
     this.hidden = hidden;
     this.notify("hidden");
+  }
+
+  /** The parts of a build. Of a drawing that cannot be read at present, those of the last good model stay with it. */
+  private partsOf(drawing: string, { parts, stale, model }: Build): Parts {
+    const before = this.drawings.get(drawing)?.parts;
+    return before && stale && model !== null && parts.length === 0 ? before : new Parts(parts);
   }
 
   private change(id: string, change: Partial<Drawing>): void {

@@ -355,8 +355,9 @@ for (const colorScheme of ["light", "dark"] as const) {
   browse(`on a phone, ${colorScheme}, the chart is sharp, touched, and leaves room for the model`, kicking(), async (page) => {
     await shown(page);
     await page.getByRole("button", { name: "Chart" }).tap();
-    await page.locator(".sheet-head").tap();
+    await page.getByRole("button", { name: "More about the clip" }).tap();
     await page.getByRole("button", { name: "side by side" }).tap();
+    await page.keyboard.press("Escape");
     await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
     assert.deepEqual(await overlaps(page), []);
     const place = await inChart(page, 33);

@@ -74,7 +74,9 @@ browse("turning the view away, or Escape, ends it", one(DOLL), async (page) => {
 
 browse("the layers fit on a phone", one(DOLL), async (page) => {
   await shown(page);
+  await page.getByRole("button", { name: "More tools" }).click();
   await page.getByRole("button", { name: "Layers from the side" }).click();
+  await page.keyboard.press("Escape");
   await still(page);
   assert.equal(await page.locator(".layers").isVisible(), true);
   assert.deepEqual(await overlaps(page), []);

@@ -10,20 +10,22 @@ const HUMAN = example("human");
 const broken = (): Made => build(HUMAN, (text) => text.replaceAll("@Ubody", "@Ubdoy"));
 const phone = { viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 } as const;
 
-browse("errors open the diagnostics over the last good model, and close them when they are fixed", one(HUMAN), async (page, host) => {
+browse("problems that stay open their list over the last good model, and close them when they are fixed", one(HUMAN), async (page, host) => {
   await shown(page, 1);
   const findings = page.locator(".findings");
   assert.equal(await findings.getAttribute("data-open"), "false");
   assert.equal(await page.locator(".findings-head").innerText(), "2 hints");
   host.built("human.svg", broken());
+  await page.getByText("3 problems").waitFor();
+  assert.equal(await findings.getAttribute("data-open"), "false", "it may be a word that is being typed");
   await page.waitForSelector(".findings[data-open=true]");
-  assert.equal(await page.locator(".stale").innerText(), "The drawing has errors: this is the last good model.");
+  assert.equal(await page.locator(".stale").innerText(), "The drawing has problems: this is the last good model.");
   assert.equal(await page.getAttribute("canvas", "data-revision"), "1", "the model stays");
   const first = page.locator(".finding").first();
-  assert.match(await first.innerText(), /E204\s+there is no part named Ubdoy/);
+  assert.match(await first.innerText(), /Problem: there is no part named Ubdoy\s+line 157\s*E204/);
   assert.equal(await first.locator("mark").innerText(), "Ubdoy");
-  assert.match(await first.innerText(), /did you mean Ubody\?[\s\S]*help: the name after @ must be the name of a part/);
-  assert.match(await page.locator(".findings-head").innerText(), /3 errors\s*2 hints/);
+  assert.match(await first.innerText(), /did you mean Ubody\?[\s\S]*the name after @ must be the name of a part/);
+  assert.match(await page.locator(".findings-head").innerText(), /3 problems\s*2 hints/);
   await picture(page, "errors");
   await first.locator("button").click();
   await page.waitForTimeout(50);
@@ -41,11 +43,37 @@ browse("errors open the diagnostics over the last good model, and close them whe
   assert.equal(await findings.getAttribute("data-open"), "true");
 });
 
+browse("problems of a moment do not open the list, and a drawing that cannot be read keeps its parts", one(HUMAN), async (page, host) => {
+  await shown(page, 1);
+  const parts = await page.locator(".tree-item").count();
+  const unreadable = { model: null, picture: null, build: { milliseconds: 1, stale: true, triangles: 0, parts: [], findings: [{ severity: "error", code: "E001", message: "`</g` is not closed", label: "", help: [], line: 3, column: 1, text: "</g", from: 0, to: 3 }] } };
+  host.built("human.svg", unreadable);
+  await page.getByText("1 problem").waitFor();
+  assert.equal(await page.locator(".tree-item").count(), parts);
+  host.built("human.svg", build(HUMAN));
+  await page.getByText("1 problem").waitFor({ state: "hidden" });
+  await page.waitForTimeout(700);
+  assert.equal(await page.locator(".findings").getAttribute("data-open"), "false");
+  host.built("human.svg", unreadable);
+  await page.waitForSelector(".findings[data-open=true]");
+  assert.equal(await page.locator(".finding code").first().innerText(), "</g");
+  assert.doesNotMatch(await page.locator("#page").innerText(), /`/);
+  // Who reads the list keeps the focus, in it or where it was opened.
+  await page.locator(".finding-main").focus();
+  host.built("human.svg", build(HUMAN));
+  await page.waitForSelector(".findings[data-open=false]");
+  assert.equal(await page.evaluate(() => document.activeElement?.className), "findings-head");
+  const { build: facts, ...rest } = build(HUMAN);
+  host.built("human.svg", { ...rest, build: { ...facts, findings: [] } });
+  await page.locator(".findings").waitFor({ state: "hidden" });
+  assert.equal(await page.evaluate(() => document.activeElement?.tagName), "CANVAS");
+});
+
 browse("a drawing without a build is reported, and appears with its first one", (host) => {
   host.add("human.svg");
   host.built("human.svg", broken());
 }, async (page, host) => {
-  await page.getByText("There is no model yet: the drawing has errors.").waitFor();
+  await page.getByText("There is no model yet: the drawing has problems.").waitFor();
   assert.equal(await page.getByRole("button", { name: "Download" }).isDisabled(), true);
   host.built("human.svg", build(HUMAN));
   await shown(page, 2);
@@ -73,8 +101,8 @@ browse("several drawings are cards that follow their builds; one opens, and the 
   assert.match(await page.locator("[data-drawing=car]").innerText(), /vehicles/);
   await picture(page, "gallery");
   host.built("human", broken());
-  await card.getByText("3 errors").waitFor();
-  assert.match(await page.locator(".gallery-head").innerText(), /6 drawings\s+1 with errors/);
+  await card.getByText("3 problems").waitFor();
+  assert.match(await page.locator(".gallery-head").innerText(), /6 drawings\s+1 with problems/);
   host.add("new", "new.svg");
   await page.locator("[data-drawing=new]").getByText("building…").waitFor();
   await page.locator("[data-drawing=robot-ja]").click();
@@ -172,16 +200,18 @@ browse("on a phone nothing overlaps, and everything works by touch", one(HUMAN),
   assert.ok(box.height > 200, `the model has ${box.height} pixels`);
   await page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["selected"] !== "");
-  assert.notEqual(await page.locator(".sheet-words").innerText(), "Parts");
+  assert.notEqual(await page.locator(".drawer-words").innerText(), "Parts");
   await picture(page, "phone-part");
-  await page.locator(".sheet-head").tap();
-  await page.locator(".side-body").waitFor({ state: "hidden" });
-  assert.ok((await page.locator("canvas").boundingBox())!.height > box.height);
-  for (const button of await page.locator(".toolbar button:visible, .sheet-head").all()) {
+  await page.locator(".drawer-opener").tap();
+  await page.locator(".inspector").waitFor();
+  await page.getByRole("button", { name: "Close the parts" }).tap();
+  await page.getByRole("button", { name: "More tools" }).tap();
+  for (const button of await page.locator(".toolbar button:visible, .drawer-opener").all()) {
     const { width, height } = (await button.boundingBox())!;
     assert.ok(width >= 36 && height >= 36, `${await button.innerText()} is ${width} by ${height}`);
   }
   await page.getByRole("button", { name: "Pose" }).tap();
+  await page.touchscreen.tap(box.x + 20, box.y + box.height / 2);
   assert.deepEqual(await overlaps(page), []);
   host.built("human.svg", broken());
   await page.waitForSelector(".findings[data-open=true]");
@@ -320,6 +350,13 @@ browse("in VS Code everything goes by posted messages, with the editor's colours
   });
   assert.ok(faint.pressed > 100 && faint.quiet > 130, JSON.stringify(faint));
   assert.deepEqual((await picture(page)).at({ x: 20, y: 200 }), [16, 32, 48]);
+  // The editor shows what is wrong: here it is only counted.
+  const wrong = { severity: "error", code: "E204", message: "there is no part named `X`", label: "", help: [], line: 3, column: 1, text: "X", from: 0, to: 1 };
+  await post({ type: "build", drawing: "file:///a/figure.svg", build: { ...facts, findings: [wrong], stale: true, revision: 4, model: "builds/4.glb", picture: null } });
+  await page.getByText("1 problem").waitFor();
+  await page.waitForTimeout(700);
+  assert.equal(await page.locator(".findings").getAttribute("data-open"), "false");
+  assert.equal(await page.locator(".stale-short").innerText(), "last good model");
   await page.locator("[data-part=Arm]").click();
   await page.keyboard.press("d");
   await page.waitForFunction(() => (globalThis as unknown as { sentByThePage: { type: string }[] }).sentByThePage.some(({ type }) => type === "save"));

@@ -196,7 +196,6 @@ browse("in the dark and at any width the chart of a performance has its place", 
 browse("on a phone the chart of a performance is touched, and leaves room for the model", playing, async (page) => {
   await shown(page);
   await page.getByRole("button", { name: "Performance", exact: true }).tap();
-  await page.locator(".sheet-head").tap();
   assert.deepEqual(await overlaps(page), []);
   const key = await inChart(page, "motion", MOTION_KEY);
   await page.touchscreen.tap(key.x, key.y);

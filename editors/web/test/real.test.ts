@@ -69,7 +69,7 @@ real("an error is shown over what can be built until it is fixed", "figure.svg",
   save(folder, (text) => text.replace("#ff0000", "#0000ff").replace("Arm@Body", "Arm@Bdoy"));
   await page.waitForSelector(".findings[data-open=true]");
   const finding = await page.locator(".finding").first().innerText();
-  assert.match(finding, /E204\s+there is no part named Bdoy/);
+  assert.match(finding, /Problem: there is no part named Bdoy/);
   assert.equal(await page.locator(".finding mark").first().innerText(), "Bdoy");
   await still(page);
   assertLike((await picture(page)).at(await at(page, 140, 110, 0.2)), BLUE, "what can be built", 80);

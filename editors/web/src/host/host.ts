@@ -17,6 +17,8 @@ export interface Host {
   picture(address: string): Promise<string>;
   /** Saves a file for the user. */
   save(name: string, content: Blob): Promise<void>;
+  /** Whether the host is an editor that shows what is wrong with the drawing. */
+  readonly showsFindings: boolean;
   /** Opens a connection on which pictures of a camera are tracked; null where pages have no camera. */
   readonly openCamera: (() => WebSocket) | null;
 }

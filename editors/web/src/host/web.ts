@@ -10,6 +10,7 @@ const LAST_PAUSE = 5000;
 const PATIENCE = 10000;
 
 export class WebHost implements Host {
+  readonly showsFindings = false;
   private socket: WebSocket | undefined;
   private pause = FIRST_PAUSE;
   private timer: ReturnType<typeof setTimeout> | undefined;

@@ -11,6 +11,9 @@ const LEFT = 50;
 const RIGHT = 12;
 const TOP = 14;
 const BELOW = 38;
+/** In a lower picture there are no numbers below the drawings, in pixels. */
+const LOW = 112;
+const BELOW_LOW = 20;
 /** The height of the boxes of drawings, and their distance from the curve, in pixels. */
 const BOX = 10;
 const GAP = 5;
@@ -54,31 +57,37 @@ export class Chart extends ClipChart {
     return LEFT + ((this.size.width - LEFT - RIGHT) * source) / (this.drawn?.sources ?? 1);
   }
 
+  /** The y coordinate of 0, in pixels. */
+  private get bottom(): number {
+    return this.size.height - (this.size.height < LOW ? BELOW_LOW : BELOW);
+  }
+
   /** The y coordinate of a movement, in pixels. */
   private up(ssd: number): number {
-    const bottom = this.size.height - BELOW;
+    const { bottom } = this;
     return bottom - ((bottom - TOP) * ssd) / this.scale;
   }
 
   protected draw(): void {
     const { sheet: exposure } = this;
     const { width, height } = this.picture.getBoundingClientRect();
-    if (!exposure || width <= LEFT + RIGHT || height <= TOP + BELOW) return;
+    if (!exposure || width <= LEFT + RIGHT || height <= TOP + BELOW_LOW) return;
     this.drawn = exposure;
     this.size = { width, height };
     const { facts, runs, sources } = exposure;
     const most = facts.ssd.reduce((top, value) => Math.max(top, value), 0);
     this.scale = most > 0 ? niceAbove(most) : 1;
     this.picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const bottom = height - BELOW;
+    const { bottom } = this;
     const right = width - RIGHT;
 
-    const grid = [0, 0.5, 1].map((part) => this.scale * part);
+    const isLow = height < LOW;
+    const grid = (isLow ? [0, 1] : [0, 0.5, 1]).map((part) => this.scale * part);
     const lines = svg("path", { class: "chart-grid", d: grid.map((value) => `M${LEFT} ${half(this.up(value))}H${right}`).join("") });
     const numbers = grid.map((value) => word(LEFT - 7, this.up(value) + 4, "end", figures(value)));
     const step = niceStep((sources * APART) / (right - LEFT));
     // Space for the last number; numbers count from 1, like the bar below.
-    for (let frame = 0; frame < sources; frame = frame === 0 ? step - 1 || 1 : frame + step) {
+    for (let frame = 0; !isLow && frame < sources; frame = frame === 0 ? step - 1 || 1 : frame + step) {
       const x = this.at(frame + 0.5);
       if (x < right - 8 || frame === 0) numbers.push(word(x, height - 6, "middle", String(frame + 1)));
     }
@@ -136,7 +145,7 @@ export class Chart extends ClipChart {
     this.dot.setAttribute("cy", String(round(this.up(drawn.ssd(source) ?? 0))));
     this.picture.dataset["source"] = String(source + 1);
     const run = drawn.runs[drawn.drawingIn(drawn.frameAt(time))];
-    const bottom = this.size.height - BELOW;
+    const { bottom } = this;
     this.stand.setAttribute("d", run ? `M${round(this.at(run.from))} ${bottom + GAP}H${round(this.at(run.to) - 1)}V${bottom + GAP + BOX}H${round(this.at(run.from))}Z` : "");
   }
 
@@ -148,7 +157,7 @@ export class Chart extends ClipChart {
     const source = Math.min(Math.max(Math.floor(part * drawn.sources), 0), drawn.sources - 1);
     this.dragTo(drawn, source);
     const x = this.at(source + 0.5);
-    this.line.setAttribute("d", `M${half(x)} ${TOP}V${this.size.height - BELOW}`);
+    this.line.setAttribute("d", `M${half(x)} ${TOP}V${this.bottom}`);
     const ssd = drawn.ssd(source);
     const run = drawn.runs[drawn.drawingFor(source)];
     const words = [`frame ${source + 1}`, ssd === null ? "" : `SSD ${figures(ssd)}`];

@@ -3,10 +3,12 @@
 import { ChartSpline, Columns2, Footprints, Hand, Pause, Play, Repeat, SkipBack, SkipForward, Video } from "lucide";
 import type { AnimationClip } from "three";
 import { button, fill, h, icon, svg } from "../dom";
+import { SMALL } from "../layout";
 import { drawingAt } from "../viewport/clips";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
 import { Chart } from "./chart";
+import { more } from "./more";
 import { PerformanceChart } from "./performance";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
@@ -46,8 +48,9 @@ export class Clips {
   private boxes: readonly Box[] = [];
 
   constructor(private readonly viewer: Viewer) {
-    this.chart = new Chart(viewer, () => this.follow());
-    this.performance = new PerformanceChart(viewer, () => this.follow());
+    this.chart = new Chart(viewer, () => this.toggled(this.performance));
+    this.performance = new PerformanceChart(viewer, () => this.toggled(this.chart));
+    SMALL.addEventListener("change", () => this.toggled(this.chart));
     fill(
       this.element,
       h("div", { class: "clip-names" }, this.choice, this.figure),
@@ -60,8 +63,7 @@ export class Clips {
       ),
       h("div", { class: "timeline" }, this.ticks, this.slider),
       this.readout,
-      h("div", { class: "clip-looks" }, this.charts, this.performances, this.compares, this.films, this.along, this.loop),
-      this.speed,
+      h("div", { class: "clip-looks" }, this.charts, this.performances, ...more("More about the clip", [this.compares, this.films, this.along, this.loop, this.speed])),
     );
     fill(this.panel, this.performance.element, this.chart.element, this.element);
     this.speed.value = "1";
@@ -116,6 +118,12 @@ export class Clips {
     this.viewer.compare(!this.viewer.comparison.wanted);
   }
 
+  /** A chart was opened or closed. A small window has space for one. */
+  private toggled(other: Chart | PerformanceChart): void {
+    if (SMALL.matches && this.chart.isOpen && this.performance.isOpen) other.toggle();
+    this.follow();
+  }
+
   private get player() {
     return this.viewer.player;
   }
@@ -125,7 +133,7 @@ export class Clips {
     this.panel.hidden = clips.length === 0;
     fill(this.choice, ...clips.map((clip, at) => h("option", {}, this.describe(clip, at))));
     this.shown = null;
-    this.follow();
+    this.toggled(this.chart);
   }
 
   /** A short description of a clip. */

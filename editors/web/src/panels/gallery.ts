@@ -53,7 +53,7 @@ export class Gallery {
     const { list } = this.state;
     const failing = list.filter(({ build }) => build?.findings.some(({ severity }) => severity === "error")).length;
     this.heading.textContent = count(list.length, "drawing");
-    this.title.textContent = list.length === 0 ? "Drawings saved in the folder appear here." : failing > 0 ? `${failing} with errors` : "";
+    this.title.textContent = list.length === 0 ? "Drawings saved in the folder appear here." : failing > 0 ? `${failing} with problems` : "";
   }
 
   private card(drawing: Drawing): Card {

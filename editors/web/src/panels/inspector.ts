@@ -2,7 +2,7 @@
 
 import { Eye, EyeOff, Focus, ScanEye } from "lucide";
 import type { Commands } from "../commands";
-import { button, count, fill, h, icon } from "../dom";
+import { button, count, fill, h, icon, inCode } from "../dom";
 import { depthOf, depthReasonOf, isAside } from "../parts";
 import type { ClipFacts, Part, Source } from "../protocol";
 import type { State } from "../state";
@@ -115,7 +115,7 @@ export class Inspector {
     const depth = depthOf(part);
     if (depth !== null) rows.push(["Depth", `${depth} — ${depthReasonOf(part)}`]);
     rows.push(["Element", `#${part.element}`]);
-    return h("dl", { class: "facts" }, ...rows.flatMap(([term, value]) => [h("dt", {}, term), h("dd", {}, value)]));
+    return h("dl", { class: "facts" }, ...rows.flatMap(([term, value]) => [h("dt", {}, term), h("dd", {}, ...(typeof value === "string" ? inCode(value) : [value]))]));
   }
 
   private attributes({ attributes }: Part): HTMLElement | null {

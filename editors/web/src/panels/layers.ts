@@ -1,7 +1,7 @@
 // What is written over the layers seen from the side: the drawing plane, the depth of each part, and why the marked one lies there.
 
 import { Vector3 } from "three";
-import { fill, h } from "../dom";
+import { fill, h, inCode } from "../dom";
 import { depthOf, depthReasonOf } from "../parts";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
@@ -41,7 +41,7 @@ export class Layers {
     if (depth !== undefined) this.place(this.mark, depth);
     const where = carrier ? depthOf(carrier) : null;
     if (!carrier || where === null) fill(this.note, "Choose a part to see how deep it lies, and why.");
-    else fill(this.note, h("b", {}, carrier.name), ` ${where}`, h("span", {}, depthReasonOf(carrier)));
+    else fill(this.note, h("b", {}, carrier.name), ` ${where}`, h("span", {}, ...inCode(depthReasonOf(carrier))));
   }
 
   /** Where the planes of a part and its copies are in the model. */

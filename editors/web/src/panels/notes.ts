@@ -30,6 +30,6 @@ export class Notes {
     if (this.viewer.comparison.failure !== "") return `The original clips could not be shown: ${this.viewer.comparison.failure}`;
     if (this.viewer.model) return "";
     if (!drawing.build) return "Building…";
-    return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has errors." : "There is no model: the drawing has no parts.") : "";
+    return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has problems." : "There is no model: the drawing has no parts.") : "";
   }
 }

@@ -1,30 +1,79 @@
-// The side panel with the hierarchy and the inspector: beside the viewport, or on a narrow page a sheet below it.
+// The side panel with the hierarchy and the inspector. In a small window it is a drawer over the viewport, which shows one of the two, and
+// which a button in the corner opens.
 
-import { ChevronUp } from "lucide";
-import { fill, h, icon } from "../dom";
+import { ChevronUp, X } from "lucide";
+import { button, fill, h, icon } from "../dom";
+import { SMALL } from "../layout";
 import type { State } from "../state";
 import type { Inspector } from "./inspector";
 import type { Tree } from "./tree";
 
-export class Side {
-  readonly element = h("aside", { class: "side", attributes: { "aria-label": "Parts", "data-open": "true" } });
-  private readonly words = h("span", { class: "sheet-words" });
+type Tab = "parts" | "part";
 
-  constructor(state: State, tree: Tree, inspector: Inspector) {
-    const toggle = h(
-      "button",
-      { class: "sheet-head", attributes: { type: "button", "aria-expanded": "true" }, on: { click: () => this.set(toggle, this.element.dataset["open"] !== "true") } },
-      this.words,
-      icon(ChevronUp),
-    );
-    fill(this.element, toggle, h("div", { class: "side-body" }, tree.element, inspector.element));
-    const draw = (): void => void (this.words.textContent = state.selected ?? "Parts");
+export class Side {
+  readonly element = h("aside", { class: "side", attributes: { "aria-label": "Parts", id: "side" } });
+  /** Opens the drawer. */
+  readonly opener: HTMLButtonElement;
+  private readonly words = h("span", { class: "drawer-words" });
+  private readonly tabs: Readonly<Record<Tab, HTMLButtonElement>>;
+  private open = false;
+
+  constructor(state: State, private readonly tree: Tree, inspector: Inspector) {
+    this.opener = h("button", { class: "drawer-opener", attributes: { type: "button", "aria-expanded": "false", "aria-controls": "side" }, on: { click: () => this.show(state.selected === null ? "parts" : "part") } }, this.words, icon(ChevronUp));
+    const tab = (name: Tab, words: string): HTMLButtonElement => h("button", { class: "button drawer-tab", attributes: { type: "button" }, on: { click: () => this.choose(name) } }, words);
+    this.tabs = { parts: tab("parts", "Parts"), part: tab("part", "Selected part") };
+    const close = button({ icon: X, label: "Close the parts", press: () => this.close() });
+    const head = h("div", { class: "drawer-head" }, h("div", { class: "drawer-tabs", attributes: { role: "group", "aria-label": "Shown" } }, this.tabs.parts, this.tabs.part), close);
+    fill(this.element, head, tree.element, inspector.element);
+    this.element.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape" || event.defaultPrevented || !this.open || !SMALL.matches) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.close();
+    });
+    const draw = (): void => {
+      this.words.textContent = state.selected ?? "Parts";
+      this.tabs.part.textContent = state.selected ?? "No part selected";
+      this.tabs.part.disabled = state.selected === null;
+      if (state.selected === null) this.choose("parts");
+    };
     state.on(["selection", "current"], draw);
     draw();
+    this.set(false);
   }
 
-  private set(toggle: HTMLElement, open: boolean): void {
+  /** Goes to the list of parts. */
+  focusTree(): void {
+    this.show("parts");
+    this.tree.focus();
+  }
+
+  /** Goes to the field that searches the parts. */
+  focusSearch(): void {
+    this.show("parts");
+    this.tree.focusSearch();
+  }
+
+  private show(tab: Tab): void {
+    const wasOpen = this.open;
+    this.choose(tab);
+    this.set(true);
+    if (SMALL.matches && !wasOpen) this.tabs[tab].focus();
+  }
+
+  private close(): void {
+    this.set(false);
+    this.opener.focus();
+  }
+
+  private choose(tab: Tab): void {
+    this.element.dataset["tab"] = tab;
+    for (const [name, button] of Object.entries(this.tabs)) button.setAttribute("aria-pressed", String(name === tab));
+  }
+
+  private set(open: boolean): void {
+    this.open = open;
     this.element.dataset["open"] = String(open);
-    toggle.setAttribute("aria-expanded", String(open));
+    this.opener.setAttribute("aria-expanded", String(open));
   }
 }

@@ -6,9 +6,10 @@ import type { Commands } from "../commands";
 import type { Shading } from "../viewport/model";
 import type { Viewer } from "../viewport/viewer";
 import { menu } from "./menu";
+import { more } from "./more";
 
 export class Toolbar {
-  readonly element = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } });
+  readonly element = h("div", { class: "toolbar-place" });
 
   constructor(viewer: Viewer, commands: Commands) {
     const shadings: [Shading, HTMLButtonElement][] = (
@@ -27,17 +28,12 @@ export class Toolbar {
       { label: "Only the model, transparent", key: "Shift+S", press: () => void commands.screenshot(true) },
     ]);
     const download = button({ icon: Download, label: "Download the model (GLB)", key: "D", press: () => void commands.download() });
-    fill(
-      this.element,
-      group(
-        "Views",
-        ...([["¾", "threeQuarter", "0", "Three-quarter view"], ["Front", "front", "1", "Front view"], ["Side", "side", "3", "Side view"], ["Top", "top", "7", "Top view"]] as const).map(
-          ([text, name, key, label]) =>
-            h("button", { class: "button text", title: `${label} (${key})`, attributes: { type: "button", "aria-label": label, "aria-keyshortcuts": key }, on: { click: () => viewer.view.look(name) } }, text),
-        ),
-      ),
+    const views = ([["¾", "threeQuarter", "0", "Three-quarter view"], ["Front", "front", "1", "Front view"], ["Side", "side", "3", "Side view"], ["Top", "top", "7", "Top view"]] as const).map(([text, name, key, label]) =>
+      h("button", { class: "button text", title: `${label} (${key})`, attributes: { type: "button", "aria-label": label, "aria-keyshortcuts": key }, on: { click: () => viewer.view.look(name) } }, text),
+    );
+    const [folded, opener] = more("More tools", [
+      group("Projection", layers, parallel),
       group("Shading", ...shadings.map(([, element]) => element)),
-      group("View", button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() }), layers, parallel),
       group("Pose", pose, commands.recordPuppet && button({ icon: Video, label: "Record a puppet", key: "R", press: () => commands.recordPuppet?.() })),
       h("span", { class: "spring" }),
       group(
@@ -47,7 +43,9 @@ export class Toolbar {
         document.fullscreenEnabled && button({ icon: Fullscreen, label: "Full screen", key: "Shift+F", press: () => void commands.toggleFullScreen() }),
         button({ icon: CircleQuestionMark, label: "Help", key: "?", press: () => commands.help() }),
       ),
-    );
+    ]);
+    const bar = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } }, group("Views", ...views, button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() })), folded, opener);
+    fill(this.element, bar);
     const follow = (): void => {
       for (const [shading, element] of shadings) element.setAttribute("aria-pressed", String(viewer.shading === shading));
       parallel.setAttribute("aria-pressed", String(viewer.view.isParallel));

@@ -5,6 +5,7 @@ import { count, painted, prefersReducedMotion } from "../dom";
 import type { State } from "../state";
 import type { Build } from "../protocol";
 import { SideBySide } from "./side-by-side";
+import { cornersOf } from "./bend";
 import { Comparison } from "./comparison";
 import { ExposureSheet } from "./exposure-sheet";
 import { Ground } from "./ground";
@@ -12,6 +13,7 @@ import { Highlight, type Mark } from "./highlight";
 import { Latest } from "./latest";
 import { elementOf, Model, nodeName, type Shading } from "./model";
 import { readChanges, readFile, type Delta, type ModelFile } from "./model-file";
+import { pathOf } from "./path";
 import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
 import { RenderLoop } from "./render-loop";
@@ -19,7 +21,7 @@ import { Stack } from "./stack";
 import { Travel } from "./travel";
 import { View } from "./view";
 import { applyHidden, isAlone, isHidden } from "./visibility";
-import { Box3, Vector3, type Camera, type Object3D, type PerspectiveCamera } from "three";
+import { Box3, Vector3, type AnimationClip, type Camera, type Object3D, type PerspectiveCamera } from "three";
 
 /** A model that was requested. */
 interface Wanted {
@@ -54,6 +56,8 @@ export class Viewer {
   readonly travel = new Travel();
   /** Whether the page looks through the cameras of clips. */
   private filming = false;
+  /** The bounds of the model over a clip. */
+  private path: { readonly model: Model; readonly clip: AnimationClip; readonly box: Box3 } | null = null;
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
@@ -380,6 +384,7 @@ export class Viewer {
   /** Shows what was loaded; the model that it replaces, if it is another one, is returned. */
   private replace(loaded: Loaded): Model | null {
     const before = this.model;
+    this.path = null;
     if ("changes" in loaded) {
       this.player.release();
       before?.update(loaded.changes);
@@ -412,7 +417,7 @@ export class Viewer {
     this.figure = null;
     this.pose.reset();
     this.model?.dispose();
-    this.model = null;
+    this.model = this.path = null;
     this.bytes = null;
     this.shown = this.awaited = null;
     this.failure = "";
@@ -435,13 +440,28 @@ export class Viewer {
     this.view.bound(
       box,
       model.bend.isEmpty
-        ? null
+        ? boxes
+          ? null
+          : () => cornersOf(this.wholePath(model))
         : (towards) => {
             const points = model.bend.points(towards, this.bent);
             return boxes ? points.flatMap((point) => [point, point.clone().setX(point.x + offset)]) : points;
           },
     );
     this.canvas.dataset["beside"] = boxes ? String(offset) : "";
+  }
+
+  /** The bounds of the model over the clip that is shown; those at rest without one, and of a figure that the view goes along with. */
+  private wholePath(model: Model): Box3 {
+    const { clip, time } = this.player;
+    if (!clip || this.travel.wanted) return model.box;
+    if (this.path?.model !== model || this.path.clip !== clip) {
+      this.pose.release();
+      this.path = { model, clip, box: pathOf(model, clip, (at) => this.player.seek(at)) };
+      this.player.seek(time);
+      this.pose.apply();
+    }
+    return this.path.box;
   }
 
   private drawEdges(): void {
