@@ -6,6 +6,10 @@ import { FullScreenQuad } from "three/addons/postprocessing/Pass.js";
 
 /** How long the picture must have been still, in milliseconds. */
 const PAUSE = 200;
+/** Pictures that take longer to draw, in milliseconds, are not smoothed: the next movement would have to wait. */
+const SLOW = 250;
+/** How often to ask whether a picture is drawn, in milliseconds. */
+const POLL = 10;
 /** How far the pictures are moved, in sixteenths of a pixel: each in a row and a column of its own. */
 const OFFSETS = [[1, -3], [-1, 3], [5, 1], [-3, -5], [-5, 5], [-7, -1], [3, 7], [7, -7]] as const;
 
@@ -29,7 +33,7 @@ export class SmoothEdges {
   /** The picture changed: smooths its edges after a pause. */
   restart(): void {
     this.stop();
-    this.timer = setTimeout(() => this.next(0), PAUSE);
+    this.whenDrawn(() => (this.timer = setTimeout(() => this.next(0), PAUSE)));
   }
 
   /** The picture is about to change. */
@@ -38,13 +42,32 @@ export class SmoothEdges {
     cancelAnimationFrame(this.frame);
   }
 
-  /** One picture in each frame, so that the page is never blocked for long. */
+  /** One picture after the other, so that the page is never blocked for long. */
   private next(number: number): void {
     this.frame = requestAnimationFrame(() => {
       this.add(number);
-      if (number + 1 < OFFSETS.length) this.next(number + 1);
+      if (number + 1 < OFFSETS.length) this.whenDrawn(() => this.next(number + 1));
       else this.done();
     });
+  }
+
+  /** Calls `then` when everything is drawn, unless that takes too long. */
+  private whenDrawn(then: () => void): void {
+    const context = this.renderer.getContext() as WebGL2RenderingContext;
+    const drawn = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (!drawn) return;
+    context.flush();
+    const begun = performance.now();
+    const ask = (): void => {
+      const isDrawn = context.getSyncParameter(drawn, context.SYNC_STATUS) === context.SIGNALED;
+      if (!isDrawn && performance.now() - begun < SLOW) {
+        this.timer = setTimeout(ask, POLL);
+        return;
+      }
+      context.deleteSync(drawn);
+      if (isDrawn) then();
+    };
+    this.timer = setTimeout(ask, POLL);
   }
 
   /** Adds a picture, and shows the average of all until now. */
