@@ -74,18 +74,13 @@ pub(super) struct Numbers<'a> {
 
 impl Numbers<'_> {
     fn is_same(&self, other: &Self) -> bool {
-        let kind = |numbers: &Self| {
-            let Accessor {
-                component_type,
-                count,
-                normalized,
-                shape,
-                ..
-            } = numbers.accessor;
-            (component_type, count, normalized, shape.to_owned())
-        };
-        let same_kind = kind(self) == kind(other);
-        same_kind && self.view.byte_stride == other.view.byte_stride && self.bytes == other.bytes
+        let [one, two] = [self.accessor, other.accessor];
+        one.component_type == two.component_type
+            && one.count == two.count
+            && one.normalized == two.normalized
+            && one.shape == two.shape
+            && self.view.byte_stride == other.view.byte_stride
+            && self.bytes == other.bytes
     }
 }
 

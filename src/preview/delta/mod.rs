@@ -40,9 +40,11 @@ pub(super) fn delta(before: &[u8], after: &[u8], since: u64) -> Option<Vec<u8>> 
         }
         match (before.mesh(old)?, after.mesh(new)?) {
             (None, None) => {}
-            (Some(old), Some(new)) if old.is_replaceable_by(&new) => {
-                if !old.is_same(&before, &new, &after)? {
-                    delta.add_mesh(index, new)?;
+            (Some(mesh), Some(next)) if mesh.is_replaceable_by(&next) => {
+                if !mesh.is_same(&before, &next, &after)? {
+                    // Beside a camera, the mesh would be in another place of the loaded node.
+                    (!new.contains_key("camera")).then_some(())?;
+                    delta.add_mesh(index, next)?;
                 }
             }
             _ => return None,

@@ -1,9 +1,8 @@
 // The model in the viewport: loading, display, marks, pose and clips.
 
 import type { Host } from "../host/host";
-import { count, painted, prefersReducedMotion } from "../dom";
+import { count, prefersReducedMotion } from "../dom";
 import type { State } from "../state";
-import type { Build } from "../protocol";
 import { SideBySide } from "./side-by-side";
 import { cornersOf } from "./bend";
 import { Comparison } from "./comparison";
@@ -11,8 +10,8 @@ import { ExposureSheet } from "./exposure-sheet";
 import { Ground } from "./ground";
 import { Highlight, type Mark } from "./highlight";
 import { Latest } from "./latest";
-import { elementOf, Model, nodeName, type Shading } from "./model";
-import { readChanges, readFile, type Delta, type ModelFile } from "./model-file";
+import { isSame, load, type Loaded, type Wanted } from "./loading";
+import { elementOf, nodeName, type Model, type Shading } from "./model";
 import { pathOf } from "./path";
 import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
@@ -22,21 +21,6 @@ import { Travel } from "./travel";
 import { View } from "./view";
 import { applyHidden, isAlone, isHidden } from "./visibility";
 import { Box3, Vector3, type AnimationClip, type Camera, type Object3D, type PerspectiveCamera } from "three";
-
-/** A model that was requested. */
-interface Wanted {
-  readonly drawing: string;
-  readonly connection: number;
-  readonly revision: number;
-  readonly address: string;
-  readonly clips: Build["clips"];
-  readonly originals: string | null;
-}
-
-/** A model that was read: as a whole, or as what changed since another one. */
-type Loaded = { readonly model: Model; readonly bytes: ArrayBuffer } | { readonly changes: Delta; readonly since: Wanted };
-
-const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing === b.drawing && a.connection === b.connection && a.address === b.address;
 
 /**
  * model: another is shown, or none · display: shading, projection or mode changed · time: the clip moved · pose: a limb moved ·
@@ -62,7 +46,8 @@ export class Viewer {
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
   private readonly loading: Latest<Wanted, Loaded>;
-  private shown: Wanted | null = null;
+  /** The request for the model that is shown. */
+  shown: Wanted | null = null;
   /** The last request that is not shown yet. */
   private awaited: Wanted | null = null;
   model: Model | null = null;
@@ -88,7 +73,7 @@ export class Viewer {
     this.ground = new Ground(this.renderLoop.scene);
     this.sideBySide = new SideBySide(this.renderLoop.scene);
     this.loading = new Latest(
-      (wanted) => this.load(wanted),
+      (wanted) => load(wanted, this, host, this.renderLoop),
       (loaded, wanted) => this.take(loaded, wanted),
       (error, wanted) => this.failed(error, wanted),
     );
@@ -311,31 +296,6 @@ export class Viewer {
     const { shown, state } = this;
     if (this.bytes || !shown || shown.connection !== state.connection || state.link !== "open") return this.bytes;
     return this.host.model(shown.address);
-  }
-
-  private async load(wanted: Wanted): Promise<Loaded> {
-    const { shown } = this;
-    if (shown && this.model && shown.drawing === wanted.drawing && shown.connection === wanted.connection) {
-      const bytes = await this.host.model(`${wanted.address}?since=${shown.address}`);
-      const changes = await readChanges(bytes);
-      return "moved" in changes ? { changes, since: shown } : { model: this.prepare(changes), bytes };
-    }
-    const bytes = await this.host.model(wanted.address);
-    if (this.model) return { model: this.prepare(await readFile(bytes)), bytes };
-    // The list of parts is seen first: the graphics context, the first model and its shaders take long.
-    await painted();
-    this.renderLoop.start();
-    const model = this.prepare(await readFile(bytes));
-    // Shaders are compiled before the model is added, so that the page does not stall; later models mostly share them.
-    await this.renderLoop.compile(model.drawn);
-    return { model, bytes };
-  }
-
-  private prepare({ scene, animations, nodes }: ModelFile): Model {
-    const model = new Model(scene, animations, nodes);
-    model.shade(this.shading);
-    model.light((material) => this.renderLoop.reach(material));
-    return model;
   }
 
   private take(loaded: Loaded, wanted: Wanted): void {
