@@ -90,10 +90,8 @@ export class Batches {
     this.lines = lines;
     for (const { mesh, key } of this.batches) {
       const surface = this.materials.get(key)!;
-      mesh.geometry.clearGroups();
-      // With several materials, groups say which part of the geometry has which: here all of it has each.
       mesh.material = lines ? ([surface, lines] as unknown as Material) : surface;
-      if (lines) for (const material of [0, 1]) mesh.geometry.addGroup(0, Infinity, material);
+      this.assignMaterials(mesh.geometry);
     }
     this.countEnds();
   }
@@ -139,6 +137,7 @@ export class Batches {
     let known = batch.geometries.get(geometry);
     if (!known) {
       makeRoom(batch.mesh, geometry);
+      this.assignMaterials(batch.mesh.geometry);
       known = { id: batch.mesh.addGeometry(geometry), users: 0 };
       batch.geometries.set(geometry, known);
     }
@@ -159,6 +158,12 @@ export class Batches {
     if (!known || --known.users > 0) return;
     batch.mesh.deleteGeometry(known.id);
     batch.geometries.delete(geometry);
+  }
+
+  /** With several materials, groups say which part of a geometry has which: here all of it has each. */
+  private assignMaterials(geometry: BufferGeometry): void {
+    geometry.clearGroups();
+    if (this.lines) for (const material of [0, 1]) geometry.addGroup(0, Infinity, material);
   }
 
   /** Batches remember what to draw, but wires have twice as many ends as surfaces. While they cull, they count anew. */
@@ -218,7 +223,7 @@ function divided(meshes: readonly Mesh[]): Mesh[][] {
 /** Lets another geometry fit in. */
 function makeRoom(batch: BatchedMesh, geometry: BufferGeometry): void {
   const fits = () => batch.unusedVertexCount >= vertices(geometry) && batch.unusedIndexCount >= indices(geometry);
-  if (fits() || batch.instanceCount === 0) return;
+  if (fits()) return;
   batch.optimize();
   if (fits()) return;
   const larger = (used: number, more: number) => Math.ceil((used + more) * ROOM);

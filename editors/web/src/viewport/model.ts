@@ -62,7 +62,7 @@ export class Model {
     const replaced = new Set<BufferGeometry>();
     for (const [number, next] of meshes) {
       const node = this.fileNodes[number];
-      meshesAt(node ?? this.root, next.length).forEach((mesh, at) => {
+      if (node) meshesAt(node, next.length).forEach((mesh, at) => {
         replaced.add(mesh.geometry);
         mesh.geometry = next[at]!.geometry;
         mesh.material = next[at]!.material;
