@@ -84,6 +84,12 @@ export function count(number: number, one: string, many = `${one}s`): string {
   return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
 }
 
+/** Hides or shows an element. If the focus is in it, it goes elsewhere instead of getting lost. */
+export function setHidden(element: HTMLElement, hidden: boolean, elsewhere: HTMLElement): void {
+  if (hidden && element.contains(document.activeElement)) elsewhere.focus();
+  element.hidden = hidden;
+}
+
 /** Whether the user's system asks for reduced motion. */
 export const prefersReducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
 

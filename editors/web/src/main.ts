@@ -20,7 +20,7 @@ import { PoseBar } from "./panels/posebar";
 import { Side } from "./panels/side";
 import { Toolbar } from "./panels/toolbar";
 import { Tree } from "./panels/tree";
-import { listenToKeys } from "./shortcuts";
+import { Keys, listenToKeys } from "./shortcuts";
 import { Pointer } from "./viewport/pointer";
 import { Viewer } from "./viewport/viewer";
 import { State } from "./state";
@@ -55,22 +55,30 @@ function start(page: HTMLElement): void {
   const pointer = new Pointer(viewer, state, picked, (part, degrees) => poseBar.show(part, degrees));
   commands.pointer = pointer;
   const clips = new Clips(viewer);
-  const help = new Help();
+  const keys = new Keys();
+  const help = new Help(keys);
   commands.help = () => help.toggle();
   const camera = new CameraPanel(host, state, page);
   if (camera.isPossible) commands.recordPuppet = () => camera.toggle();
 
   const side = new Side(state, tree, inspector);
   place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer).element, findings.element, side.opener);
+  const gallery = new Gallery(state, host);
   const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, side.element);
-  page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element);
+  page.append(new Bar(state, viewer).element, studio, gallery.element, help.element);
 
   const shows = (): boolean => state.current !== null;
+  let before: string | null = null;
   const showEither = (): void => {
+    // The focus does not stay in what is hidden, and is not taken while a page opens. The link to all drawings has lost it already.
+    const enters = before === null && document.activeElement !== document.body;
     studio.hidden = !shows();
     page.dataset["shows"] = shows() ? "drawing" : "gallery";
     document.title = state.drawing ? `${state.drawing.name} · okoshi` : "okoshi preview";
     if (state.current !== null) host.send({ type: "want", drawing: state.current });
+    if (!shows() && before !== null) gallery.focus(before);
+    else if (shows() && enters) viewer.canvas.focus();
+    before = state.current;
   };
   state.on(["current", "link"], showEither);
   showEither();
@@ -78,7 +86,7 @@ function start(page: HTMLElement): void {
   viewer.setShading("smooth");
   followTheme(({ accent, grid, ink }) => viewer.setColors(accent, grid, ink));
   followAddress(state);
-  listenToKeys(viewer, commands, { clips, findings, side, gallery: () => state.list.length > 1 && openGallery() }, shows);
+  listenToKeys(viewer, commands, keys, { clips, findings, side, gallery: () => state.list.length > 1 && openGallery() }, shows);
   host.listen(
     (message) => state.receive(message),
     (link, note) => state.setLink(link, note),

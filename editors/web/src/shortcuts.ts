@@ -1,10 +1,11 @@
 // Keyboard shortcuts.
 
 import type { Commands } from "./commands";
+import { isRemembered, remember } from "./panels/remembered";
 import type { Viewer } from "./viewport/viewer";
 
 export interface Places {
-  readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; followTravel(): void; film(): void; readonly chart: { toggle(): void }; readonly performance: { toggle(): void } };
+  readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; followTravel(): void; onionSkin(): void; film(): void; readonly chart: { toggle(): void }; readonly performance: { toggle(): void } };
   readonly findings: { flip(): void };
   readonly side: { focusTree(): void; focusSearch(): void };
   /** Shows all drawings, if there are several. */
@@ -16,13 +17,30 @@ const TURN = 10;
 const ZOOM = 1.2;
 const POSE = 5;
 
-export function listenToKeys(viewer: Viewer, commands: Commands, places: Places, shows: () => boolean): void {
+const NO_LETTERS = "okoshi.no-letters";
+
+/** Whether single letters, digits and signs are shortcuts: who dictates to the computer can turn them off. The browser stores it. */
+export class Keys {
+  private on = !isRemembered(NO_LETTERS);
+
+  get letters(): boolean {
+    return this.on;
+  }
+
+  set letters(on: boolean) {
+    this.on = on;
+    remember(NO_LETTERS, !on);
+  }
+}
+
+export function listenToKeys(viewer: Viewer, commands: Commands, keys: Keys, places: Places, shows: () => boolean): void {
   const { view } = viewer;
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     const target = event.target instanceof Element ? event.target : null;
     // A field or an open dialog handles its own keys; buttons handle space and enter.
     if (target?.closest("input, select, textarea, dialog")) return;
+    if (!keys.letters && event.key.length === 1 && event.key !== " ") return;
     if (event.key === "?") {
       event.preventDefault();
       return commands.help();
@@ -120,6 +138,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
         return () => places.clips.compare();
       case "v":
         return () => places.clips.followTravel();
+      case "n":
+        return () => places.clips.onionSkin();
       case "m":
         return () => places.clips.film();
       case " ":

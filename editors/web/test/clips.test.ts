@@ -16,10 +16,15 @@ const kicking = (made = kick()) => (host: MockHost): void => {
 };
 const readout = (page: Page) => page.locator(".clips .readout").innerText();
 const marks = (page: Page, name: string) => page.locator(`.chart .chart-${name}`).getAttribute("data-marks").then(Number);
-/** The x coordinate of a source frame in the chart, counted from 0. */
+/** The x coordinate of a time on the axis that slider and chart share. */
+const onAxis = async (page: Page, seconds: number): Promise<number> => {
+  const { x, width } = (await page.locator(".timeline").boundingBox())!;
+  return x + 8 + ((width - 16) * seconds) / Number(await page.locator(".slider").getAttribute("max"));
+};
+/** The middle of a source frame in the chart, counted from 0. */
 const inChart = async (page: Page, source: number): Promise<{ x: number; y: number }> => {
   const box = (await page.locator(".chart .chart-picture").boundingBox())!;
-  return { x: box.x + 50 + ((box.width - 62) * (source + 0.5)) / FRAMES, y: box.y + 60 };
+  return { x: await onAxis(page, (source + 0.5) / FPS), y: box.y + 60 };
 };
 const playhead = (page: Page) => page.locator(".chart .chart-head").getAttribute("transform").then((words) => Number(/translate\(([\d.]+)/.exec(words ?? "")?.[1]));
 const front = async (page: Page) => {
@@ -105,24 +110,24 @@ browse("the chart shows frames, omitted frames and drawings; its playhead moves,
   const start = await playhead(page);
   await page.keyboard.press("k");
   assert.ok((await playhead(page)) > start, "the playhead moves");
-  // The frame after the omitted ones is a drawing of its own.
+  // A click goes to the frame there; the drawing that is shown then may stand for a frame of the source before or after it.
   const after = OMITTED.at(-1)! + 1;
-  const drawing = EXPOSURE.findIndex(([source]) => source === after);
+  const drawing = EXPOSURE.findLastIndex((_, at) => begins(at) <= after);
   const place = await inChart(page, after);
   await page.mouse.move(place.x, place.y);
   assert.match(await page.locator(".chart .chart-tip").innerText(), new RegExp(`^frame ${after + 1} · SSD [\\d.]+ · drawing ${drawing + 1}`));
   await page.mouse.click(place.x, place.y);
   await still(page);
-  assert.match(await readout(page), new RegExp(`^drawing ${drawing + 1} of .* frame ${begins(drawing) + 1} of`));
-  assert.equal(await page.locator(".chart .chart-picture").getAttribute("data-source"), String(after + 1));
-  assertLike(await leg(page, after), LEG, "the leg in the drawing that was clicked");
-  // A drag seeks continuously; over omitted frames the drawing before them is shown.
+  assert.match(await readout(page), new RegExp(`^drawing ${drawing + 1} of .* frame ${after + 1} of`));
+  assert.equal(await page.locator(".chart .chart-picture").getAttribute("data-source"), String(EXPOSURE[drawing]![0] + 1));
+  assertLike(await leg(page, EXPOSURE[drawing]![0]), LEG, "the leg in the drawing that was clicked");
+  // A drag seeks continuously; omitted frames of the source are marked.
   const gone = await inChart(page, OMITTED[2]!);
   await page.mouse.move(place.x, place.y);
   await page.mouse.down();
   await page.mouse.move(gone.x, gone.y, { steps: 3 });
-  assert.match(await page.locator(".chart .chart-tip").innerText(), /^frame 30 · SSD [\d.]+ · omitted$/);
-  assert.match(await readout(page), new RegExp(`^drawing ${drawing} of `));
+  assert.match(await page.locator(".chart .chart-tip").innerText(), /^frame 30 · SSD [\d.]+ · omitted · drawing \d+/);
+  assert.match(await readout(page), /frame 30 of 60/);
   await page.mouse.up();
   await page.mouse.move(5, 5);
   await page.locator(".chart .chart-tip").waitFor({ state: "hidden" });
@@ -136,6 +141,60 @@ browse("the chart shows frames, omitted frames and drawings; its playhead moves,
   await chart.waitFor();
   await page.keyboard.press("c");
   await chart.waitFor({ state: "hidden" });
+});
+
+browse("a frame has the same place on the slider, among the keys and in the chart", kicking(), async (page) => {
+  await shown(page);
+  await page.keyboard.press("c");
+  for (const width of [1400, 844, 520, 390]) {
+    await page.setViewportSize({ width, height: width === 844 ? 390 : 800 });
+    await page.waitForTimeout(80);
+    const left = (await page.locator(".chart .chart-picture").boundingBox())!.x;
+    for (const frame of [0, 17, 59]) {
+      await page.locator(".slider").fill(String((frame + 0.02) / FPS));
+      await still(page);
+      const wanted = await onAxis(page, frame / FPS);
+      assert.ok(Math.abs(left + (await playhead(page)) - wanted) < 1, `the playhead at ${width} pixels`);
+      const place = await inChart(page, frame);
+      await page.mouse.click(place.x, (await page.locator(".chart .chart-picture").boundingBox())!.y + 25);
+      await still(page);
+      assert.match(await readout(page), new RegExp(`frame ${frame + 1} of`));
+    }
+  }
+  const boxes = (await page.locator(".ticks").boundingBox())!;
+  assert.ok(Math.abs(boxes.x - (await onAxis(page, 0))) < 1 && Math.abs(boxes.x + boxes.width - (await onAxis(page, FRAMES / FPS))) < 1, "the keys");
+});
+
+browse("an onion skin shows the drawings before and after, while the clip is paused", kicking(), async (page) => {
+  await shown(page);
+  await front(page);
+  const skins = () => page.getAttribute("canvas", "data-onion-skin").then(Number);
+  const at = EXPOSURE.findIndex(([source]) => source === OMITTED.at(-1)! + 2);
+  const seek = async (drawing: number): Promise<void> => {
+    await page.locator(".slider").fill(String((begins(drawing) + 0.02) / FPS));
+    await still(page);
+  };
+  await seek(at);
+  const before = await leg(page, EXPOSURE[at - 1]![0]);
+  await page.locator("canvas").focus();
+  await page.keyboard.press("n");
+  await still(page);
+  assert.equal(await skins(), 2);
+  await picture(page, "onion-skin");
+  const [red, , blue] = await leg(page, EXPOSURE[at - 1]![0]);
+  assert.ok(before[2] - blue > 15 && red - blue > 15, `the drawing before is orange: ${red} ${blue}, without it ${before.join(" ")}`);
+  await page.locator("[data-part=Leg]").click();
+  await page.keyboard.press("h");
+  await still(page);
+  assert.ok(Math.abs((await leg(page, EXPOSURE[at - 1]![0]))[2] - before[2]) < 8, "hidden parts have none");
+  await page.keyboard.press("h");
+  await seek(0);
+  assert.equal(await skins(), 1, "nothing is before the first");
+  await page.locator("canvas").focus();
+  await page.keyboard.press(" ");
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["onionSkin"] === "0");
+  await page.keyboard.press(" ");
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["onionSkin"] !== "0");
 });
 
 browse("full and limited clips play side by side", kicking(), async (page, host) => {
@@ -315,7 +374,7 @@ browse("the chart of an hour keeps its peaks", (host) => {
   const box = (await page.locator(".chart .chart-picture").boundingBox())!;
   assert.ok(points.length > 200 && points.length <= box.width, `${points.length} points`);
   const top = points.reduce((a, b) => (b[1]! < a[1]! ? b : a));
-  assert.ok(Math.abs(top[0]! - (50 + ((box.width - 62) * 7001) / 10_800)) < 2, "the peak is in its place");
+  assert.ok(Math.abs(box.x + top[0]! - (await onAxis(page, (7001 * 8) / FPS))) < 2, "the peak is in its place");
   assert.match((await page.locator(".chart .chart-picture").getAttribute("aria-label"))!, /The fastest is frame 56,?009, with an SSD of 3\./);
 });
 

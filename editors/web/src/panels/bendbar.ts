@@ -1,7 +1,7 @@
 // The slider between the drawn look and true 3D, for models with view-dependent terrain.
 
 import { Map } from "lucide";
-import { button, fill, h } from "../dom";
+import { button, fill, h, setHidden } from "../dom";
 import type { Commands } from "../commands";
 import type { Viewer } from "../viewport/viewer";
 
@@ -28,7 +28,7 @@ export class BendBar {
 
   private follow(): void {
     const { bent } = this.viewer;
-    this.element.hidden = !this.commands.bends;
+    setHidden(this.element, !this.commands.bends, this.viewer.canvas);
     this.slider.value = String(bent);
     this.slider.setAttribute("aria-valuetext", bent === 1 ? "as drawn" : bent === 0 ? "true 3D" : `${Math.round(bent * 100)} % of the drawn look`);
   }

@@ -5,10 +5,9 @@ import { describeExposure, peaks, type ExposureSheet } from "../viewport/exposur
 import type { Viewer } from "../viewport/viewer";
 import { ClipChart } from "./clip-chart";
 import { APART, half, niceStep, round, word } from "./plot";
+import type { TimeAxis } from "./time-axis";
 
-/** Space around the curve in pixels: for the numbers, and for the drawings below it. */
-const LEFT = 50;
-const RIGHT = 12;
+/** Space above and below the curve in pixels: for the playhead's grip, and for the drawings and numbers. */
 const TOP = 14;
 const BELOW = 38;
 /** In a lower picture there are no numbers below the drawings, in pixels. */
@@ -25,10 +24,12 @@ export class Chart extends ClipChart {
   private readonly dot = svg("circle", { class: "chart-dot", r: 4 });
   private readonly stand = svg("path", { class: "chart-now" });
   private size = { width: 0, height: 0 };
+  /** Where the first frame begins, and how wide a frame is, in pixels. */
+  private axis = { left: 0, frame: 1 };
   private scale = 1;
 
   /** `changed` is called when the chart is opened or closed. */
-  constructor(viewer: Viewer, changed: () => void) {
+  constructor(viewer: Viewer, private readonly time: TimeAxis, changed: () => void) {
     super(viewer, changed, { label: "Chart", classes: ["chart", "chart-picture"], remembered: "okoshi.chart" });
     fill(
       this.element,
@@ -52,9 +53,9 @@ export class Chart extends ClipChart {
     return (this.sheet?.facts.ssd.length ?? 0) > 0;
   }
 
-  /** The x coordinate of a source frame, in pixels. */
-  private at(source: number): number {
-    return LEFT + ((this.size.width - LEFT - RIGHT) * source) / (this.drawn?.sources ?? 1);
+  /** The x coordinate where a frame begins, of the clip or of its source, in pixels. */
+  private at(frame: number): number {
+    return this.axis.left + this.axis.frame * frame;
   }
 
   /** The y coordinate of 0, in pixels. */
@@ -68,46 +69,47 @@ export class Chart extends ClipChart {
     return bottom - ((bottom - TOP) * ssd) / this.scale;
   }
 
-  protected draw(): void {
+  draw(): void {
     const { sheet: exposure } = this;
     const { width, height } = this.picture.getBoundingClientRect();
-    if (!exposure || width <= LEFT + RIGHT || height <= TOP + BELOW_LOW) return;
+    if (!exposure || width === 0 || height <= TOP + BELOW_LOW) return;
     this.drawn = exposure;
     this.size = { width, height };
+    const { left, right } = this.time.within(this.picture);
+    this.axis = { left, frame: (right - left) / Math.max(this.time.seconds * exposure.fps, 1) };
     const { facts, runs, sources } = exposure;
     const most = facts.ssd.reduce((top, value) => Math.max(top, value), 0);
     this.scale = most > 0 ? niceAbove(most) : 1;
     this.picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const { bottom } = this;
-    const right = width - RIGHT;
 
     const isLow = height < LOW;
     const grid = (isLow ? [0, 1] : [0, 0.5, 1]).map((part) => this.scale * part);
-    const lines = svg("path", { class: "chart-grid", d: grid.map((value) => `M${LEFT} ${half(this.up(value))}H${right}`).join("") });
-    const numbers = grid.map((value) => word(LEFT - 7, this.up(value) + 4, "end", figures(value)));
-    const step = niceStep((sources * APART) / (right - LEFT));
+    const lines = svg("path", { class: "chart-grid", d: grid.map((value) => `M${left} ${half(this.up(value))}H${right}`).join("") });
+    const numbers = grid.map((value) => word(left - 7, this.up(value) + 4, "end", figures(value)));
+    const step = niceStep(APART / this.axis.frame);
     // Space for the last number; numbers count from 1, like the bar below.
     for (let frame = 0; !isLow && frame < sources; frame = frame === 0 ? step - 1 || 1 : frame + step) {
-      const x = this.at(frame + 0.5);
+      const x = this.at(frame);
       if (x < right - 8 || frame === 0) numbers.push(word(x, height - 6, "middle", String(frame + 1)));
     }
 
-    const thinned = peaks(facts.ssd, right - LEFT);
+    const thinned = peaks(facts.ssd, right - left);
     const points = thinned.values.map((value, at) => {
       const from = at * thinned.step * facts.ssdStep;
-      const middle = Math.min(from + (thinned.step * facts.ssdStep) / 2, sources);
+      const middle = Math.min(from + (thinned.step * facts.ssdStep - 1) / 2, sources - 1);
       return `${round(this.at(middle))} ${round(this.up(value))}`;
     });
     const curve = `M${points.join("L")}`;
     const ends = [points[0]!, points.at(-1)!].map((point) => point.split(" ")[0]!);
 
-    const omitted = [...exposure.omitted].map((source) => ({ x: round(this.at(source + 0.5)), y: round(this.up(exposure.ssd(source) ?? 0)) }));
+    const omitted = [...exposure.omitted].map((source) => ({ x: round(this.at(source)), y: round(this.up(exposure.ssd(source) ?? 0)) }));
     const boxes = (held: boolean) => {
       const wanted = runs.filter(({ frames }) => frames > 1 === held);
-      const d = wanted.map(({ from, to }) => {
-        const [left, end] = [this.at(from), this.at(to)];
-        const space = (right - LEFT) / runs.length < NARROW ? 0 : 1.5;
-        return `M${round(left)} ${bottom + GAP}H${round(Math.max(end - space, left + 0.5))}V${bottom + GAP + BOX}H${round(left)}Z`;
+      const d = wanted.map(({ start, frames }) => {
+        const [begin, end] = [this.at(start), this.at(start + frames)];
+        const space = (right - left) / runs.length < NARROW ? 0 : 1.5;
+        return `M${round(begin)} ${bottom + GAP}H${round(Math.max(end - space, begin + 0.5))}V${bottom + GAP + BOX}H${round(begin)}Z`;
       });
       return svg("path", { class: held ? "chart-held" : "chart-single", d: d.join(""), "data-marks": wanted.length });
     };
@@ -124,8 +126,9 @@ export class Chart extends ClipChart {
       this.line,
       this.stand,
       this.head,
+      this.dot,
     );
-    fill(this.head, svg("path", { d: `M0 ${TOP - 4}V${bottom + GAP + BOX + 2}` }), svg("path", { class: "chart-grip", d: `M-5 ${TOP - 10}H5V${TOP - 6}L0 ${TOP - 1}L-5 ${TOP - 6}Z` }), this.dot);
+    fill(this.head, svg("path", { d: `M0 ${TOP - 4}V${bottom + GAP + BOX + 2}` }), svg("path", { class: "chart-grip", d: `M-5 ${TOP - 10}H5V${TOP - 6}L0 ${TOP - 1}L-5 ${TOP - 6}Z` }));
     this.element.classList.toggle("limited", facts.limited);
     const words = describeExposure(exposure);
     this.summary.textContent = words;
@@ -140,29 +143,30 @@ export class Chart extends ClipChart {
     const { drawn } = this;
     if (!drawn) return;
     const { time } = this.viewer.player;
+    // The playhead is where the slider is; the dot is on the frame of the source that is shown then.
+    this.head.setAttribute("transform", `translate(${round(this.at(time * drawn.fps))} 0)`);
     const source = drawn.sourceAt(time);
-    this.head.setAttribute("transform", `translate(${round(this.at(source + 0.5))} 0)`);
+    this.dot.setAttribute("cx", String(round(this.at(source))));
     this.dot.setAttribute("cy", String(round(this.up(drawn.ssd(source) ?? 0))));
     this.picture.dataset["source"] = String(source + 1);
     const run = drawn.runs[drawn.drawingIn(drawn.frameAt(time))];
     const { bottom } = this;
-    this.stand.setAttribute("d", run ? `M${round(this.at(run.from))} ${bottom + GAP}H${round(this.at(run.to) - 1)}V${bottom + GAP + BOX}H${round(this.at(run.from))}Z` : "");
+    this.stand.setAttribute("d", run ? `M${round(this.at(run.start))} ${bottom + GAP}H${round(this.at(run.start + run.frames) - 1)}V${bottom + GAP + BOX}H${round(this.at(run.start))}Z` : "");
   }
 
   protected over(event: PointerEvent): void {
     const { drawn } = this;
     if (!drawn) return;
     const { left } = this.picture.getBoundingClientRect();
-    const part = (event.clientX - left - LEFT) / (this.size.width - LEFT - RIGHT);
-    const source = Math.min(Math.max(Math.floor(part * drawn.sources), 0), drawn.sources - 1);
-    this.dragTo(drawn, source);
-    const x = this.at(source + 0.5);
+    const frame = Math.min(Math.max(Math.floor((event.clientX - left - this.axis.left) / this.axis.frame), 0), drawn.sources - 1);
+    this.dragTo(drawn.timeOfFrame(frame));
+    const x = this.at(frame);
     this.line.setAttribute("d", `M${half(x)} ${TOP}V${this.bottom}`);
-    const ssd = drawn.ssd(source);
-    const run = drawn.runs[drawn.drawingFor(source)];
-    const words = [`frame ${source + 1}`, ssd === null ? "" : `SSD ${figures(ssd)}`];
-    if (drawn.omitted.has(source)) words.push("omitted");
-    else if (run) words.push(`drawing ${drawn.drawingFor(source) + 1}`, run.frames > 1 ? `stands for ${run.frames} frames` : "");
+    const ssd = drawn.ssd(frame);
+    const drawing = frame < drawn.frames ? drawn.drawingIn(frame) : -1;
+    const run = drawn.runs[drawing];
+    const words = [`frame ${frame + 1}`, ssd === null ? "" : `SSD ${figures(ssd)}`, drawn.omitted.has(frame) ? "omitted" : ""];
+    if (run) words.push(`drawing ${drawing + 1}`, run.frames > 1 ? `held for ${run.frames} frames` : "");
     this.tell(words.filter(Boolean), x, this.size.width);
   }
 }

@@ -3,7 +3,7 @@
 import { h, svg } from "../dom";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
-import { rememberOpen, wasOpen } from "./remembered";
+import { isRemembered, remember } from "./remembered";
 
 /** A kind of chart. */
 export interface ChartKind {
@@ -30,7 +30,7 @@ export abstract class ClipChart {
 
   /** `changed` is called when the chart is opened or closed. */
   protected constructor(protected readonly viewer: Viewer, private readonly changed: () => void, private readonly kind: ChartKind) {
-    this.wanted = wasOpen(kind.remembered);
+    this.wanted = isRemembered(kind.remembered);
     this.element = h("section", { class: kind.classes[0], hidden: true, attributes: { "aria-label": kind.label } });
     this.picture = svg("svg", { class: kind.classes[1], role: "img" });
     new ResizeObserver(() => this.draw()).observe(this.picture);
@@ -59,7 +59,7 @@ export abstract class ClipChart {
   abstract get isPossible(): boolean;
 
   /** Draws all of it. */
-  protected abstract draw(): void;
+  abstract draw(): void;
 
   /** Moves the playhead to the time of the clip. */
   protected abstract move(): void;
@@ -74,7 +74,7 @@ export abstract class ClipChart {
   toggle(): void {
     if (!this.isPossible) return;
     this.wanted = !this.wanted;
-    rememberOpen(this.kind.remembered, this.wanted);
+    remember(this.kind.remembered, this.wanted);
     this.follow();
     this.changed();
   }
@@ -86,12 +86,12 @@ export abstract class ClipChart {
     this.move();
   }
 
-  /** Goes to a frame while the pointer drags. */
-  protected dragTo(sheet: ExposureSheet, frame: number): void {
+  /** Goes to a time in seconds while the pointer drags. */
+  protected dragTo(time: number): void {
     if (!this.drags) return;
     this.viewer.moved(() => {
       this.viewer.player.play(false);
-      this.viewer.player.seek(sheet.timeOf(frame));
+      this.viewer.player.seek(time);
     });
   }
 

@@ -1,8 +1,8 @@
 // The clip bar: which clip plays, at what time and speed, and above it the chart.
 
-import { ChartSpline, Columns2, Footprints, Hand, Pause, Play, Repeat, SkipBack, SkipForward, Video } from "lucide";
+import { ChartSpline, Columns2, Footprints, Hand, Pause, Play, Repeat, SkipBack, SkipForward, SquareStack, Video } from "lucide";
 import type { AnimationClip } from "three";
-import { button, fill, h, icon, svg } from "../dom";
+import { button, fill, h, icon, setHidden, svg } from "../dom";
 import { SMALL } from "../layout";
 import { drawingAt } from "../viewport/clips";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
@@ -10,6 +10,7 @@ import type { Viewer } from "../viewport/viewer";
 import { Chart } from "./chart";
 import { more } from "./more";
 import { PerformanceChart } from "./performance";
+import { TimeAxis } from "./time-axis";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 /** More ticks could not be distinguished. */
@@ -37,19 +38,20 @@ export class Clips {
   private readonly loop = button({ icon: Repeat, label: "Loop", press: () => this.viewer.moved(() => (this.player.loops = !this.player.loops)) });
   private readonly along = button({ icon: Footprints, label: "Follow the figure", key: "V", press: () => this.followTravel() });
   private readonly films = button({ icon: Video, label: "Camera", key: "M", press: () => this.film() });
+  private readonly onion = button({ icon: SquareStack, label: "Onion skin: the drawings before and after", key: "N", press: () => this.onionSkin() });
   private readonly charts = button({ icon: ChartSpline, label: "Chart", key: "C", press: () => this.chart.toggle() });
   private readonly performances = button({ icon: Hand, label: "Performance", key: "I", press: () => this.performance.toggle() });
   private readonly compares = button({ icon: Columns2, label: "Full and limited side by side", key: "O", press: () => this.compare() });
   private readonly speed = h("select", { class: "select", attributes: { "aria-label": "Speed" } }, ...SPEEDS.map((speed) => h("option", { attributes: { value: speed } }, `${speed}×`)));
   private shown: AnimationClip | null = null;
   private exposure: ExposureSheet | null = null;
-  /** The length of the timeline in seconds. */
-  private end = 0;
+  private readonly timeline = h("div", { class: "timeline" }, this.ticks, this.slider);
+  private readonly axis = new TimeAxis(this.timeline);
   private boxes: readonly Box[] = [];
 
   constructor(private readonly viewer: Viewer) {
-    this.chart = new Chart(viewer, () => this.toggled(this.performance));
-    this.performance = new PerformanceChart(viewer, () => this.toggled(this.chart));
+    this.chart = new Chart(viewer, this.axis, () => this.toggled(this.performance));
+    this.performance = new PerformanceChart(viewer, this.axis, () => this.toggled(this.chart));
     SMALL.addEventListener("change", () => this.toggled(this.chart));
     fill(
       this.element,
@@ -61,9 +63,9 @@ export class Clips {
         this.play,
         button({ icon: SkipForward, label: "Next key", key: "K", press: () => this.step(1) }),
       ),
-      h("div", { class: "timeline" }, this.ticks, this.slider),
+      this.timeline,
       this.readout,
-      h("div", { class: "clip-looks" }, this.charts, this.performances, ...more("More about the clip", [this.compares, this.films, this.along, this.loop, this.speed])),
+      h("div", { class: "clip-looks" }, this.charts, this.performances, ...more("More about the clip", [this.compares, this.onion, this.films, this.along, this.loop, this.speed])),
     );
     fill(this.panel, this.performance.element, this.chart.element, this.element);
     this.speed.value = "1";
@@ -90,6 +92,11 @@ export class Clips {
   /** Lets the view go along with a figure that travels, or stay. */
   followTravel(): void {
     this.viewer.followTravel(!this.viewer.travel.wanted);
+  }
+
+  /** Shows the drawings before and after that of a paused clip, or no longer. */
+  onionSkin(): void {
+    this.viewer.showOnionSkin(!this.viewer.onionSkin.wanted);
   }
 
   /** Looks through the camera that films the clip, or no longer. */
@@ -130,7 +137,7 @@ export class Clips {
 
   private list(): void {
     const { clips } = this.player;
-    this.panel.hidden = clips.length === 0;
+    setHidden(this.panel, clips.length === 0, this.viewer.canvas);
     fill(this.choice, ...clips.map((clip, at) => h("option", {}, this.describe(clip, at))));
     this.shown = null;
     this.toggled(this.chart);
@@ -151,12 +158,14 @@ export class Clips {
     const { clip, keys, time, end, playing, loops } = this.player;
     if (!clip) return;
     const { exposure, comparison } = this.viewer;
-    if (this.shown !== clip || this.exposure !== exposure || this.end !== end) {
+    const seconds = this.longest(end);
+    if (this.shown !== clip || this.exposure !== exposure || this.axis.seconds !== seconds) {
       this.shown = clip;
       this.exposure = exposure;
-      this.end = end;
+      this.axis.seconds = seconds;
       this.choice.selectedIndex = this.player.clips.indexOf(clip);
-      this.slider.max = String(end);
+      this.slider.max = String(seconds);
+      for (const chart of [this.chart, this.performance]) if (chart.isOpen) chart.draw();
       const figures = this.viewer.exposuresOf(clip).map(({ facts }) => facts.figure);
       this.figure.hidden = figures.length < 2;
       fill(this.figure, ...figures.map((name) => h("option", { attributes: { value: name } }, name)));
@@ -169,10 +178,11 @@ export class Clips {
     this.readout.title = `${time.toFixed(2)} s of ${end.toFixed(2)} s`;
     this.slider.setAttribute("aria-valuetext", words);
     const box = this.boxes[this.boxes.findLastIndex(({ from }) => from <= time + 1e-4)];
-    this.now.setAttribute("d", box ? outline(box, end) : "");
+    this.now.setAttribute("d", box ? outline(box, seconds) : "");
     this.element.dataset["playing"] = String(playing);
     this.loop.setAttribute("aria-pressed", String(loops));
     this.along.setAttribute("aria-pressed", String(this.viewer.travel.wanted));
+    this.onion.setAttribute("aria-pressed", String(this.viewer.onionSkin.wanted));
     this.films.hidden = !this.viewer.isFilmable;
     this.films.setAttribute("aria-pressed", String(this.viewer.isFilming));
     this.charts.hidden = !this.chart.isPossible;
@@ -195,6 +205,16 @@ export class Clips {
     }
   }
 
+  /** The length of the axis of time in seconds: the clip's, unless there is a longer chart. */
+  private longest(end: number): number {
+    const { exposure, performed } = this.viewer;
+    const sources = this.chart.isOpen && exposure ? exposure.sources / exposure.fps : 0;
+    const facts = this.performance.isOpen ? performed?.facts.performance : undefined;
+    const rows = facts && performed ? Math.max(facts.frames.performance, facts.frames.motion) / performed.fps : 0;
+    // A file has times in single precision: a difference of less than a frame is none.
+    return Math.max(sources, rows) > end * (1 + 1e-3) ? Math.max(sources, rows) : end;
+  }
+
   /** The position in the clip, in words. */
   private words(time: number): string {
     const { clip, keys } = this.player;
@@ -212,13 +232,14 @@ export class Clips {
   private draw(clip: AnimationClip, times: readonly number[], held: boolean): void {
     const { exposure } = this.viewer;
     const { duration } = clip;
+    const { seconds } = this.axis;
     if (exposure && exposure.runs.length > 0) this.boxes = exposure.runs.map(({ start, frames }) => ({ from: start / exposure.fps, to: Math.min((start + frames) / exposure.fps, duration) }));
     else this.boxes = held ? times.map((from, at) => ({ from, to: times[at + 1] ?? duration })) : [];
     const every = Math.ceil((this.boxes.length || times.length) / MAX_TICKS);
     const drawn =
       this.boxes.length > 0
-        ? this.boxes.filter((_, at) => at % every === 0).map((box) => outline(box, this.end))
-        : times.filter((_, at) => at % every === 0).map((time) => `M${across(time, this.end)} 2V8`);
+        ? this.boxes.filter((_, at) => at % every === 0).map((box) => outline(box, seconds))
+        : times.filter((_, at) => at % every === 0).map((time) => `M${across(time, seconds)} 2V8`);
     this.ticks.dataset["keys"] = String(this.boxes.length || times.length);
     fill(this.ticks, svg("path", { class: this.boxes.length > 0 ? "held" : "keys", d: drawn.join("") }), this.now);
   }

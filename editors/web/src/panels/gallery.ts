@@ -33,6 +33,11 @@ export class Gallery {
     });
   }
 
+  /** Goes to the card of a drawing, or to the first. */
+  focus(id: string | null): void {
+    (this.cards.get(id ?? "") ?? [...this.cards.values()][0])?.element.focus();
+  }
+
   private draw(): void {
     this.element.hidden = this.state.current !== null || !this.state.known;
     if (this.element.hidden) return;

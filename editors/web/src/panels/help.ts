@@ -2,12 +2,13 @@
 
 import { X } from "lucide";
 import { button, fill, h } from "../dom";
+import type { Keys } from "../shortcuts";
 
-const KEYS: readonly (readonly [string, readonly (readonly [string, string])[]])[] = [
+const GROUPS: readonly (readonly [string, readonly (readonly [string, string])[]])[] = [
   ["Look", [["drag", "turn the view"], ["right drag", "move it (or with two fingers)"], ["wheel, + −", "nearer, farther (or pinch)"], ["← → ↑ ↓", "turn the view by 10°"], ["0 1 3 7", "three-quarter, front, side, top (Shift: from the other side)"], ["5", "perspective or parallel"], ["L", "the layers from the side, and back"], ["4, B", "terrain: the drawn view; drawn look or true 3D"], ["F, Home", "frame the selected part; the whole model"], ["Z", "next shading"]]],
   ["Parts", [["click", "select a part, and jump to its string in the editor"], ["T, /", "go to the list of parts; search it"], ["letters", "in the list: go to the part whose name begins so"], ["H", "hide or show the selected part and what hangs on it (Shift: show only these)"], ["A", "show all parts"], ["E", "open or close the list of problems"], ["Esc", "select nothing"]]],
   ["Pose", [["P", "turn posing on or off"], ["drag", "turn a limb about its joint"], ["Shift + drag", "turn it about its own axis"], [", .", "turn the selected part by 5°"], ["Esc", "reset all limbs"]]],
-  ["Clips", [["Space", "play, pause"], ["J K", "previous or next drawing or key"], ["C", "movement chart"], ["I", "performance: marks, joints and timing"], ["O", "a performed or limited clip and its original side by side"], ["V", "follow a figure that travels"], ["M", "look through the camera of the clip"]]],
+  ["Clips", [["Space", "play, pause"], ["J K", "previous or next drawing or key"], ["C", "movement chart"], ["I", "performance: marks, joints and timing"], ["O", "a performed or limited clip and its original side by side"], ["N", "onion skin: the drawings before and after, while the clip is paused"], ["V", "follow a figure that travels"], ["M", "look through the camera of the clip"]]],
   ["Puppets", [["R", "record a puppet with the camera"]]],
   ["Export", [["S", "screenshot (Shift: transparent)"], ["D", "download the model"], ["Shift + F", "full screen"], ["G", "all drawings"]]],
 ];
@@ -15,15 +16,18 @@ const KEYS: readonly (readonly [string, readonly (readonly [string, string])[]])
 export class Help {
   readonly element = h("dialog", { class: "help-dialog", attributes: { "aria-label": "Help" } });
 
-  constructor() {
+  constructor(keys: Keys) {
+    const letters = h("input", { attributes: { type: "checkbox" }, on: { change: () => (keys.letters = letters.checked) } });
+    letters.checked = keys.letters;
     fill(
       this.element,
       h("header", { class: "dialog-head" }, h("h2", {}, "Keys and pointer"), button({ icon: X, label: "Close", press: () => this.element.close() })),
       h(
         "div",
         { class: "help-groups" },
-        ...KEYS.map(([title, keys]) => h("section", {}, h("h3", {}, title), h("dl", {}, ...keys.flatMap(([key, does]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, does)])))),
+        ...GROUPS.map(([title, keys]) => h("section", {}, h("h3", {}, title), h("dl", {}, ...keys.flatMap(([key, does]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, does)])))),
       ),
+      h("label", { class: "help-switch" }, letters, "Letters, digits and signs are shortcuts. Without them, the arrow keys, Space, Home and Escape still work."),
       h("p", { class: "muted" }, "Posing only changes this view, not the drawing."),
     );
     // A click on the backdrop is one on the dialog element itself.

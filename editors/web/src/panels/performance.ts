@@ -7,13 +7,13 @@ import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
 import { ClipChart } from "./clip-chart";
 import { APART, half, niceStep, round, word } from "./plot";
+import type { TimeAxis } from "./time-axis";
 
-/** Space around the rows in pixels: for titles, numbers, and the lines between the two. */
-const LEFT = 14;
-const RIGHT = 14;
-const TOP = 22;
-const BELOW = 20;
-const BETWEEN = 48;
+/** Space above, below and between the rows in pixels: for titles, numbers, and the lines between the two. */
+const SPACE = { top: 22, between: 48, below: 20 };
+/** The same in a picture that is lower, in pixels, where there are neither titles nor numbers. */
+const LOW = 130;
+const LOW_SPACE = { top: 4, between: 14, below: 4 };
 /** Marks can be told apart without their colours, too. */
 const DASHES = ["", "7 3", "2 3", "9 3 2 3"];
 const ROWS: readonly Row[] = ["performance", "motion"];
@@ -27,13 +27,13 @@ export class PerformanceChart extends ClipChart {
   private rows: Rows = { left: 0, right: 1, performance: [0, 0], motion: [0, 0] };
 
   /** `changed` is called when the chart is opened or closed. */
-  constructor(viewer: Viewer, changed: () => void) {
+  constructor(viewer: Viewer, private readonly time: TimeAxis, changed: () => void) {
     super(viewer, changed, { label: "Performance", classes: ["performance", "chart-picture performance-picture"], remembered: "okoshi.performance" });
     const head = h("thead", {}, h("tr", {}, ...["Mark", "Parts", "R", "Effect"].map((title) => h("th", { title: title === "R" ? "Its largest movement over that of the emphasised mark" : "", attributes: { scope: "col" } }, title))));
     fill(
       this.element,
       h("header", { class: "chart-title" }, h("h2", {}, "Performance ", h("span", { class: "muted", title: "Movement per frame, as a ratio of the largest one" }, "movement, 0 to 1")), this.summary, this.file),
-      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks" }, h("table", {}, head, this.marks), this.filming)),
+      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks", attributes: { role: "group", "aria-label": "Marks", tabindex: 0 } }, h("table", {}, head, this.marks), this.filming)),
     );
   }
 
@@ -46,15 +46,18 @@ export class PerformanceChart extends ClipChart {
     return this.sheet !== null;
   }
 
-  protected draw(): void {
+  draw(): void {
     const { sheet: performed } = this;
     const { width, height } = this.picture.getBoundingClientRect();
-    if (!performed?.facts.performance || width <= LEFT + RIGHT || height <= TOP + BETWEEN + BELOW) return;
+    if (!performed?.facts.performance || width === 0) return;
+    const isLow = height < LOW;
+    const { top: above, between, below } = isLow ? LOW_SPACE : SPACE;
+    const high = (height - above - between - below) / 2;
+    if (high <= 0) return;
     this.drawn = performed;
     const facts = performed.facts.performance;
     const times = (this.times = new PerformanceTimes(facts));
-    const high = (height - TOP - BETWEEN - BELOW) / 2;
-    const rows: Rows = (this.rows = { left: LEFT, right: width - RIGHT, performance: [TOP, TOP + high], motion: [height - BELOW - high, height - BELOW] });
+    const rows: Rows = (this.rows = { ...this.ends(performed, times), performance: [above, above + high], motion: [height - below - high, height - below] });
     this.picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
 
     const parts: SVGElement[] = [];
@@ -62,10 +65,10 @@ export class PerformanceChart extends ClipChart {
     for (const row of ROWS) {
       const [top, bottom] = rows[row];
       const last = times.at(Math.max(facts.frames[row] - 1, 0), rows);
-      parts.push(svg("path", { class: "chart-grid", d: [top, bottom].map((y) => `M${LEFT} ${half(y)}H${round(last)}`).join("") }));
-      parts.push(word(LEFT, top - 6, "start", TITLES[row]));
-      const step = niceStep((times.frames * APART) / (rows.right - LEFT));
-      for (let frame = 0; frame < facts.frames[row]; frame = frame === 0 ? step - 1 || 1 : frame + step) numbers.push(word(times.at(frame, rows), bottom + 14, frame === 0 ? "start" : "middle", String(frame + 1)));
+      parts.push(svg("path", { class: "chart-grid", d: [top, bottom].map((y) => `M${round(rows.left)} ${half(y)}H${round(last)}`).join("") }));
+      if (!isLow) parts.push(word(rows.left, top - 6, "start", TITLES[row]));
+      const step = niceStep((times.frames * APART) / (rows.right - rows.left));
+      for (let frame = 0; !isLow && frame < facts.frames[row]; frame = frame === 0 ? step - 1 || 1 : frame + step) numbers.push(word(times.at(frame, rows), bottom + 14, frame === 0 ? "start" : "middle", String(frame + 1)));
       const key = facts.keys?.[row];
       if (key !== undefined) parts.push(svg("path", { class: "performance-key", "data-frame": key + 1, d: `M${round(times.at(key, rows))} ${top}V${bottom}` }));
     }
@@ -94,6 +97,12 @@ export class PerformanceChart extends ClipChart {
     this.move();
   }
 
+  /** Where the first and the last frame of the longer row are, on the axis that all charts share. */
+  private ends({ fps }: ExposureSheet, { frames }: PerformanceTimes): { readonly left: number; readonly right: number } {
+    const { left, right } = this.time.within(this.picture);
+    return { left, right: left + ((right - left) * (frames - 1)) / Math.max(this.time.seconds * fps, frames - 1) };
+  }
+
   /** The frame of the performance that is shown. */
   private get frame(): number {
     return this.drawn?.sourceAt(this.viewer.player.time) ?? 0;
@@ -102,17 +111,18 @@ export class PerformanceChart extends ClipChart {
   protected move(): void {
     const { times, frame } = this;
     if (!times) return;
-    this.head.setAttribute("d", this.through(frame));
     const motion = times.motionAt(frame);
+    // Above it is where the slider is.
+    this.head.setAttribute("d", this.through(this.viewer.player.time * (this.drawn?.fps ?? 0), motion));
     this.picture.dataset["frame"] = String(frame + 1);
     this.picture.dataset["motion"] = String(round(motion + 1));
   }
 
-  /** A line through both rows at a frame of the performance, and from one to the other between them. */
-  private through(frame: number): string {
+  /** A line through both rows at a frame of the performance and one of the motion, and from one to the other between them. */
+  private through(performance: number, motion: number): string {
     const { rows, times } = this;
     if (!times) return "";
-    const [above, below] = [times.at(frame, rows), times.at(times.motionAt(frame), rows)].map(round);
+    const [above, below] = [performance, motion].map((frame) => round(times.at(frame, rows)));
     return `M${above} ${rows.performance[0]}V${rows.performance[1]}L${below} ${rows.motion[0]}V${rows.motion[1]}`;
   }
 
@@ -124,9 +134,9 @@ export class PerformanceChart extends ClipChart {
     const row: Row = event.clientY - box.top > (rows.performance[1] + rows.motion[0]) / 2 ? "motion" : "performance";
     const own = times.frameAt(row, event.clientX - box.left, rows);
     const frame = row === "motion" ? Math.round(times.performanceAt(own)) : own;
-    this.dragTo(drawn, frame);
+    this.dragTo(row === "motion" ? drawn.timeOf(frame) : drawn.timeOfFrame(frame));
     const x = times.at(own, rows);
-    this.line.setAttribute("d", this.through(frame));
+    this.line.setAttribute("d", this.through(frame, times.motionAt(frame)));
     const words = [row === "motion" ? `frame ${own + 1} of the motion` : `frame ${own + 1}`];
     facts.marks.forEach(({ name }, mark) => {
       const ratio = times.ratio(row, mark, own);

@@ -1,7 +1,7 @@
 // The bar that is shown in posing mode.
 
 import { RotateCcw, RotateCw, Undo2, X } from "lucide";
-import { button, fill, h } from "../dom";
+import { button, fill, h, setHidden } from "../dom";
 import type { Commands } from "../commands";
 import type { Viewer } from "../viewport/viewer";
 
@@ -31,7 +31,7 @@ export class PoseBar {
   }
 
   private follow(viewer: Viewer, commands: Commands): void {
-    this.element.hidden = !commands.isPosing && viewer.pose.isEmpty;
+    setHidden(this.element, !commands.isPosing && viewer.pose.isEmpty, viewer.canvas);
     this.reset.disabled = viewer.pose.isEmpty;
     if (viewer.pose.isEmpty) this.readout.textContent = matchMedia("(max-width: 760px)").matches ? "Drag a limb" : "Drag a limb. Shift: about its own axis.";
   }

@@ -1,18 +1,18 @@
-// Whether a panel was open when the page was last shown: the browser stores it.
+// Switches that the browser stores until the page is shown again.
 
 // Storage may be forbidden.
-export function wasOpen(key: string): boolean {
+export function isRemembered(key: string): boolean {
   try {
-    return localStorage.getItem(key) === "open";
+    return localStorage.getItem(key) === "on";
   } catch {
     return false;
   }
 }
 
-export function rememberOpen(key: string, open: boolean): void {
+export function remember(key: string, on: boolean): void {
   try {
-    localStorage.setItem(key, open ? "open" : "closed");
+    localStorage.setItem(key, on ? "on" : "off");
   } catch {
-    // Then the panel is closed the next time.
+    // Then it is off the next time.
   }
 }

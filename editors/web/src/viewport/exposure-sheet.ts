@@ -57,6 +57,11 @@ export class ExposureSheet {
     return Math.min(Math.max(Math.floor(time * this.fps + NEAR), 0), this.frames - 1);
   }
 
+  /** The time at which a frame of the clip begins. */
+  timeOfFrame(frame: number): number {
+    return (Math.min(frame, this.frames - 1) + NEAR) / this.fps;
+  }
+
   /** The drawing that is shown in a frame, from 0; -1 if the clip is not limited. */
   drawingIn(frame: number): number {
     return lastIndexWhere(this.runs, ({ start }) => start <= frame);
@@ -80,7 +85,7 @@ export class ExposureSheet {
   timeOf(source: number): number {
     const run = this.runs[Math.max(lastIndexWhere(this.runs, ({ from }) => from <= source), 0)];
     const frame = run ? run.start + Math.min(Math.max(source - run.from, 0), run.frames - 1) : source;
-    return (Math.min(frame, this.frames - 1) + NEAR) / this.fps;
+    return this.timeOfFrame(frame);
   }
 
   /** The movement in a source frame, or null if unknown. */

@@ -14,6 +14,7 @@ import { isSame, load, type Loaded, type Wanted } from "./loading";
 import { elementOf, nodeName, type Model, type Shading } from "./model";
 import { pathOf } from "./path";
 import { drawingAt, Player } from "./clips";
+import { OnionSkin } from "./onion-skin";
 import { Pose } from "./pose";
 import { RenderLoop } from "./render-loop";
 import { Stack } from "./stack";
@@ -38,6 +39,7 @@ export class Viewer {
   readonly comparison: Comparison;
   readonly stack: Stack;
   readonly travel = new Travel();
+  readonly onionSkin: OnionSkin;
   /** Whether the page looks through the cameras of clips. */
   private filming = false;
   /** The bounds of the model over a clip. */
@@ -65,13 +67,16 @@ export class Viewer {
 
   constructor(private readonly state: State, private readonly host: Host, place: HTMLElement) {
     this.canvas.tabIndex = 0;
-    this.canvas.setAttribute("role", "img");
+    // Screen readers pass the arrow keys on to it.
+    this.canvas.setAttribute("role", "application");
+    this.canvas.setAttribute("aria-description", "The arrow keys turn the view, plus and minus zoom. Help lists all keys.");
     this.canvas.setAttribute("aria-label", "No model yet");
     place.prepend(this.canvas);
     this.view = new View(this.canvas);
     this.renderLoop = new RenderLoop(place, this.canvas, this.view);
     this.ground = new Ground(this.renderLoop.scene);
     this.sideBySide = new SideBySide(this.renderLoop.scene);
+    this.onionSkin = new OnionSkin(this.renderLoop.scene, this);
     this.loading = new Latest(
       (wanted) => load(wanted, this, host, this.renderLoop),
       (loaded, wanted) => this.take(loaded, wanted),
@@ -102,8 +107,10 @@ export class Viewer {
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
     state.on("light", () => this.mark("lit"));
+    this.on(["time", "model"], () => this.followOnionSkin());
     state.on("hidden", () => {
       this.hideParts();
+      this.followOnionSkin();
       this.renderLoop.moved();
     });
   }
@@ -218,6 +225,17 @@ export class Viewer {
     this.pose.apply();
     this.renderLoop.moved();
     this.notify("time");
+  }
+
+  /** Shows the drawings before and after that of a paused clip, or no longer. */
+  showOnionSkin(on: boolean): void {
+    this.onionSkin.wanted = on;
+    this.notify("time");
+  }
+
+  private followOnionSkin(): void {
+    if (this.onionSkin.follow(this.state.hidden)) this.renderLoop.invalidate();
+    this.canvas.dataset["onionSkin"] = String(this.onionSkin.count);
   }
 
   /** Lets the view go along with a figure that travels, or no longer. */
