@@ -365,6 +365,7 @@ export class Viewer {
     this.path = null;
     if ("changes" in loaded) {
       this.player.release();
+      this.onionSkin.clear();
       before?.update(loaded.changes);
       before?.light((material) => this.renderLoop.reach(material));
       this.bytes = null;
