@@ -32,8 +32,9 @@ function prepare(host: MockHost): void {
 }
 
 for (const colorScheme of ["light", "dark"] as const) {
-  for (const { name, ...size } of SIZES.filter(({ name }) => name === "phone" || name === "desktop")) {
-    const small = name === "phone";
+  // In the dark only the colours are others.
+  for (const { name, ...size } of SIZES.filter(({ name }) => colorScheme === "light" || name === "phone" || name === "desktop")) {
+    const small = name !== "desktop";
     const is = async (page: Page, state: string): Promise<void> => assert.deepEqual(await found(page), [], state);
     const press = async (page: Page, key: string): Promise<void> => {
       await page.locator("canvas").focus();
@@ -98,7 +99,7 @@ for (const colorScheme of ["light", "dark"] as const) {
     }, async (page) => {
       await shown(page);
       await is(page, "clip");
-      if (small) {
+      if (await page.getByRole("button", { name: "More about the clip" }).isVisible()) {
         await page.getByRole("button", { name: "More about the clip" }).click();
         await is(page, "more about the clip");
         await page.keyboard.press("Escape");

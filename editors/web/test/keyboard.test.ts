@@ -51,6 +51,12 @@ browse("the focus does not get lost when what has it disappears", (host) => {
   assert.equal(await focus(page), "figure");
   await page.keyboard.press("Enter");
   await shown(page);
+  await page.locator("[data-part=Arm]").click();
+  await page.locator(".facts .link").first().focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await page.getAttribute("canvas", "data-selected"), "Body");
+  assert.match(await page.evaluate(() => document.activeElement!.className), /link/, "another link in its place");
+  await page.locator("canvas").focus();
   await page.keyboard.press("p");
   await page.getByRole("button", { name: "Leave posing" }).focus();
   await page.keyboard.press("Enter");

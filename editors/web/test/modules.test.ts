@@ -1,17 +1,20 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { AnimationClip, Group, InterpolateDiscrete, NumberKeyframeTrack, Object3D, Vector3 } from "three";
+import { AnimationClip, BoxGeometry, Group, InterpolateDiscrete, Mesh, NumberKeyframeTrack, Object3D, Vector3 } from "three";
 import { toBase64, toBuffer } from "../src/host/code";
 import { figures, niceAbove } from "../src/panels/chart";
 import { cssColor, drivenBy } from "../src/panels/inspector";
 import { excerpt, sorted } from "../src/panels/findings";
 import { Parts } from "../src/parts";
 import { Messages, read, type ClipFacts, type Finding, type Part, type PerformanceFacts } from "../src/protocol";
+import { isRow, linesOf, typedAhead, wordsOf } from "../src/panels/rows";
 import { drawingAt, keysOf, Player } from "../src/viewport/clips";
 import { Model } from "../src/viewport/model";
 import { onNodes } from "../src/viewport/side-by-side";
 import { ExposureSheet, describeExposure, peaks } from "../src/viewport/exposure-sheet";
 import { Latest } from "../src/viewport/latest";
+import { neighbours } from "../src/viewport/onion-skin";
+import { pathOf } from "../src/viewport/path";
 import { describeFilming, describeTiming, PerformanceTimes, type Rows } from "../src/viewport/performance";
 import { directionOf } from "../src/viewport/view";
 import { State } from "../src/state";
@@ -75,6 +78,37 @@ test("parts whose parent is missing or themselves become children of the root", 
   assert.deepEqual([...seen].sort(), ["A", "B", "C", "D"]);
 });
 
+test("a search lists what matches, whatever its case and accents, and what carries it", () => {
+  const parts = new Parts([part("Körper", null), part("Arm", "Körper"), part("Hand", "Arm"), part("Bein", "Körper"), part("old", null, "unused")]);
+  const names = (query: string) => linesOf(parts, wordsOf(query), () => false).map((line) => (isRow(line) ? `${line.level} ${line.part.name} ${line.place}/${line.among}` : line));
+  assert.deepEqual(names(""), ["1 Körper 1/1", "heading", "1 old 1/1"]);
+  assert.deepEqual(names("HAND"), ["1 Körper 1/1", "2 Arm 1/1", "3 Hand 1/1"]);
+  assert.deepEqual(names("korper"), ["1 Körper 1/1"]);
+  assert.deepEqual(names("e- hand"), ["1 Körper 1/1", "2 Arm 1/1", "3 Hand 1/1"]);
+  assert.deepEqual(names("nobody"), []);
+});
+
+test("typing goes to the next name that begins so, and round", () => {
+  const parts = new Parts(["Arm", "Bein", "Brust", "Ast"].map((name) => part(name, null)));
+  const lines = linesOf(parts, [], () => true);
+  const go = (from: number, typed: string) => typedAhead(lines, from, typed);
+  assert.deepEqual([go(0, "b"), go(1, "b"), go(2, "b"), go(0, "a"), go(1, "br"), go(2, "br"), go(0, "aa"), go(0, "x")], [1, 2, 1, 3, 2, 2, 3, null]);
+});
+
+test("what is hidden is hidden with all that hangs on it, and can be shown alone", () => {
+  const state = new State();
+  state.receive({ type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] });
+  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, findings: [], parts: [part("Body", null), part("Arm", "Body"), part("Hand", "Arm"), part("nail", "Hand", "sub")], clips: [], originals: null } });
+  state.show("a");
+  state.setHidden("Arm", true);
+  assert.deepEqual([...state.hidden].sort(), ["Arm", "Hand", "nail"]);
+  assert.deepEqual(["Body", "Arm", "nail"].map((name) => state.isHidden(name)), [false, true, true]);
+  state.isolate("nail");
+  assert.deepEqual([...state.hidden].sort(), ["Arm", "Body"], "a shape is shown with its part");
+  state.showAll();
+  assert.equal(state.hidden.size, 0);
+});
+
 test("marks in a line count characters", () => {
   assert.deepEqual(excerpt({ text: "    <text>右腕@胴🤖!</text>", from: 13, to: 15 }), { before: "<text>右腕@", marked: "胴🤖", after: "!</text>" });
   assert.deepEqual(excerpt({ text: "", from: 4, to: 9 }), { before: "", marked: "", after: "" });
@@ -130,6 +164,26 @@ test("a clip waits at its end for a longer one beside it", () => {
   player.seek(2);
   player.waitFor(0);
   assert.deepEqual([player.end, player.time, root.position.x], [1, 1, 1]);
+});
+
+test("the neighbours of a time are the drawings, or the keys, before and after it", () => {
+  const held = { keys: { times: [0, 0.5, 1], held: true } };
+  assert.deepEqual([0.2, 0.5, 0.7, 1.5].map((time) => neighbours({ ...held, time }, null)), [[null, 0.5], [0, 1], [0, 1], [0.5, null]]);
+  assert.deepEqual(neighbours({ keys: { times: [0, 0.5, 1], held: false }, time: 0.7 }, null), [0.5, 1]);
+  const exposure = new ExposureSheet(facts({ exposure: [[2, 4], [7, 5], [10, 3]], held: 9 }));
+  const [before, after] = neighbours({ ...held, time: 5 / 24 }, exposure);
+  assert.deepEqual([before, after].map((time) => exposure.drawingIn(exposure.frameAt(time!))), [0, 2]);
+});
+
+test("the way of a clip has all places of the model, unless it is very long", () => {
+  const root = new Group();
+  const mesh = new Mesh(new BoxGeometry(1, 1, 1));
+  root.add(mesh);
+  const clip = (far: number) => new AnimationClip("go", 1, [new NumberKeyframeTrack(`${mesh.uuid}.position[x]`, [0, 1], [0, far])]);
+  const model = new Model(root, []);
+  const along = (far: number) => pathOf(model, clip(far), (time) => void (mesh.position.x = far * time));
+  assert.deepEqual([along(3).min.x, along(3).max.x], [-0.5, 3.5]);
+  assert.equal(along(100), model.box);
 });
 
 test("of the models requested while one is loading, only the latest is loaded next", async () => {
@@ -231,7 +285,6 @@ test("drawings replace the source frames up to the next drawing, except omitted 
   assert.deepEqual(Array.from({ length: 13 }, (_, at) => exposure.sourceAt(Math.fround(at / 24))), [0, 0, 1, 2, 3, 4, 7, 8, 9, 9, 10, 11, 11]);
   const shows = Array.from({ length: 12 }, (_, source) => exposure.drawingIn(exposure.frameAt(exposure.timeOf(source))));
   assert.deepEqual(shows, [0, 1, 2, 2, 3, 3, 3, 4, 5, 6, 7, 7]);
-  assert.deepEqual([5, 6, 3, 7].map((source) => exposure.drawingFor(source)), [-1, -1, 2, 4]);
   assert.equal(describeExposure(exposure), "12 frames, 8 drawings, 2 in-betweens omitted");
 });
 

@@ -1,6 +1,6 @@
 // What the charts of a clip have in common: they open and close, follow the clip, and a frame can be pointed at and dragged to.
 
-import { h, svg } from "../dom";
+import { h, setHidden, svg } from "../dom";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
 import { isRemembered, remember } from "./remembered";
@@ -80,7 +80,7 @@ export abstract class ClipChart {
   }
 
   private follow(): void {
-    this.element.hidden = !this.isOpen;
+    setHidden(this.element, !this.isOpen, this.viewer.canvas);
     if (!this.isOpen) return;
     if (this.sheet !== this.drawn) this.draw();
     this.move();

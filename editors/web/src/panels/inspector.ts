@@ -64,7 +64,15 @@ export class Inspector {
     this.draw();
   }
 
+  /** Draws all of it again. Who is on a link stays on the one in its place, so that Enter goes on to the parent of the parent. */
   private draw(): void {
+    const at = [...this.body.querySelectorAll("button")].findIndex((one) => one === document.activeElement);
+    this.fill();
+    const links = this.body.querySelectorAll("button");
+    if (at >= 0) (links[Math.min(at, links.length - 1)] ?? this.viewer.canvas).focus();
+  }
+
+  private fill(): void {
     const { selected, parts } = this.state;
     this.clip = this.viewer.player.clip?.name;
     this.element.dataset["empty"] = String(selected === null);

@@ -300,7 +300,7 @@ export class Tree {
     const row = this.lines[at];
     if (!isRow(row)) return;
     const { name } = row.part;
-    const page = Math.max(this.rows.visible.size - 14, 1);
+    const page = this.rows.page;
     const keys: Record<string, () => void> = {
       ArrowDown: () => this.go(this.rowFrom(at + 1, 1)),
       ArrowUp: () => this.go(this.rowFrom(at - 1, -1)),

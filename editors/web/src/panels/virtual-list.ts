@@ -8,6 +8,8 @@ export class VirtualList {
   private count = 0;
   /** The height of a row in pixels. */
   private height = 0;
+  /** The height of the list before it was resized, in pixels. */
+  private heightBefore = 0;
   /** The row that stays in the page wherever the list is scrolled, because it may have the focus; -1 for none. */
   private kept = -1;
 
@@ -17,15 +19,17 @@ export class VirtualList {
    */
   constructor(private readonly scroller: HTMLElement, private readonly place: HTMLElement, private readonly make: (at: number) => HTMLElement, private readonly shown: () => void) {
     scroller.addEventListener("scroll", () => this.render(), { passive: true });
-    new ResizeObserver(() => {
-      this.measure();
-      this.render();
-    }).observe(scroller);
+    new ResizeObserver(() => this.resize()).observe(scroller);
   }
 
   /** The rows that are in the page, by their index. */
   get visible(): ReadonlyMap<number, HTMLElement> {
     return this.rows;
+  }
+
+  /** How many rows a page up or down skips. */
+  get page(): number {
+    return Math.max(Math.floor(this.scroller.clientHeight / this.height) - 1, 1);
   }
 
   /** Shows `count` rows, one of which is kept. Those of which `isSame` is true stay as they are. */
@@ -54,6 +58,16 @@ export class VirtualList {
     if (top < scrollTop) this.scroller.scrollTop = top;
     else if (top + this.height > scrollTop + clientHeight) this.scroller.scrollTop = top + this.height - clientHeight;
     this.render();
+  }
+
+  /** A kept row that was in sight stays in sight. */
+  private resize(): void {
+    const top = this.place.offsetTop + this.kept * this.height - this.scroller.scrollTop;
+    const wasInSight = this.kept >= 0 && top >= 0 && top + this.height <= this.heightBefore;
+    this.heightBefore = this.scroller.clientHeight;
+    this.measure();
+    if (wasInSight) this.reveal(this.kept);
+    else this.render();
   }
 
   private measure(): void {

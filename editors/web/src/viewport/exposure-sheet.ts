@@ -67,13 +67,6 @@ export class ExposureSheet {
     return lastIndexWhere(this.runs, ({ start }) => start <= frame);
   }
 
-  /** The drawing that replaces a source frame, from 0; -1 if there is none. */
-  drawingFor(source: number): number {
-    if (this.omitted.has(source)) return -1;
-    const at = lastIndexWhere(this.runs, ({ from }) => from <= source);
-    return at >= 0 && source < this.runs[at]!.to ? at : -1;
-  }
-
   /** The source frame at a time. */
   sourceAt(time: number): number {
     const frame = this.frameAt(time);
