@@ -1,10 +1,13 @@
-// Measures the time from a save to the new frame in the browser, step by step.
+// Measures the preview page: how long it takes to open, from a save to the new picture, and to turn the view.
 //
 //   cargo build --release && npm ci --prefix editors/web && node benches/preview.mjs [PARTS…]
 //
-// Each drawing is saved 40 times like Inkscape does it: truncated, then written in pieces. The steps: until the watcher notices
+// Opening: until the list of parts is on the screen, and until the model is.
+// A save: one part of a drawing changes, written like Inkscape does it, truncated and then in pieces. The steps: until the watcher notices
 // (event), until the file has settled, until the model is built, until the page is notified (push), until it has fetched and drawn the
-// model (frame). Chromium renders in software here; a graphics card is faster.
+// model (frame). Bytes: those of the message, and of the model or what changed in it.
+// Turning: one frame of the same model from another direction, and its draw calls.
+// The main thread's time is that of scripts, styles and layout. Chromium renders in software here; a graphics card is faster.
 
 import { spawn } from "node:child_process";
 import { closeSync, mkdtempSync, openSync, rmSync, writeFileSync, writeSync } from "node:fs";
@@ -15,20 +18,25 @@ import { join } from "node:path";
 const root = new URL("..", import.meta.url).pathname;
 const { chromium } = createRequire(join(root, "editors/web/package.json"))("playwright-core");
 const okoshi = process.env.OKOSHI ?? join(root, "target/release/okoshi");
-const SAVES = 40;
+const TURNS = 30;
 /** Kinds of solids, used in turn. */
 const KINDS = ["default -9 9", "roundv", "default -5 5", "round", "conev -8 8 0.5", "flat"];
+/** The part whose width changes, in the middle of its row. */
+const EDITED = 2;
 
-/** A figure of `parts` parts; the width of the first one changes. */
+/** How often a drawing of so many parts is saved. */
+const savesOf = (parts) => (parts > 2000 ? 5 : 20);
+
+/** A figure of `parts` parts; the width of one changes. */
 function drawing(parts, width) {
   const side = Math.ceil(Math.sqrt(parts));
   const shapes = [];
   for (let index = 0; index < parts; index++) {
     const [x, y] = [40 * (index % side), 40 * Math.floor(index / side)];
-    const wide = index === 0 ? width : 24;
+    const wide = index === EDITED ? width : 24;
     const shape = index % 2 === 0
-      ? `<rect x="${x}" y="${y}" width="${wide}" height="20" fill="#c83737"/>`
-      : `<ellipse cx="${x + 15}" cy="${y + 12}" rx="14" ry="9" fill="#2a7fff"/>`;
+      ? `<rect id="e${index}" x="${x}" y="${y}" width="${wide}" height="20" fill="#c83737"/>`
+      : `<ellipse id="e${index}" cx="${x + 15}" cy="${y + 12}" rx="14" ry="9" fill="#2a7fff"/>`;
     shapes.push(shape, `<text x="${x + 12}" y="${y + 10}" font-size="3">P${index}${index > 0 ? "@P0" : ""}$Shape ${KINDS[index % KINDS.length]}</text>`);
   }
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${40 * side}" height="${40 * side}">\n${shapes.join("\n")}\n</svg>\n`;
@@ -40,10 +48,84 @@ function save(path, text) {
   closeSync(file);
 }
 
-// The system clock, which the program and the page use too.
-const now = () => Date.now();
 const median = (numbers) => numbers.sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
+
+/** Runs in the page before its own script: notes when it shows what, what it receives, and its draw calls. */
+function observe() {
+  // The system clock, which the program uses too.
+  const clock = () => Date.now();
+  const seen = (window.seen = { builds: {}, list: 0, model: 0, draws: 0 });
+  const Socket = window.WebSocket;
+  window.WebSocket = class extends Socket {
+    constructor(...rest) {
+      super(...rest);
+      this.addEventListener("message", ({ data }) => {
+        const received = clock();
+        const message = JSON.parse(data);
+        if (message.type === "build") seen.builds[message.build.revision] = { received, bytes: data.length, ...message.build.steps };
+      });
+    }
+  };
+  const { prototype } = WebGL2RenderingContext;
+  for (const name of ["drawElements", "drawArrays"]) {
+    const draw = prototype[name];
+    prototype[name] = function (...rest) {
+      seen.draws++;
+      return draw.apply(this, rest);
+    };
+  }
+  const get = prototype.getExtension;
+  prototype.getExtension = function (name) {
+    const extension = get.call(this, name);
+    if (name !== "WEBGL_multi_draw" || !extension || extension.multiDrawElementsWEBGL.counts) return extension;
+    const draw = extension.multiDrawElementsWEBGL;
+    extension.multiDrawElementsWEBGL = function (...rest) {
+      seen.draws++;
+      return draw.apply(this, rest);
+    };
+    extension.multiDrawElementsWEBGL.counts = true;
+    return extension;
+  };
+  let [revision, frames] = [0, 0];
+  new MutationObserver(() => {
+    if (seen.list === 0 && document.querySelector("[data-part]")) {
+      seen.list = Math.round(performance.now());
+      requestAnimationFrame(() => setTimeout(() => (seen.list = Math.round(performance.now()))));
+    }
+    const canvas = document.querySelector("canvas");
+    if (!canvas?.dataset.revision) return;
+    const [shown, drawn] = [Number(canvas.dataset.revision), Number(canvas.dataset.frames)];
+    if (shown !== revision && drawn > frames) {
+      const context = canvas.getContext("webgl2");
+      const fence = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
+      context.flush();
+      // Asks whether the frame is rendered: waiting for it would count as the main thread's time.
+      const ask = () => {
+        if (context.getSyncParameter(fence, context.SYNC_STATUS) !== context.SIGNALED) return setTimeout(ask, 2);
+        seen.builds[shown].drawn = clock();
+        seen.model ||= Math.round(performance.now());
+      };
+      ask();
+      revision = shown;
+    }
+    frames = drawn;
+  }).observe(document, { subtree: true, childList: true, attributes: true });
+}
+
+/** Measures the main thread's time of an action, in milliseconds. */
+async function mainThread(cdp, action) {
+  const time = async () => {
+    const { metrics } = await cdp.send("Performance.getMetrics");
+    const wanted = metrics.filter(({ name }) => ["ScriptDuration", "RecalcStyleDuration", "LayoutDuration"].includes(name));
+    return 1000 * wanted.reduce((sum, { value }) => sum + value, 0);
+  };
+  const before = await time();
+  await action();
+  return (await time()) - before;
+}
+
+const print = (what, numbers) => console.log(`  ${what}:`, Object.entries(numbers).map(([name, [number, unit]]) => `${name} ${number.toFixed(unit === "ms" ? 1 : 0)} ${unit}`.trimEnd()).join(", "));
 
 async function measure(parts) {
   const folder = mkdtempSync(join(tmpdir(), "okoshi-bench-"));
@@ -55,65 +137,71 @@ async function measure(parts) {
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run"],
   });
-  const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
-  await page.addInitScript(() => {
-    const clock = () => Date.now();
-    window.builds = {};
-    const Socket = window.WebSocket;
-    window.WebSocket = class extends Socket {
-      constructor(...rest) {
-        super(...rest);
-        this.addEventListener("message", ({ data }) => {
-          const received = clock();
-          const message = JSON.parse(data);
-          if (message.type === "build") window.builds[message.build.revision] = { received, ...message.build.steps };
-        });
-      }
-    };
-  });
-  await page.goto(url);
-  await page.waitForSelector("canvas[data-revision='1']");
-  await pause(1000);
-  await page.evaluate(() => {
-    const canvas = document.querySelector("canvas");
-    const clock = () => Date.now();
-    let [shown, frames] = [1, Number(canvas.dataset.frames)];
-    new MutationObserver(() => {
-      const [revision, drawn] = [Number(canvas.dataset.revision), Number(canvas.dataset.frames)];
-      const times = window.builds[revision];
-      if (revision !== shown && drawn > frames) {
-        // Reading a pixel waits until the frame is rendered.
-        const context = canvas.getContext("webgl2");
-        context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
-        times.drawn = clock();
-        shown = revision;
-      }
-      frames = revision === shown ? drawn : frames;
-    }).observe(canvas, { attributes: true });
-  });
-  const steps = [];
-  for (let revision = 2; revision < SAVES + 2; revision++) {
-    const text = drawing(parts, 24 + revision / 10);
-    const saved = now();
-    save(path, text);
-    const times = await (await page.waitForFunction((revision) => window.builds[revision]?.drawn && window.builds[revision], revision)).jsonValue();
-    steps.push({
-      event: times.noticed - saved,
-      settle: times.begun - times.noticed,
-      build: times.built - times.begun,
-      push: times.received - times.built,
-      frame: times.drawn - times.received,
-      "in all": times.drawn - saved,
-      "without build": times.drawn - saved - (times.built - times.begun),
+  console.log(`${parts} parts`);
+  // The first visit waits for the first build; the second is measured.
+  for (const visit of ["first", "second"]) {
+    const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
+    page.setDefaultTimeout(300_000);
+    await page.addInitScript(observe);
+    const cdp = await page.context().newCDPSession(page);
+    await cdp.send("Performance.enable");
+    const opening = await mainThread(cdp, async () => {
+      await page.goto(url);
+      await page.waitForFunction(() => window.seen.model > 0);
     });
-    // Until the shadow has been drawn too.
-    await pause(800);
+    if (visit === "second") await measurePage(page, cdp, { parts, path, opening });
+    await page.close();
   }
   await browser.close();
   server.kill();
   rmSync(folder, { recursive: true });
-  const row = Object.keys(steps[0]).map((name) => [name, median(steps.map((times) => times[name]))]);
-  console.log(`${parts} parts, medians of ${SAVES} saves:`, row.map(([name, time]) => `${name} ${time.toFixed(1)} ms`).join(", "));
 }
 
-for (const parts of process.argv.length > 2 ? process.argv.slice(2).map(Number) : [100, 1000]) await measure(parts);
+async function measurePage(page, cdp, { parts, path, opening }) {
+  const { list, model } = await page.evaluate(() => window.seen);
+  print("opening", { list: [list, "ms"], model: [model, "ms"], "main thread": [opening, "ms"] });
+  await pause(1000);
+  const steps = [];
+  for (let number = 1; number <= savesOf(parts); number++) {
+    const revision = number + 1;
+    const text = drawing(parts, 24 + number / 10);
+    await page.evaluate(() => performance.clearResourceTimings());
+    let saved = 0;
+    const time = await mainThread(cdp, async () => {
+      saved = Date.now();
+      save(path, text);
+      await page.waitForFunction((revision) => window.seen.builds[revision]?.drawn, revision);
+      // Until the shadow has been drawn too.
+      await pause(500);
+    });
+    const times = await page.evaluate((revision) => window.seen.builds[revision], revision);
+    const bytes = await page.evaluate(() => performance.getEntriesByType("resource").reduce((sum, { decodedBodySize }) => sum + decodedBodySize, 0));
+    steps.push({
+      event: [times.noticed - saved, "ms"],
+      settle: [times.begun - times.noticed, "ms"],
+      build: [times.built - times.begun, "ms"],
+      push: [times.received - times.built, "ms"],
+      frame: [times.drawn - times.received, "ms"],
+      "in all": [times.drawn - saved, "ms"],
+      "main thread": [time, "ms"],
+      message: [times.bytes, "bytes"],
+      model: [bytes, "bytes"],
+    });
+  }
+  const middle = Object.entries(steps[0]).map(([name, [, unit]]) => [name, [median(steps.map((step) => step[name][0])), unit]]);
+  print(`a save, medians of ${steps.length}`, Object.fromEntries(middle));
+  await page.focus("canvas");
+  await page.evaluate(() => (window.seen.draws = 0));
+  const frames = () => page.getAttribute("canvas", "data-frames").then(Number);
+  const before = await frames();
+  const turning = await mainThread(cdp, async () => {
+    for (let turn = 0; turn < TURNS; turn++) {
+      await page.keyboard.press("ArrowLeft");
+      await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+    }
+  });
+  const count = (await frames()) - before;
+  print("turning, a frame", { "main thread": [turning / count, "ms"], "draw calls": [(await page.evaluate(() => window.seen.draws)) / count, ""] });
+}
+
+for (const parts of process.argv.length > 2 ? process.argv.slice(2).map(Number) : [100, 1000, 10_000]) await measure(parts);

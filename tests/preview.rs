@@ -158,6 +158,46 @@ fn builds_are_pushed_and_models_can_be_fetched() {
 }
 
 #[test]
+fn only_what_changed_is_sent() {
+    const ARM: &str = r##"<rect x="90" y="20" width="60" height="20" fill="#00cc00" id="arm"/>
+  <text x="120" y="32" font-size="5">Arm@Body$Shape round</text>
+</svg>"##;
+    let drawing = DRAWING.replace("</svg>", ARM);
+    let folder = folder();
+    let save = |text: &str| fs::write(folder.path().join("a.svg"), text).expect("written");
+    save(&drawing);
+    let (_live, port) = served(folder.path(), "a.svg");
+    let mut page = socket(port, None).expect("let in");
+    let first = heard(&mut page, "build");
+    assert_eq!(first["build"]["since"], Value::Null);
+    save(&drawing.replace("-5 5", "-9 9"));
+    let second = heard(&mut page, "build");
+    assert_eq!(second["build"]["since"], 1);
+    let parts = second["build"]["parts"].as_array().expect("a list");
+    let (kept, changed): (Vec<&Value>, Vec<&Value>) =
+        parts.iter().partition(|part| part.is_array());
+    assert_eq!((kept.len(), changed.len()), (1, 1), "{parts:?}");
+    // The model is sent whole, unless the page names one that the server still has.
+    let [before, after] = [&first, &second].map(|build| build["build"]["model"].as_str());
+    let [before, after] = [before, after].map(|address| address.expect("a model"));
+    let (_, whole) = got(port, &format!("/{after}"));
+    let (_, delta) = got(port, &format!("/{after}?since={before}"));
+    let (_, unknown) = got(port, &format!("/{after}?since=builds/99.glb"));
+    assert_eq!(common::nodes(&delta).expect("a sound model").len(), 1);
+    assert_eq!(common::nodes(&whole).expect("a sound model").len(), 3);
+    assert!(unknown == whole);
+
+    // A text that is not XML at the moment keeps the list of parts, also for pages that are opened now.
+    save("<svg><rect");
+    let broken = heard(&mut page, "build");
+    assert_eq!(broken["build"]["stale"], true);
+    assert_eq!(broken["build"]["parts"], serde_json::json!([[0, 2]]));
+    let broken = heard(&mut socket(port, None).expect("let in"), "build");
+    assert_eq!(broken["build"]["parts"].as_array().map(Vec::len), Some(2));
+    assert_eq!(broken["build"]["findings"][0]["code"], "E001");
+}
+
+#[test]
 fn a_folder_is_listed() {
     let folder = folder();
     fs::create_dir(folder.path().join("sub")).expect("a folder");

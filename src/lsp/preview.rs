@@ -20,7 +20,7 @@ use crate::compile::Compiled;
 use crate::crash;
 use crate::export::{self, GLB};
 use crate::memo::Memo;
-use crate::preview::{Hub, Picked, Shown, bind, serve};
+use crate::preview::{Builds, Hub, Picked, Shown, bind, serve};
 use crate::source::Span;
 use crate::watch::BuildTimes;
 
@@ -229,7 +229,7 @@ impl Previews {
             sent.retain(|uri, _| open.contains(uri));
             for uri in open.iter().filter(|uri| self.hub.shows(uri)) {
                 let since = sent.entry(uri.clone()).or_default();
-                let (messages, now) = self.hub.updates(*since, Some(uri));
+                let (messages, now) = self.hub.updates(*since, Some(uri), Builds::Whole);
                 *since = now;
                 let Ok(uri) = uri.parse() else { continue };
                 let messages = messages.iter();

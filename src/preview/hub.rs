@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
 use axum::body::Bytes;
+use rustc_hash::FxHashMap;
 use serde_json::value::{RawValue, to_raw_value};
 use tokio::sync::{Semaphore, watch};
 
-use super::message::{Build, Listed, ToPage, findings};
+use super::delta::delta;
+use super::message::{Build, Listed, PartOrKept, ToPage, findings};
 use crate::compile::Compiled;
 use crate::export::{self, GLB};
 use crate::render::{self, Options, PosedModel, write_png};
@@ -68,13 +70,26 @@ struct Entry {
     name: String,
     folder: String,
     revision: u64,
-    build: Option<(u64, Arc<str>)>,
+    build: Option<StoredBuild>,
     gone: Option<u64>,
     light: (u64, Option<String>),
     /// The last two models: a page may still be about to fetch the older one.
     models: Vec<Arc<StoredModel>>,
     /// Whether a model of it without errors was shown.
     was_good: bool,
+}
+
+/// A build as messages.
+struct StoredBuild {
+    /// When it was published.
+    time: u64,
+    revision: u64,
+    /// The descriptions of its parts.
+    parts: Vec<Box<RawValue>>,
+    /// All of it.
+    message: Arc<str>,
+    /// The time of the build before, and what pages that know that one need.
+    changes: Option<(u64, Arc<str>)>,
 }
 
 /// A model that can be fetched.
@@ -87,9 +102,22 @@ pub(super) struct StoredModel {
     clips: Box<RawValue>,
     triangles: usize,
     picture: OnceLock<Option<Bytes>>,
+    /// The number of the model before, and what changed since.
+    delta: OnceLock<(u64, Option<Bytes>)>,
 }
 
 impl StoredModel {
+    /// What changed since another model, as binary glTF; the whole model if that is too much.
+    pub(super) fn since(&self, before: &Self) -> Bytes {
+        let compare = || delta(&before.bytes, &self.bytes, before.number).map(Bytes::from);
+        let (number, delta) = self.delta.get_or_init(|| (before.number, compare()));
+        let delta = match *number == before.number {
+            true => delta.clone(),
+            false => compare(),
+        };
+        delta.unwrap_or_else(|| self.bytes.clone())
+    }
+
     /// A thumbnail as PNG; `None` if it cannot be drawn. It is drawn on the first call.
     pub(super) fn picture(&self) -> Option<Bytes> {
         let drawn = || {
@@ -105,6 +133,15 @@ impl StoredModel {
         };
         self.picture.get_or_init(drawn).clone()
     }
+}
+
+/// How builds are sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Builds {
+    /// Each by itself.
+    Whole,
+    /// Without the parts that are the same as in the build before, where that was sent.
+    Changes,
 }
 
 /// A build to show.
@@ -154,6 +191,7 @@ impl Hub {
         let mut parts = parts(shown.compiled, shown.text);
         parts.extend(landscapes(shown.compiled, shown.text));
         parts.extend(characters(shown.compiled));
+        let parts = parts.iter().flat_map(to_raw_value).collect::<Vec<_>>();
         let clips = to_raw_value(&clips(shown.compiled, Reader::Page)).unwrap_or_default();
         let originals = shown.model.and_then(|_| originals(shown.compiled));
         self.change(|state, now| {
@@ -182,13 +220,20 @@ impl Hub {
                         clips,
                         triangles,
                         picture: OnceLock::new(),
+                        delta: OnceLock::new(),
                     }));
                     let old = entry.models.len().saturating_sub(2);
                     entry.models.drain(..old);
                 }
             }
             let model = entry.models.last();
-            let build = Build {
+            let last = entry.build.take();
+            // A text that is not XML at the moment has no parts: the list stays beside the last model.
+            let parts = match &last {
+                Some(last) if parts.is_empty() && shown.compiled.has_errors() => last.parts.clone(),
+                _ => parts,
+            };
+            let mut build = Build {
                 revision: entry.revision,
                 milliseconds: shown.times.duration().as_secs_f64() * 1e3,
                 model: model.map(|model| format!("builds/{}.glb", model.number)),
@@ -197,15 +242,36 @@ impl Hub {
                 incomplete: shown.model.is_some() && shown.compiled.has_errors(),
                 triangles: model.map_or(0, |model| model.triangles),
                 findings: found,
-                parts,
+                since: None,
+                parts: parts.iter().map(|part| PartOrKept::Part(part)).collect(),
                 clips: model.map_or(RawValue::NULL, |model| &model.clips),
                 originals: model
                     .filter(|model| model.originals.is_some())
                     .map(|model| format!("originals/{}.glb", model.number)),
                 steps: shown.times.into(),
             };
-            let message = ToPage::Build { drawing: id, build };
-            entry.build = Some((now, json(&message)));
+            let message = json(&ToPage::Build {
+                drawing: id,
+                build: &build,
+            });
+            let changes = last.map(|last| {
+                build.since = Some(last.revision);
+                build.parts = changed(&last.parts, &parts);
+                (
+                    last.time,
+                    json(&ToPage::Build {
+                        drawing: id,
+                        build: &build,
+                    }),
+                )
+            });
+            entry.build = Some(StoredBuild {
+                time: now,
+                revision: entry.revision,
+                message,
+                changes,
+                parts,
+            });
         });
     }
 
@@ -262,12 +328,20 @@ impl Hub {
             .cloned()
     }
 
-    /// The bytes of a model, by the address in a message.
+    /// The bytes of a model, by the address in a message, or what changed since another one (`?since=` and its address).
     pub fn bytes(&self, address: &str) -> Option<Bytes> {
+        let (address, since) = match address.split_once("?since=") {
+            Some((address, since)) => (address, since.split_once('/').map(|(_, file)| file)),
+            None => (address, None),
+        };
         let (kind, file) = address.split_once('/')?;
-        let model = self.model(file.strip_suffix(".glb")?.parse().ok()?)?;
+        let by_file = |file: &str| self.model(file.strip_suffix(".glb")?.parse().ok()?);
+        let model = by_file(file)?;
         match kind {
-            "builds" => Some(model.bytes.clone()),
+            "builds" => Some(match since.and_then(by_file) {
+                Some(before) => model.since(&before),
+                None => model.bytes.clone(),
+            }),
             "originals" => model.originals.clone(),
             _ => None,
         }
@@ -278,8 +352,9 @@ impl Hub {
         self.clock.subscribe()
     }
 
-    /// The updates since a time, of all drawings or only one, as messages, and the current time.
-    pub fn updates(&self, since: u64, only: Option<&str>) -> (Vec<Arc<str>>, u64) {
+    /// The updates since a time, of all drawings or only one, as messages, and the current time. Whoever has got all messages
+    /// until that time can be sent parts of builds.
+    pub fn updates(&self, since: u64, only: Option<&str>, builds: Builds) -> (Vec<Arc<str>>, u64) {
         let state = self.state();
         let wanted = |id: &&String| only.is_none_or(|only| *id == only);
         let drawings = || state.drawings.iter().filter(|(id, _)| wanted(id));
@@ -295,10 +370,13 @@ impl Hub {
             }));
         }
         for (drawing, entry) in drawings() {
-            if let Some((when, build)) = &entry.build
-                && *when > since
+            if let Some(build) = &entry.build
+                && build.time > since
             {
-                updates.push(build.clone());
+                updates.push(match (builds, &build.changes) {
+                    (Builds::Changes, Some((last, changes))) if *last <= since => changes.clone(),
+                    _ => build.message.clone(),
+                });
             }
             if entry.gone.is_some_and(|when| when > since) {
                 updates.push(json(&ToPage::Gone { drawing }));
@@ -326,6 +404,23 @@ impl Hub {
 fn originals(compiled: &Compiled) -> Option<Bytes> {
     let model = export::to_memory(&GLB, &compiled.originals()?, None).ok()?;
     Some(model.bytes.into())
+}
+
+/// A list of parts in which those of another list are named by their positions there.
+fn changed<'a>(before: &[Box<RawValue>], after: &'a [Box<RawValue>]) -> Vec<PartOrKept<'a>> {
+    let places = before.iter().enumerate();
+    let places: FxHashMap<&str, usize> = places.map(|(at, part)| (part.get(), at)).collect();
+    let mut changed = vec![];
+    for part in after {
+        match (places.get(part.get()), changed.last_mut()) {
+            (Some(at), Some(PartOrKept::Kept([first, count]))) if *first + *count == *at => {
+                *count += 1;
+            }
+            (Some(at), _) => changed.push(PartOrKept::Kept([*at, 1])),
+            (None, _) => changed.push(PartOrKept::Part(part)),
+        }
+    }
+    changed
 }
 
 /// Messages hold only text and numbers, so this cannot fail.

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
 use crate::diagnostic::Diagnostic;
-use crate::report::Part;
 use crate::source::LineIndex;
 use crate::watch::BuildTimes;
 
@@ -17,7 +16,10 @@ pub(super) enum ToPage<'a> {
     /// The list of all drawings.
     Drawings { drawings: Vec<Listed<'a>> },
     /// A drawing was built.
-    Build { drawing: &'a str, build: Build<'a> },
+    Build {
+        drawing: &'a str,
+        build: &'a Build<'a>,
+    },
     /// A drawing's file is gone.
     Gone { drawing: &'a str },
     /// An editor's cursor is in the string of a part, or of none.
@@ -49,11 +51,23 @@ pub(super) struct Build<'a> {
     pub(super) incomplete: bool,
     pub(super) triangles: usize,
     pub(super) findings: Vec<Finding<'a>>,
-    pub(super) parts: Vec<Part<'a>>,
+    /// The revision that kept parts are of; `None` if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) since: Option<u64>,
+    pub(super) parts: Vec<PartOrKept<'a>>,
     pub(super) clips: &'a RawValue,
     /// The address of the clips before they were performed and limited.
     pub(super) originals: Option<String>,
     pub(super) steps: Timestamps,
+}
+
+/// An entry of a list of parts.
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+pub(super) enum PartOrKept<'a> {
+    Part(&'a RawValue),
+    /// Parts of an earlier build that are still the same: the position of the first, and how many.
+    Kept([usize; 2]),
 }
 
 /// The times of a build, in milliseconds since 1970.

@@ -11,11 +11,12 @@
 
 mod access;
 mod camera;
+mod delta;
 mod hub;
 mod message;
 mod page;
 mod server;
 mod socket;
 
-pub use hub::{Hub, Picked, Shown};
+pub use hub::{Builds, Hub, Picked, Shown};
 pub use server::{Bound, bind, serve};

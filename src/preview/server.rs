@@ -8,7 +8,8 @@ use std::time::Duration;
 use axum::Router;
 use axum::body::Bytes;
 use axum::extract::{Path, State};
-use axum::http::{StatusCode, header};
+use axum::http::uri::PathAndQuery;
+use axum::http::{StatusCode, Uri, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
@@ -138,9 +139,12 @@ fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
         .layer(from_fn_with_state(hosts, control))
 }
 
-async fn build(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
-    let model = number(&file, ".glb").and_then(|number| shared.hub.model(number));
-    binary(model.map(|model| model.bytes.clone()))
+async fn build(State(shared): State<Shared>, uri: Uri) -> Response {
+    let address = uri.path_and_query().map_or("", PathAndQuery::as_str);
+    let address = address.trim_start_matches('/').to_owned();
+    // Comparing large models takes a while.
+    let bytes = tokio::task::spawn_blocking(move || shared.hub.bytes(&address)).await;
+    binary(bytes.ok().flatten())
 }
 
 async fn originals(State(shared): State<Shared>, Path(file): Path<String>) -> Response {

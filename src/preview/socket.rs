@@ -8,7 +8,7 @@ use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 
-use super::hub::{Hub, Picked};
+use super::hub::{Builds, Hub, Picked};
 use super::message::FromPage;
 use super::server::Shared;
 
@@ -43,7 +43,7 @@ async fn converse(mut socket: WebSocket, hub: &Arc<Hub>) {
     let mut last_message = Instant::now();
     loop {
         clock.borrow_and_update();
-        let (updates, now) = hub.updates(since, None);
+        let (updates, now) = hub.updates(since, None, Builds::Changes);
         since = now;
         for message in updates {
             if !send(&mut socket, Message::text(message.as_ref())).await {

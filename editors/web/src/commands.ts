@@ -96,7 +96,7 @@ export class Commands {
   }
 
   async download(): Promise<void> {
-    const { bytes } = this.viewer;
+    const bytes = await this.viewer.file();
     if (bytes) await this.host.save(`${this.fileName()}.glb`, new Blob([bytes], { type: "model/gltf-binary" }));
   }
 

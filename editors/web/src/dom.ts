@@ -92,3 +92,11 @@ export function setHidden(element: HTMLElement, hidden: boolean, elsewhere: HTML
 
 /** Whether the user's system asks for reduced motion. */
 export const prefersReducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+/** Waits until the browser has painted, or a moment where it does not: in a hidden tab. */
+export function painted(): Promise<void> {
+  return new Promise((resolve) => {
+    requestAnimationFrame(() => setTimeout(resolve));
+    setTimeout(resolve, 100);
+  });
+}

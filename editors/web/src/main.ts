@@ -30,13 +30,7 @@ function start(page: HTMLElement): void {
   const state = new State();
   const host = findHost();
   const place = h("div", { class: "viewport" });
-  let viewer: Viewer;
-  try {
-    viewer = new Viewer(state, host, place);
-  } catch {
-    page.append(h("p", { class: "no-3d" }, "This browser cannot show 3D, because WebGL 2 is disabled or missing. Turn on hardware acceleration, or try another browser."));
-    return;
-  }
+  const viewer = new Viewer(state, host, place);
   const commands = new Commands(viewer, state, host);
 
   const choose = (part: string): void => {

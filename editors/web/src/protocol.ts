@@ -164,7 +164,30 @@ function oneOf<T extends string>(value: unknown, all: readonly T[], otherwise: T
   return all.find((one) => one === value) ?? otherwise;
 }
 
-/** Parses a message; null if its type is unknown. */
+/** Parses messages of a connection: a build may only hold what changed since the build that was sent before. */
+export class Messages {
+  /** The last build of each drawing. */
+  private readonly builds = new Map<string, Build>();
+
+  /** Null if the type of the message is unknown, `missed` if it refers to a build that did not arrive. */
+  read(data: unknown): FromHost | "missed" | null {
+    const raw = object(data);
+    const changes = object(raw["build"]);
+    if (raw["type"] === "build" && typeof changes["since"] === "number") {
+      const last = this.builds.get(text(raw["drawing"]));
+      if (last?.revision !== changes["since"]) return "missed";
+      return this.keep({ type: "build", drawing: text(raw["drawing"]), build: readBuild(changes, last.parts) });
+    }
+    return this.keep(read(data));
+  }
+
+  private keep(message: FromHost | null): FromHost | null {
+    if (message?.type === "build") this.builds.set(message.drawing, message.build);
+    return message;
+  }
+}
+
+/** Parses a message that stands by itself; null if its type is unknown. */
 export function read(data: unknown): FromHost | null {
   const raw = object(data);
   const drawing = text(raw["drawing"]);
@@ -187,7 +210,8 @@ function readListed(value: unknown): Listed {
   return { id: text(raw["id"]), name: text(raw["name"]) || text(raw["id"]), folder: text(raw["folder"]) };
 }
 
-function readBuild(raw: Raw): Build {
+/** `kept`: the parts of the build to which it refers. */
+function readBuild(raw: Raw, kept: readonly Part[] = []): Build {
   return {
     revision: number(raw["revision"]),
     milliseconds: number(raw["milliseconds"]),
@@ -197,7 +221,7 @@ function readBuild(raw: Raw): Build {
     incomplete: raw["incomplete"] === true,
     triangles: number(raw["triangles"]),
     findings: list(raw["findings"]).map(readFinding),
-    parts: list(raw["parts"]).map(readPart),
+    parts: list(raw["parts"]).flatMap((part) => (Array.isArray(part) ? kept.slice(whole(part[0]), whole(part[0]) + whole(part[1])) : readPart(part))),
     clips: list(raw["clips"]).map(readClip),
     originals: textOrNull(raw["originals"]),
   };

@@ -6,7 +6,7 @@ import { figures, niceAbove } from "../src/panels/chart";
 import { cssColor, drivenBy } from "../src/panels/inspector";
 import { excerpt, sorted } from "../src/panels/findings";
 import { Parts } from "../src/parts";
-import { read, type ClipFacts, type Finding, type Part, type PerformanceFacts } from "../src/protocol";
+import { Messages, read, type ClipFacts, type Finding, type Part, type PerformanceFacts } from "../src/protocol";
 import { isRow, linesOf, typedAhead, wordsOf } from "../src/panels/rows";
 import { drawingAt, keysOf, Player } from "../src/viewport/clips";
 import { Model } from "../src/viewport/model";
@@ -32,6 +32,23 @@ test("unknown messages are dropped, and missing fields become empty", () => {
 });
 
 const part = (name: string, parent: string | null, kind: Part["kind"] = "main"): Part => ({ name, parent, kind, element: `e-${name}`, namedBy: null, string: null, attributes: [], joint: null, depth: null, depthWhy: null });
+
+test("a build may refer to parts of the build before, and to no other", () => {
+  const messages = new Messages();
+  const build = (revision: number, parts: unknown[], since?: number) => ({ type: "build", drawing: "a", build: { revision, parts, since } });
+  const names = (message: unknown) => (message as { build: { parts: readonly Part[] } }).build.parts.map(({ name }) => name);
+  const [one, two, three, four] = ["one", "two", "three", "four"].map((name) => ({ name }));
+  assert.equal(messages.read(build(2, [[0, 1]], 1)), "missed");
+  const first = messages.read(build(1, [one, two, three]));
+  const second = messages.read(build(2, [[0, 2], four, [2, 1]], 1));
+  assert.deepEqual(names(second), ["one", "two", "four", "three"]);
+  // Parts that did not change are the same objects.
+  assert.ok((second as { build: { parts: readonly Part[] } }).build.parts[0] === (first as { build: { parts: readonly Part[] } }).build.parts[0]);
+  assert.deepEqual(names(messages.read(build(3, [[3, 1], [0, 1]], 2))), ["three", "one"]);
+  assert.equal(messages.read(build(9, [[0, 1]], 7)), "missed");
+  assert.deepEqual(names(messages.read(build(9, [one]))), ["one"]);
+  assert.equal(new Messages().read(build(10, [[0, 1]], 9)), "missed");
+});
 
 test("the hierarchy has every part of the model once", () => {
   const parts = new Parts([part("eye", "Head", "sub"), part("Head", "Body"), part("Body", null), part("Arm", "Body"), part("swatch", null, "legend"), part("old", null, "unused")]);

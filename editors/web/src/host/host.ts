@@ -11,7 +11,7 @@ export interface Host {
   listen(handler: (message: FromHost) => void, link: (state: Link, note?: string) => void): void;
   /** Messages are lost while there is no connection. */
   send(message: ToHost): void;
-  /** The bytes of a model. */
+  /** The bytes of a model. With `?since=` and the address of another one, those of what changed, or of the model if that is too much. */
   model(address: string): Promise<ArrayBuffer>;
   /** The address of a thumbnail, for an `<img>`. */
   picture(address: string): Promise<string>;

@@ -1,6 +1,6 @@
 // The host over HTTP: messages through a WebSocket, models and pictures by GET.
 
-import { read, type FromHost, type ToHost } from "../protocol";
+import { Messages, type FromHost, type ToHost } from "../protocol";
 import type { Host, Link } from "./host";
 
 /** Delays between attempts to connect, in milliseconds. */
@@ -76,6 +76,7 @@ export class WebHost implements Host {
     this.timer = undefined;
     const socket = new WebSocket(socketAddress("live"));
     this.socket = socket;
+    const messages = new Messages();
     const patience = setTimeout(() => socket.close(), PATIENCE);
     socket.addEventListener("open", () => {
       clearTimeout(patience);
@@ -90,8 +91,10 @@ export class WebHost implements Host {
       } catch {
         return;
       }
-      const message = read(json);
-      if (message) this.handler(message);
+      const message = messages.read(json);
+      // The next connection begins with everything.
+      if (message === "missed") socket.close();
+      else if (message) this.handler(message);
     });
     // An error is always followed by a close.
     socket.addEventListener("close", () => {

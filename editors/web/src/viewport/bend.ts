@@ -49,6 +49,7 @@ export class Bend {
   /** World matrices must be up to date. */
   constructor(root: Object3D) {
     const geometries = new Set<BufferGeometry>();
+    const others: Mesh[] = [];
     const walk = (object: Object3D): void => {
       if (wayOf(object, "bend")) {
         object.matrixAutoUpdate = false;
@@ -59,10 +60,12 @@ export class Bend {
         });
         return;
       }
-      if (object instanceof Mesh) this.still.union(boxOf(object));
+      if (object instanceof Mesh) others.push(object);
       object.children.forEach(walk);
     };
     walk(root);
+    if (this.isEmpty) return;
+    for (const mesh of others) this.still.union(boxOf(mesh));
     for (const geometry of geometries) {
       geometry.computeBoundingSphere();
       if (geometry.boundingSphere) geometry.boundingSphere.radius *= STRETCHED_RADIUS;

@@ -74,6 +74,11 @@ export class Player {
     this.use(same ?? model.clips[0] ?? null);
   }
 
+  /** Gives all nodes back what the clip moved, until the next model is taken. */
+  release(): void {
+    this.mixer?.stopAllAction();
+  }
+
   /** The model was removed. */
   clear(): void {
     this.mixer = this.action = this.clip = null;

@@ -4,7 +4,8 @@
 import type { SideBySide } from "./side-by-side";
 import type { Player } from "./clips";
 import { Latest } from "./latest";
-import { readFile, type Model } from "./model";
+import type { Model } from "./model";
+import { readFile } from "./model-file";
 import type { Pose } from "./pose";
 import type { View } from "./view";
 

@@ -43,9 +43,10 @@ export class Ground {
     this.sun.shadow.bias = -0.003;
     this.plane.matrixAutoUpdate = false;
     this.plane.add(this.grid, this.shadow);
-    this.group.add(this.plane, this.sun, this.sun.target);
+    this.group.add(this.plane);
     this.group.visible = false;
-    scene.add(this.group);
+    // Not in the group: shaders depend on the number of lights that are visible, and would be compiled anew.
+    scene.add(this.group, this.sun, this.sun.target);
   }
 
   /** Fits the ground to a model with this bounding box. */
@@ -55,13 +56,14 @@ export class Ground {
     const reach = Math.max(size.x, size.y, size.z, 1e-6);
     const cell = 10 ** Math.round(Math.log10(reach / 5));
     // Slightly below the feet, so that soles and ground do not flicker.
-    this.group.position.set(0, box.min.y - reach * 0.001, 0);
+    const level = box.min.y - reach * 0.001;
+    this.group.position.set(0, level, 0);
     this.grid.position.set(Math.round(centre.x / cell) * cell, 0, Math.round(centre.z / cell) * cell);
     this.grid.scale.setScalar(cell);
     this.shadow.position.set(centre.x, 0, centre.z);
     this.shadow.scale.setScalar(reach * 2 * ROOM);
-    this.sun.position.set(centre.x, size.y + reach, centre.z);
-    this.sun.target.position.set(centre.x, 0, centre.z);
+    this.sun.position.set(centre.x, level + size.y + reach, centre.z);
+    this.sun.target.position.set(centre.x, level, centre.z);
     const camera = this.sun.shadow.camera;
     camera.left = camera.bottom = -reach * ROOM;
     camera.right = camera.top = reach * ROOM;

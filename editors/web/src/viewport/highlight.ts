@@ -12,7 +12,6 @@ import {
   ReplaceStencilOp,
   ShaderMaterial,
   Vector2,
-  type WebGLRenderer,
 } from "three";
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { overlay } from "./model";
@@ -36,7 +35,7 @@ export class Highlight {
     selected: new MarkMaterials(3, MARK_STYLES.selected.light),
   };
   /** For lines along all triangle edges. */
-  private readonly lines = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.28, depthWrite: false });
+  readonly lines = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.28, depthWrite: false });
   private lined: Mesh[] = [];
 
   color(color: string, ink: string): void {
@@ -44,9 +43,8 @@ export class Highlight {
     this.lines.color.set(ink);
   }
 
-  /** Called before each frame: the width of outlines is in screen pixels. */
-  measure(renderer: WebGLRenderer): void {
-    const size = renderer.getSize(new Vector2());
+  /** Called before each frame with the size of the picture: the width of outlines is in its pixels. */
+  measure(size: Vector2): void {
     for (const mark of Object.keys(MARK_STYLES) as Mark[]) {
       const width = 2 * MARK_STYLES[mark].width;
       this.materials[mark].outline.uniforms["step"]!.value.set(width / size.x, width / size.y);

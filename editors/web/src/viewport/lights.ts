@@ -39,17 +39,14 @@ const DIRECTIONS = 2000;
 export class Lights {
   /** The lights that turn with the camera, as if a photographer carried them. */
   private readonly rig = new Group();
-  /** The environment map. */
-  private readonly mirrored: Texture;
+  private readonly room = new Room();
+  /** The environment map, once a material needs it. */
+  private mirrored: Texture | null = null;
 
-  constructor(scene: Scene, renderer: WebGLRenderer) {
+  constructor(scene: Scene, private readonly renderer: WebGLRenderer) {
     scene.add(new HemisphereLight(0xffffff, new Color().setScalar(GROUND / SKY), SKY), this.rig);
     for (const one of [lamp(KEY, -0.45, 0.55, 0.85), lamp(FILL, 0.8, 0.1, 0.5)]) this.rig.add(one, one.target);
-    const generator = new PMREMGenerator(renderer);
-    const room = new Room();
-    this.mirrored = generator.fromScene(room.scene, 0.03).texture;
-    generator.dispose();
-    scene.add(new LightProbe(room.light(), SURROUNDINGS));
+    scene.add(new LightProbe(this.room.light(), SURROUNDINGS));
   }
 
   /**
@@ -58,9 +55,17 @@ export class Lights {
    */
   reach(material: MeshStandardMaterial): void {
     if (material.metalness === 0 && material.roughness >= MATT && material.type === "MeshStandardMaterial") return;
-    material.envMap = this.mirrored;
+    material.envMap = this.mirrored ??= this.mirror();
     material.envMapIntensity = SURROUNDINGS;
     material.onBeforeCompile = withoutProbe;
+  }
+
+  /** Draws the environment map. Its shaders take long to compile: seconds without a graphics card. */
+  private mirror(): Texture {
+    const generator = new PMREMGenerator(this.renderer);
+    const { texture } = generator.fromScene(this.room.scene, 0.03);
+    generator.dispose();
+    return texture;
   }
 
   follow(camera: Camera): void {

@@ -1,29 +1,12 @@
 // A loaded model: which of its nodes are parts, its shading, and its resources on the graphics card.
 
-import { Box3, BufferAttribute, DoubleSide, Group, Mesh, MeshStandardMaterial, PerspectiveCamera, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type KeyframeTrack, type Material, type Object3D, type TypedArray } from "three";
-import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { Box3, BufferAttribute, DoubleSide, Group, Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, SkinnedMesh, Texture, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type KeyframeTrack, type Material, type Object3D, type TypedArray } from "three";
+import { Batches } from "./batches";
 import { Bend } from "./bend";
+import { meshesAt, type Delta, type ModelFile, type MovedNode } from "./model-file";
 import { Turns } from "./turn";
 
 export type Shading = "smooth" | "flat" | "wire" | "edges";
-
-/** Reads a GLB. Throws an error with a readable message if it is invalid. */
-export async function readModel(bytes: ArrayBuffer): Promise<Model> {
-  const { scene, animations } = await readFile(bytes);
-  return new Model(scene, animations);
-}
-
-/** The scene and the clips of a GLB. */
-export async function readFile(bytes: ArrayBuffer): Promise<{ readonly scene: Group; readonly animations: readonly AnimationClip[] }> {
-  const loader = new GLTFLoader();
-  loader.register((parser) => {
-    // Textures are read as <img> elements: the other loader fetches blobs, which the page's content security policy forbids.
-    parser.textureLoader = new TextureLoader(parser.options.manager);
-    return { name: "okoshi-images" };
-  });
-  const { scene, animations } = await loader.parseAsync(bytes, "");
-  return { scene, animations };
-}
 
 export class Model {
   /** Nodes by their names in the file. */
@@ -32,46 +15,29 @@ export class Model {
   private readonly made = new Map<string, Object3D[]>();
   private readonly materials = new Map<Material, { readonly flat: boolean }>();
   readonly meshes: Mesh[] = [];
+  readonly batches: Batches;
   private readonly cameras: PerspectiveCamera[] = [];
   /** The cameras that film clips. */
   private readonly films = new Map<AnimationClip, PerspectiveCamera>();
   /** Geometries that the next model uses too. */
   private readonly reusedGeometries = new Set<BufferGeometry>();
-  readonly box: Box3;
+  private shading: Shading = "smooth";
+  readonly box = new Box3();
   readonly bend: Bend;
   readonly turns: Turns;
   readonly clips: readonly AnimationClip[];
-  readonly triangles: number;
+  triangles = 0;
 
-  constructor(readonly root: Group, clips: readonly AnimationClip[]) {
-    let triangles = 0;
+  /** `fileNodes`: the nodes by their numbers in the file. A copy gets the model that it is a copy of. */
+  constructor(readonly root: Group, clips: readonly AnimationClip[], private readonly fileNodes: ModelFile["nodes"] = [], original?: Model) {
     root.traverse((object) => {
-      const name = nodeName(object);
-      if (name && !this.nodes.has(name)) this.nodes.set(name, object);
-      const element = elementOf(object);
-      if (element !== null) {
-        const same = this.made.get(element);
-        if (same) same.push(object);
-        else this.made.set(element, [object]);
-      }
       if (object instanceof PerspectiveCamera) this.cameras.push(object);
       if (!(object instanceof Mesh)) return;
       this.meshes.push(object);
       object.castShadow = true;
-      triangles += (object.geometry.index ?? object.geometry.getAttribute("position")).count / 3;
-      for (const material of materialsOf(object)) {
-        if (this.materials.has(material)) continue;
-        this.materials.set(material, { flat: "flatShading" in material && material.flatShading === true });
-        // Transparent surfaces show their inside. Others are double-sided only if the file says so: the rest are closed, and
-        // skipping back faces halves the triangles to draw.
-        if (material.transparent || material.alphaTest > 0) material.side = DoubleSide;
-        material.polygonOffset = true;
-        material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
-      }
+      for (const material of materialsOf(object)) this.adopt(material);
     });
-    this.triangles = Math.round(triangles);
-    root.updateMatrixWorld(true);
-    this.box = new Box3().setFromObject(root);
+    this.measure();
     this.bend = new Bend(root);
     this.turns = new Turns(root);
     this.clips = this.turns.others(clips);
@@ -82,7 +48,90 @@ export class Model {
         if (camera) this.films.set(clip, camera);
       }
     }
+    this.batches = new Batches(this.meshes, original?.batches.materials);
+    for (const material of this.batches.materials.values()) this.adopt(material);
+  }
+
+  /** Changes the model to the next one with the same hierarchy. No pose, clip or mark may be applied to it meanwhile. */
+  update({ moved, meshes }: Delta): void {
+    for (const fields of moved) {
+      const node = this.fileNodes[fields.node];
+      if (node) setFields(node, fields);
+    }
+    const changed: Mesh[] = [];
+    const replaced = new Set<BufferGeometry>();
+    for (const [number, next] of meshes) {
+      const node = this.fileNodes[number];
+      if (node) meshesAt(node, next.length).forEach((mesh, at) => {
+        replaced.add(mesh.geometry);
+        mesh.geometry = next[at]!.geometry;
+        mesh.material = next[at]!.material;
+        for (const material of materialsOf(mesh)) this.adopt(material);
+        changed.push(mesh);
+      });
+    }
+    for (const { geometry } of this.meshes) replaced.delete(geometry);
+    for (const geometry of replaced) geometry.dispose();
+    const used = new Set([...this.meshes.flatMap(materialsOf), ...this.batches.materials.values()]);
+    for (const material of this.materials.keys()) if (!used.has(material)) this.discard(material);
+    this.measure();
+    for (const mesh of changed) this.batches.change(mesh);
+    this.batches.follow();
+  }
+
+  /** Adds the model to a scene. */
+  addTo(scene: Object3D): void {
+    scene.add(this.root, this.batches.group);
+  }
+
+  /** Removes the model from its scene. */
+  remove(): void {
+    this.root.removeFromParent();
+    this.batches.group.removeFromParent();
+  }
+
+  /** What is drawn. */
+  get drawn(): Object3D {
+    return this.batches.isEmpty ? this.root : this.batches.group;
+  }
+
+  /** Finds parts, bounds and triangles anew. */
+  private measure(): void {
+    this.nodes.clear();
+    this.made.clear();
+    this.root.traverse((object) => {
+      const name = nodeName(object);
+      if (name && !this.nodes.has(name)) this.nodes.set(name, object);
+      const element = elementOf(object);
+      if (element === null) return;
+      const same = this.made.get(element);
+      if (same) same.push(object);
+      else this.made.set(element, [object]);
+    });
+    this.root.updateMatrixWorld(true);
+    this.box.setFromObject(this.root);
     if (this.box.isEmpty()) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
+    this.triangles = Math.round(this.meshes.reduce((sum, { geometry }) => sum + (geometry.index ?? geometry.getAttribute("position")).count / 3, 0));
+  }
+
+  /** Makes a material look like the others. */
+  private adopt(material: Material): void {
+    if (this.materials.has(material)) return;
+    this.materials.set(material, { flat: "flatShading" in material && material.flatShading === true });
+    // Transparent surfaces show their inside. Others are double-sided only if the file says so: the rest are closed, and
+    // skipping back faces halves the triangles to draw.
+    if (material.transparent || material.alphaTest > 0) material.side = DoubleSide;
+    material.polygonOffset = true;
+    material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
+    if (this.shading !== "smooth") this.shadeMaterial(material);
+  }
+
+  private discard(material: Material): void {
+    this.materials.delete(material);
+    // The environment map belongs to the lights.
+    if (material instanceof MeshStandardMaterial) material.envMap = null;
+    for (const value of Object.values(material)) if (value instanceof Texture) value.dispose();
+    material.dispose();
   }
 
   /** The camera that films a clip: one that it moves, or what carries it. */
@@ -121,11 +170,16 @@ export class Model {
   }
 
   shade(shading: Shading): void {
-    for (const [material, { flat }] of this.materials) {
-      if ("flatShading" in material) material.flatShading = flat || shading === "flat";
-      if ("wireframe" in material) material.wireframe = shading === "wire";
-      material.needsUpdate = true;
-    }
+    this.shading = shading;
+    for (const material of this.materials.keys()) this.shadeMaterial(material);
+    this.batches.drawWires(shading === "wire");
+  }
+
+  private shadeMaterial(material: Material): void {
+    const flat = this.materials.get(material)?.flat === true;
+    if ("flatShading" in material) material.flatShading = flat || this.shading === "flat";
+    if ("wireframe" in material) material.wireframe = this.shading === "wire";
+    material.needsUpdate = true;
   }
 
   /** Calls `light` with each lit material. */
@@ -135,6 +189,7 @@ export class Model {
 
   /** Reuses the geometries that did not change since another model: they are on the graphics card already. */
   reuseGeometries(before: Model): void {
+    if (!this.batches.isEmpty) return;
     const same = new Map<BufferGeometry, BufferGeometry>();
     this.meshes.forEach((mesh, index) => {
       const last = before.meshes[index]?.geometry;
@@ -151,13 +206,9 @@ export class Model {
   dispose(): void {
     for (const { geometry } of this.meshes) if (!this.reusedGeometries.has(geometry)) geometry.dispose();
     for (const mesh of this.meshes) if (mesh instanceof SkinnedMesh) mesh.skeleton.dispose();
-    for (const material of this.materials.keys()) {
-      // The environment map belongs to the lights.
-      if (material instanceof MeshStandardMaterial) material.envMap = null;
-      for (const value of Object.values(material)) if (value instanceof Texture) value.dispose();
-      material.dispose();
-    }
-    this.root.removeFromParent();
+    for (const material of this.materials.keys()) this.discard(material);
+    this.batches.dispose();
+    this.remove();
   }
 }
 
@@ -185,6 +236,18 @@ export function elementOf(object: Object3D): string | null {
   const okoshi: unknown = object.userData["okoshi"];
   if (typeof okoshi !== "object" || okoshi === null || !("element" in okoshi)) return null;
   return typeof okoshi.element === "string" ? okoshi.element : null;
+}
+
+/** Sets the fields of a node that a file may change. */
+function setFields(node: Object3D, { matrix, translation = [0, 0, 0], rotation = [0, 0, 0, 1], scale = [1, 1, 1], extras }: MovedNode): void {
+  if (matrix) new Matrix4().fromArray(matrix).decompose(node.position, node.quaternion, node.scale);
+  else {
+    node.position.fromArray(translation);
+    node.quaternion.fromArray(rotation);
+    node.scale.fromArray(scale);
+  }
+  const { name } = node.userData as { readonly name?: unknown };
+  node.userData = { ...(name === undefined ? {} : { name }), ...extras };
 }
 
 /** The part node that an object belongs to. */

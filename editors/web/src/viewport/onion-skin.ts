@@ -2,10 +2,12 @@
 
 import { CustomBlending, Group, Mesh, MeshBasicMaterial, OneFactor, OneMinusSrcAlphaFactor, SkinnedMesh, SrcAlphaFactor, type Object3D } from "three";
 import { clone } from "three/addons/utils/SkeletonUtils.js";
+import { LAYERS } from "./batches";
 import type { Player } from "./clips";
 import type { ExposureSheet } from "./exposure-sheet";
 import { isOverlay, type Model } from "./model";
 import type { Pose } from "./pose";
+import { isHidden } from "./visibility";
 
 /** Orange is before, blue is after: they differ for the colour-blind too. */
 const BEFORE = 0xd9622b;
@@ -85,8 +87,8 @@ export class OnionSkin {
     return true;
   }
 
-  /** True if anything was shown. */
-  private clear(): boolean {
+  /** Removes what is shown; `follow` makes it anew. True if there was anything. */
+  clear(): boolean {
     for (const skin of this.skins) {
       skin.removeFromParent();
       skin.traverse((object) => {
@@ -117,6 +119,8 @@ function copyOf(root: Object3D, material: MeshBasicMaterial): Object3D {
     object.material = material;
     object.castShadow = false;
     object.renderOrder = BEHIND;
+    // Copies are in no batch.
+    if (!isHidden(object)) object.layers.mask = LAYERS.alone;
   });
   for (const object of over) object.removeFromParent();
   return copy;

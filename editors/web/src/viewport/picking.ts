@@ -1,6 +1,7 @@
 // Finds what is under the pointer.
 
 import { Raycaster, Vector2, type Mesh, type Object3D, type Vector3 } from "three";
+import { LAYERS } from "./batches";
 import { partNode } from "./model";
 import type { View } from "./view";
 
@@ -13,6 +14,7 @@ export interface Hit {
 /** The nearest part among these meshes at a point of the window, or null. */
 export function pick(meshes: readonly Mesh[], view: View, canvas: HTMLElement, x: number, y: number): Hit | null {
   const caster = new Raycaster();
+  caster.layers.mask = LAYERS.alone | LAYERS.batched;
   caster.setFromCamera(place(canvas, x, y), view.camera);
   // Both sides of a surface are hit.
   for (const { object, point } of caster.intersectObjects([...meshes], false)) {

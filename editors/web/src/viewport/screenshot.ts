@@ -1,6 +1,5 @@
 // Screenshots of the model.
 
-import { Color } from "three";
 import type { Viewer } from "./viewer";
 
 /** The viewport as a PNG: on the given background, or only the model on a transparent one. */
@@ -12,11 +11,5 @@ export function screenshot(viewer: Viewer, background: string | null): Promise<B
     return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the browser could not create the picture"))), "image/png"));
   };
   if (background === null) return viewer.bare(take);
-  renderLoop.renderer.setClearColor(new Color(background), 1);
-  try {
-    return take();
-  } finally {
-    renderLoop.renderer.setClearColor(0x000000, 0);
-    renderLoop.invalidate();
-  }
+  return renderLoop.withBackground(background, take);
 }

@@ -54,8 +54,8 @@ export class SideBySide {
     for (const object of over) object.removeFromParent();
     this.originals = originals;
     this.place.position.x = 0;
-    this.copy = new Model(root, model.clips);
-    this.place.add(root);
+    this.copy = new Model(root, model.clips, [], model);
+    this.copy.addTo(this.place);
     this.mixer = new AnimationMixer(root);
   }
 
@@ -63,7 +63,8 @@ export class SideBySide {
   remove(): void {
     this.mixer?.stopAllAction();
     for (const mesh of this.copy?.meshes ?? []) if (mesh instanceof SkinnedMesh) mesh.skeleton.dispose();
-    this.copy?.root.removeFromParent();
+    this.copy?.batches.dispose();
+    this.copy?.remove();
     this.copy = this.mixer = this.action = this.clip = this.boxes = null;
   }
 

@@ -3,7 +3,6 @@
 import type { Host } from "../host/host";
 import { count, prefersReducedMotion } from "../dom";
 import type { State } from "../state";
-import type { Build } from "../protocol";
 import { SideBySide } from "./side-by-side";
 import { cornersOf } from "./bend";
 import { Comparison } from "./comparison";
@@ -11,8 +10,9 @@ import { ExposureSheet } from "./exposure-sheet";
 import { Ground } from "./ground";
 import { Highlight, type Mark } from "./highlight";
 import { Latest } from "./latest";
+import { isSame, load, type Loaded, type Wanted } from "./loading";
+import { elementOf, nodeName, type Model, type Shading } from "./model";
 import { pathOf } from "./path";
-import { elementOf, nodeName, readModel, type Model, type Shading } from "./model";
 import { drawingAt, Player } from "./clips";
 import { OnionSkin } from "./onion-skin";
 import { Pose } from "./pose";
@@ -20,20 +20,8 @@ import { RenderLoop } from "./render-loop";
 import { Stack } from "./stack";
 import { Travel } from "./travel";
 import { View } from "./view";
-import { applyHidden, isHidden } from "./visibility";
+import { applyHidden, isAlone, isHidden } from "./visibility";
 import { Box3, Vector3, type AnimationClip, type Camera, type Object3D, type PerspectiveCamera } from "three";
-
-/** A model that was requested. */
-interface Wanted {
-  readonly drawing: string;
-  readonly connection: number;
-  readonly revision: number;
-  readonly address: string;
-  readonly clips: Build["clips"];
-  readonly originals: string | null;
-}
-
-const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing === b.drawing && a.connection === b.connection && a.address === b.address;
 
 /**
  * model: another is shown, or none · display: shading, projection or mode changed · time: the clip moved · pose: a limb moved ·
@@ -59,13 +47,14 @@ export class Viewer {
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
-  private readonly loading: Latest<Wanted, { model: Model; bytes: ArrayBuffer }>;
-  private shown: Wanted | null = null;
+  private readonly loading: Latest<Wanted, Loaded>;
+  /** The request for the model that is shown. */
+  shown: Wanted | null = null;
   /** The last request that is not shown yet. */
   private awaited: Wanted | null = null;
   model: Model | null = null;
-  /** The file of the model. */
-  bytes: ArrayBuffer | null = null;
+  /** The file of the model; null if only what changed in it was read. */
+  private bytes: ArrayBuffer | null = null;
   /** Why the newest model is not shown, as a message. */
   failure = "";
   shading: Shading = "smooth";
@@ -76,7 +65,7 @@ export class Viewer {
   /** The share of the bend of terrain: 1 is as drawn, 0 true 3D. */
   bent = 1;
 
-  constructor(private readonly state: State, host: Host, place: HTMLElement) {
+  constructor(private readonly state: State, private readonly host: Host, place: HTMLElement) {
     this.canvas.tabIndex = 0;
     // Screen readers pass the arrow keys on to it.
     this.canvas.setAttribute("role", "application");
@@ -89,16 +78,8 @@ export class Viewer {
     this.sideBySide = new SideBySide(this.renderLoop.scene);
     this.onionSkin = new OnionSkin(this.renderLoop.scene, this);
     this.loading = new Latest(
-      async ({ address }) => {
-        const bytes = await host.model(address);
-        const model = await readModel(bytes);
-        model.shade(this.shading);
-        model.light((material) => this.renderLoop.lights.reach(material));
-        // The first model's shaders are compiled before it is added, so that the page does not stall; later models mostly share them.
-        if (!this.model) await this.renderLoop.renderer.compileAsync(model.root, this.view.camera, this.renderLoop.scene);
-        return { model, bytes };
-      },
-      ({ model, bytes }, wanted) => this.take(model, bytes, wanted),
+      (wanted) => load(wanted, this, host, this.renderLoop),
+      (loaded, wanted) => this.take(loaded, wanted),
       (error, wanted) => this.failed(error, wanted),
     );
     this.comparison = new Comparison(this.sideBySide, this, {
@@ -114,6 +95,10 @@ export class Viewer {
     this.stack = new Stack(this);
     this.renderLoop.beforeFrame((seconds) => this.step(seconds));
     this.renderLoop.follow = (camera) => this.follow(camera);
+    this.renderLoop.placed = () => {
+      this.model?.batches.follow();
+      this.sideBySide.copy?.batches.follow();
+    };
     this.view.leftFilm = () => {
       this.filming = false;
       this.notify("time");
@@ -324,9 +309,24 @@ export class Viewer {
     this.loading.want(wanted);
   }
 
-  private take(model: Model, bytes: ArrayBuffer, wanted: Wanted): void {
+  /** The file of the model; null if the server that has it is gone. */
+  async file(): Promise<ArrayBuffer | null> {
+    const { shown, state } = this;
+    if (this.bytes || !shown || shown.connection !== state.connection || state.link !== "open") return this.bytes;
+    return this.host.model(shown.address);
+  }
+
+  private take(loaded: Loaded, wanted: Wanted): void {
+    // The model that changed may be gone meanwhile.
+    if ("changes" in loaded && (!this.model || this.shown !== loaded.since)) {
+      if (wanted === this.awaited) this.loading.want(wanted);
+      return;
+    }
     if (wanted === this.awaited) this.awaited = null;
-    if (wanted.drawing !== this.state.current) return model.dispose();
+    if (wanted.drawing !== this.state.current) {
+      if ("model" in loaded) loaded.model.dispose();
+      return;
+    }
     const first = this.model === null;
     this.pose.release();
     for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
@@ -334,19 +334,14 @@ export class Viewer {
     this.sideBySide.remove();
     // Disposes of the model before the last if no frame was drawn since.
     this.renderLoop.settle();
-    const before = this.model;
-    before?.root.removeFromParent();
-    if (before) model.reuseGeometries(before);
-    this.model = model;
-    this.bytes = bytes;
+    const before = this.replace(loaded);
+    const model = this.model!;
     this.shown = wanted;
     this.failure = "";
-    // The user may have changed it while the model was loading.
-    model.shade(this.shading);
     this.exposures = wanted.clips.map((facts) => new ExposureSheet(facts));
     this.player.take(model, !prefersReducedMotion());
     this.pose.apply();
-    this.renderLoop.scene.add(model.root);
+    model.addTo(this.renderLoop.scene);
     this.surround();
     this.comparison.take(wanted);
     this.hideParts();
@@ -362,6 +357,27 @@ export class Viewer {
     });
     this.renderLoop.drawNow();
     this.notify("model", "time", "sideBySide");
+  }
+
+  /** Shows what was loaded; the model that it replaces, if it is another one, is returned. */
+  private replace(loaded: Loaded): Model | null {
+    const before = this.model;
+    this.path = null;
+    if ("changes" in loaded) {
+      this.player.release();
+      this.onionSkin.clear();
+      before?.update(loaded.changes);
+      before?.light((material) => this.renderLoop.reach(material));
+      this.bytes = null;
+      return null;
+    }
+    before?.remove();
+    if (before) loaded.model.reuseGeometries(before);
+    this.model = loaded.model;
+    this.bytes = loaded.bytes;
+    // The user may have changed it while the model was loading.
+    this.model.shade(this.shading);
+    return before;
   }
 
   private failed(error: unknown, wanted: Wanted): void {
@@ -428,8 +444,10 @@ export class Viewer {
   }
 
   private drawEdges(): void {
-    const meshes = this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.sideBySide.copy?.meshes ?? [])] : [];
-    this.highlight.edges(meshes.filter((mesh) => !isHidden(mesh)));
+    const models = [this.model, this.sideBySide.copy].filter((model) => model !== null);
+    const on = this.shading === "edges";
+    this.highlight.edges(on ? models.flatMap(({ meshes }) => meshes.filter(isAlone)) : []);
+    for (const { batches } of models) batches.drawEdges(on ? this.highlight.lines : null);
   }
 
   /** Hides the hidden parts in the model and in the copy beside it. */
@@ -466,16 +484,16 @@ export class Viewer {
     if (!model) return;
     const towards = new Vector3(0, 0, 1).applyQuaternion(camera.quaternion);
     const turned = [model, this.sideBySide.copy].map((one) => one?.turns.follow(towards));
-    if (turned.includes(true)) this.renderLoop.renderer.shadowMap.needsUpdate = true;
+    if (turned.includes(true)) this.renderLoop.moves();
     if (model.bend.isEmpty) return;
     const bends = [model, this.sideBySide.copy].map((one) => one?.bend.follow(towards, this.bent));
     if (!bends.includes(true)) return;
     this.ground.bend(model.bend.inWorld());
-    this.renderLoop.renderer.shadowMap.needsUpdate = true;
+    this.renderLoop.moves();
   }
 
   private step(seconds: number): boolean {
-    this.highlight.measure(this.renderLoop.renderer);
+    this.highlight.measure(this.renderLoop.size);
     if (!this.player.playing) return false;
     const { keys, time } = this.player;
     this.pose.release();
