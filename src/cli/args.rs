@@ -237,8 +237,8 @@ pub(super) struct Preview {
     /// A drawing, or a folder of drawings
     #[arg(value_name = "DRAWING|FOLDER")]
     pub(super) path: PathBuf,
-    /// The port on 127.0.0.1 [default: 4173, or any free one]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    /// The port on 127.0.0.1; 0 takes any free one [default: 4173, or any free one]
+    #[arg(long, value_name = "N")]
     pub(super) port: Option<u16>,
     /// Open the browser
     #[arg(long)]

@@ -52,7 +52,7 @@ impl Bound {
     }
 }
 
-/// Binds a port on loopback: the given one, or else the default one or any free one.
+/// Binds a port on loopback: the given one, where 0 stands for any free one, or else the default one or any free one.
 ///
 /// # Errors
 /// If the given port is not available.
