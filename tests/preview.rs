@@ -393,7 +393,10 @@ fn a_taken_port_is_an_error() {
     live.line(&format!("error: port {port} is not available"));
     let free = Live::start(folder.path(), &["preview", "a.svg", "--port", "0"]);
     let line = free.line("http://127.0.0.1:");
-    assert!(!line.ends_with(":0/") && !line.ends_with(":4173/"), "{line}");
+    assert!(
+        !line.ends_with(":0/") && !line.ends_with(":4173/"),
+        "{line}"
+    );
 }
 
 /// The web socket of a page that records, with an origin.

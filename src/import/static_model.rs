@@ -4,7 +4,7 @@ use ::gltf::texture::{MagFilter, WrappingMode};
 use ::gltf::{Document, image, material};
 use glam::{DMat3, DVec3};
 
-use super::{Buffers, ImportError, ParsedFile, TriangleSoup, read};
+use super::{Buffers, ImportError, ParsedFile, TriangleSoup, decode, read};
 use crate::resolver::Resolver;
 use crate::scene::{
     AlphaMode, Filter, Image, Material, MediaType, Surface, Texture, TextureUse, Wrap,
@@ -37,7 +37,8 @@ struct Piece {
 /// Reads a model in its rest pose; what it links to comes from `resolver`.
 ///
 /// # Errors
-/// A file that cannot be read, has no triangles or too many, or has images that are neither PNG nor JPEG.
+/// A file that cannot be read, has no triangles or too many, or has images that are neither PNG nor JPEG or cannot be
+/// decoded.
 pub fn read_static_model(
     bytes: &[u8],
     resolver: &dyn Resolver,
@@ -255,6 +256,8 @@ fn images(
         let index = image.index();
         let media_type = MediaType::of(&bytes)
             .ok_or_else(|| ImportError::Image(format!("image {index} is neither PNG nor JPEG")))?;
+        // They are written as they are, and others could not read a damaged one either.
+        decode(&bytes)?;
         Ok(Image {
             name: image.name().unwrap_or_default().to_owned(),
             media_type,

@@ -98,16 +98,6 @@ impl PixelSampler<'_> {
         average(&mut out[first..], 1);
     }
 
-    /// As [`sample`](Self::sample), by as many rays as for an edge.
-    pub(super) fn sample_edge(&self, x: u32, y: u32, out: &mut Vec<Fragment>) {
-        let first = out.len();
-        let corner = Vec2::new(x as f32, y as f32);
-        for index in 0..self.sampling.edge {
-            self.trace(corner + even(index), first, out);
-        }
-        average(&mut out[first..], self.sampling.edge);
-    }
-
     /// Whether one ray is enough for a pixel, judging by what it shows and what its neighbours show.
     pub(super) fn is_enough<'f>(
         &self,

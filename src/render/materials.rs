@@ -1,21 +1,13 @@
 //! Reads materials and their images.
 
-use std::io::Cursor;
-
 use ::gltf::texture::{MagFilter, WrappingMode};
 use ::gltf::{Document, material};
-use ::image::{ImageReader, Limits, RgbaImage};
 use glam::{Vec3, Vec4};
 
 use super::surface::{Alpha, Material};
 use super::texture::{Sampler, Texture, Wrap};
-use crate::import::{Buffers, ImportError};
+use crate::import::{Buffers, ImportError, decode};
 use crate::resolver::Resolver;
-
-/// The largest width and height of an image, in texels.
-const MAX_IMAGE_SIDE: u32 = 16_384;
-/// The memory that an image may take, in bytes.
-const MAX_IMAGE_BYTES: u64 = 512 << 20;
 
 /// The file's materials, followed by the one for triangles without a material.
 pub(super) fn read(document: &Document) -> Vec<Material> {
@@ -92,18 +84,4 @@ pub(super) fn textures(
             false => Ok(None),
         })
         .collect()
-}
-
-fn decode(bytes: &[u8]) -> Result<RgbaImage, ImportError> {
-    let failed = |error: String| ImportError::Image(error);
-    let mut reader = ImageReader::new(Cursor::new(bytes))
-        .with_guessed_format()
-        .map_err(|error| failed(error.to_string()))?;
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_IMAGE_SIDE);
-    limits.max_image_height = Some(MAX_IMAGE_SIDE);
-    limits.max_alloc = Some(MAX_IMAGE_BYTES);
-    reader.limits(limits);
-    let image = reader.decode().map_err(|error| failed(error.to_string()))?;
-    Ok(image.into_rgba8())
 }
