@@ -157,3 +157,41 @@ macro_rules! tests {
 }
 
 tests!(string drawing changes motion model picture messages session track);
+
+/// The names under `[dependencies]` and `[dev-dependencies]` of a manifest.
+fn dependencies(manifest: &str) -> Vec<String> {
+    let text = fs::read_to_string(manifest).expect("a manifest");
+    let mut section = "";
+    let mut names = vec![];
+    for line in text.lines() {
+        if line.starts_with('[') {
+            section = line;
+        } else if let Some((name, _)) = line.split_once(" = ")
+            && ["[dependencies]", "[dev-dependencies]"].contains(&section)
+        {
+            names.push(name.replace('-', "_"));
+        }
+    }
+    names
+}
+
+/// The targets are built by a package of its own, which the tests do not build.
+#[test]
+fn the_targets_use_what_their_package_depends_on() {
+    let [own, fuzzing] = ["Cargo.toml", "fuzz/Cargo.toml"].map(dependencies);
+    let mut used = 0;
+    for file in fs::read_dir("tests/fuzzing").expect("the targets") {
+        let path = file.expect("a target").path();
+        let text = fs::read_to_string(&path).expect("its source");
+        for name in &own {
+            let is_used = text.match_indices(&format!("{name}::")).any(|(at, _)| {
+                let before = text[..at].chars().next_back();
+                !before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':')
+            });
+            used += usize::from(is_used);
+            let known = fuzzing.contains(name);
+            assert!(!is_used || known, "{} uses {name}", path.display());
+        }
+    }
+    assert!(used > 3, "{used} uses were found");
+}
