@@ -131,7 +131,7 @@ async function measure(parts) {
   const folder = mkdtempSync(join(tmpdir(), "okoshi-bench-"));
   const path = join(folder, "a.svg");
   save(path, drawing(parts, 24));
-  const server = spawn(okoshi, ["preview", path, "--port", "4199", "-q"], { stdio: ["ignore", "pipe", "inherit"] });
+  const server = spawn(okoshi, ["preview", path, "--port", "0", "-q"], { stdio: ["ignore", "pipe", "inherit"] });
   const url = await new Promise((found) => server.stdout.once("data", (line) => found(String(line).trim())));
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
