@@ -306,10 +306,10 @@ impl<'a> FigureContext<'a> {
     /// The layers per half turn of a part that comes out by a share of its own heights only, unless the drawing says how many.
     fn flattened_segments(&self, part: usize, profile: &Profile, share: f64) -> Option<u32> {
         let attributes = self.bindings.attributes(self.bindings.form(part));
-        let of_whole = self.options(part, profile).segments;
         // A rounding by n layers is off by its height over n², so a lower one is as close with fewer.
-        let enough = (f64::from(of_whole) * share.sqrt()).ceil() as u32;
-        attributes.segments().is_none().then_some(enough)
+        let enough = |of_whole: u32| (f64::from(of_whole) * share.sqrt()).ceil() as u32;
+        let is_free = attributes.segments().is_none();
+        is_free.then(|| enough(self.options(part, profile).segments))
     }
 
     /// The solid of a part by itself in the frame of its node, `[main, part]`, its plane at depth 0.

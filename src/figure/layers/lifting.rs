@@ -147,8 +147,7 @@ impl Lifting<'_> {
         // A volume has heights of its own too, where it is not lifted.
         let is_low = form != LayForm::Volume && bulge > 0.0;
         let context = self.arrangement.context;
-        let segments =
-            is_low.then(|| context.flattened_segments(shape.part, &shape.profile, bulge));
+        let flattened = || context.flattened_segments(shape.part, &shape.profile, bulge);
         Form::Laid(Lay {
             below,
             wraps: cover.wraps.clone(),
@@ -157,7 +156,7 @@ impl Lifting<'_> {
             step: self.arrangement.steps[index] * self.world.scale,
             invisible: self.arrangement.context.invisible * self.world.scale,
             bulge,
-            segments: segments.flatten(),
+            segments: is_low.then(flattened).flatten(),
             form,
             is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,
         })

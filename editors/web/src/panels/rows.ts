@@ -1,8 +1,7 @@
 // The rows of the hierarchy: which parts are shown, in which order, and how deep.
 
-import { isAside } from "../parts";
+import { isAside, type Parts } from "../parts";
 import type { Part } from "../protocol";
-import type { Parts } from "../parts";
 
 export interface Row {
   readonly part: Part;
