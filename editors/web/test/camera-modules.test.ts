@@ -43,7 +43,7 @@ test("one frame is on its way at a time, and none is sent twice", () => {
   const { sent, socket, hear, end } = fakeSocket();
   const received: FromTracker[] = [];
   let ends = 0;
-  const link = new Link(socket, (message) => received.push(message), () => ends++);
+  const link = new Link(socket, () => {}, (message) => received.push(message), () => ends++);
   assert.ok(link.isReady && link.frame(PIXELS, 10));
   assert.ok(!link.isReady, "the first frame is not answered yet");
   hear('{"type":"marks","marks":[]}');
@@ -63,7 +63,7 @@ test("one frame is on its way at a time, and none is sent twice", () => {
 
 test("a connection that the page closes is not lost", () => {
   const { socket, end } = fakeSocket();
-  const link = new Link(socket, () => {}, () => assert.fail("lost"));
+  const link = new Link(socket, () => {}, () => {}, () => assert.fail("lost"));
   link.close();
   end();
 });

@@ -191,7 +191,8 @@ camera("everything is done with the keyboard, and Escape releases the camera", a
   await walk(red.y > HEIGHT / 2 ? "ArrowDown" : "ArrowUp", Math.abs(red.y - HEIGHT / 2));
   await page.keyboard.press("Enter");
   const name = panel(page).locator(".camera-name");
-  await name.waitFor();
+  await page.waitForFunction(() => !document.querySelector(".camera-status")!.textContent!.startsWith("Click on each mark"));
+  assert.equal(await panel(page).locator(".camera-status").textContent(), "1 mark: red.");
   assert.equal(await name.inputValue(), "red");
   for (const refused of ["", "two words"]) {
     await name.fill(refused);
@@ -225,6 +226,35 @@ camera("everything is done with the keyboard, and Escape releases the camera", a
   await panel(page).waitFor({ state: "hidden" });
   // The dialog's event comes a moment after it is hidden.
   await page.waitForFunction(() => (window as unknown as { streams: MediaStream[] }).streams.every((stream) => stream.getTracks().every(({ readyState }) => readyState === "ended")));
+});
+
+camera("marks are chosen only when the program listens", async (page) => {
+  await page.evaluate(() => {
+    const real = WebSocket;
+    window.WebSocket = class extends real {
+      private readonly released = new Promise<void>((resolve) => Object.assign(window, { release: resolve }));
+      private isReleased = false;
+      override get readyState(): WebSocket["readyState"] {
+        return this.isReleased ? super.readyState : real.CONNECTING;
+      }
+      override addEventListener(name: string, listener: EventListenerOrEventListenerObject): void {
+        const late = (event: Event): void => void this.released.then(() => {
+          this.isReleased = true;
+          (listener as EventListener)(event);
+        });
+        super.addEventListener(name, name === "open" ? late : listener);
+      }
+    };
+  });
+  await page.keyboard.press("r");
+  await press(page, "Use the camera");
+  await status(page, "Connecting to okoshi");
+  await page.waitForFunction(() => document.querySelector<HTMLCanvasElement>(".camera-picture")!.width === 320);
+  const still = panel(page).getByRole("button", { name: "Hold the picture still" });
+  assert.ok(await still.isDisabled());
+  await page.evaluate(() => (window as unknown as { release(): void }).release());
+  await status(page, "Click on each mark");
+  await choose(page);
 });
 
 camera("failures are told", async (page, program) => {

@@ -14,7 +14,11 @@ export class Link {
   private lastTime = -Infinity;
   private isClosed = false;
 
-  constructor(private readonly socket: Socket, received: (message: FromTracker) => void, lost: () => void) {
+  /** `opened` is called when messages can be sent: earlier ones are dropped. */
+  constructor(private readonly socket: Socket, opened: () => void, received: (message: FromTracker) => void, lost: () => void) {
+    socket.addEventListener("open", () => {
+      if (!this.isClosed) opened();
+    });
     socket.addEventListener("message", ({ data }: MessageEvent<unknown>) => {
       const message = readMessage(data);
       if (!message || this.isClosed) return;

@@ -25,10 +25,10 @@ const STEP = 2;
 const LARGE_STEP = 16;
 
 /**
- * closed · asking: before the camera is used · live: marks are chosen and followed · counting: in · recording · tracking: the recording
+ * closed · asking: before the camera is used · connecting: to the program · live: marks are chosen and followed · counting: in · recording · tracking: the recording
  * is tracked once more · replay · failed: the message says why
  */
-type Stage = "closed" | "asking" | "live" | "counting" | "recording" | "tracking" | "replay" | "failed";
+type Stage = "closed" | "asking" | "connecting" | "live" | "counting" | "recording" | "tracking" | "replay" | "failed";
 
 export class CameraPanel {
   private readonly element = h("dialog", { class: "camera-dialog", attributes: { "aria-labelledby": "camera-title" } });
@@ -116,8 +116,13 @@ export class CameraPanel {
     // The panel may have been closed while the browser asked.
     if (!this.element.open) return this.camera.stop();
     this.link?.close();
-    this.link = new Link(openCamera(), (message) => this.received(message), () => this.lost());
+    this.link = new Link(openCamera(), () => this.opened(), (message) => this.received(message), () => this.lost());
     this.forget();
+    this.show("connecting", "Connecting to okoshi…");
+  }
+
+  /** The program listens: what is chosen from now on reaches it. */
+  private opened(): void {
     this.live();
     this.canvas.focus();
   }
