@@ -201,7 +201,7 @@ impl<'a> Figures<'a> {
     ) -> Option<Piece> {
         let (_, both) = self.context.stand(main, part);
         let sides = if both { Sides::Both } else { Sides::Front };
-        if let Some((pile, body)) = self.layers.lifted(part) {
+        if let Some((pile, body)) = self.layers.in_pile(part) {
             return Some(Piece::Deferred(Arc::new(LaidSolid {
                 pile: Arc::clone(pile),
                 body,

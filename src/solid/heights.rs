@@ -8,6 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::Solid;
 use super::cells::Cells;
+use super::inflate::{Field, Mesh};
 use crate::scene::{Surface, SurfaceSource};
 
 /// Triangles that are steeper than this, as the cosine of their slope, are walls, which nothing lies on.
@@ -44,9 +45,15 @@ impl Heights {
         Self::over(Facet::of(surface), false)
     }
 
-    /// The heights of triangles whose projections do not overlap. Their corners have the same coordinates where they share edges.
-    pub(super) fn of_field(triangles: impl Iterator<Item = [Vec3; 3]>) -> Self {
-        Self::over(triangles.filter_map(Facet::new).collect(), true)
+    /// The heights over a mesh whose points have these.
+    pub(super) fn over_mesh(mesh: &Mesh, height: impl Fn(usize) -> f64) -> Self {
+        let place = |i: u32| {
+            let [x, y] = mesh.points[i as usize];
+            Vec3::new(x, y, height(i as usize) as f32)
+        };
+        let facets = mesh.triangles.iter();
+        let facets = facets.filter_map(|triangle| Facet::new(triangle.map(place)));
+        Self::over(facets.collect(), true)
     }
 
     fn over(facets: Vec<Facet>, is_field: bool) -> Self {
@@ -352,11 +359,11 @@ impl BothHeights {
         }
     }
 
-    /// The heights of a solid in its own frame.
-    pub(super) fn of_solid(solid: &Solid) -> Self {
-        match solid.front() {
-            Some(front) if solid.options.placement.translation.z == 0.0 => Self {
-                front: Arc::new(Heights::over(Facet::of(&front), true)),
+    /// The heights of a solid in its own frame, whose field this is if it has one.
+    pub(super) fn of_solid(solid: &Solid, field: Option<&Field>) -> Self {
+        match field {
+            Some(field) if solid.options.placement.translation.z == 0.0 => Self {
+                front: Arc::new(Heights::over_mesh(&field.mesh, |i| field.heights[i])),
                 back: None,
             },
             _ => Self::of(&solid.surface()),

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use rustc_hash::FxHasher;
 
-use super::inflate::Mesh;
+use super::inflate::{Field, Mesh};
 use super::{Options, Profile, build, half_extents};
 use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
@@ -131,12 +131,18 @@ impl Solid {
         numbers.for_each(&mut number);
     }
 
-    /// The front of its surface without normals, for height fields.
-    pub(super) fn front(&self) -> Option<Surface> {
-        let field = self.profile.height_field()?;
+    /// The front, for height fields. The depth of the plane and the crease angle do not matter.
+    pub(super) fn field(&self) -> Option<Field> {
+        let kind = self.profile.height_field()?;
         let outline = self.in_frame();
         let half = half_extents(&outline)?;
-        Some(field.front(&outline, half, &self.options))
+        Some(kind.field(&outline, half, &self.options))
+    }
+
+    /// The surface in front of the drawing plane and behind it, made from its [`Solid::field`], without texture coordinates.
+    pub(super) fn surface_of(&self, field: &Field) -> Option<Surface> {
+        let kind = self.profile.height_field()?;
+        Some(kind.surface_of(field, &self.options))
     }
 
     /// The heights over the points of a mesh of its outline, for height fields.

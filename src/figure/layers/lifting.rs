@@ -77,12 +77,12 @@ impl Lifting<'_> {
             moved.push(faces);
             lays.push(lay);
         }
-        let (pile, lifted) = self.pile(lays, &raised, recent);
+        let (pile, places) = self.pile(lays, &raised, recent);
         Layers {
             nodes,
             offsets,
             raised,
-            lifted,
+            places,
             pile: Arc::new(pile),
         }
     }
@@ -208,8 +208,8 @@ impl Lifting<'_> {
         })
     }
 
-    /// The pile of all shapes that are laid on others, and of those that they are laid on. Per part its place in it, if it is
-    /// laid on others.
+    /// The pile of all shapes that are laid on others, and of those that they are laid on. Per part its place in it, if it has
+    /// one.
     fn pile(
         &self,
         lays: Vec<Option<Lay>>,
@@ -225,7 +225,7 @@ impl Lifting<'_> {
             }
         }
         let mut place = vec![usize::MAX; self.arrangement.shapes.len()];
-        let mut lifted = vec![None; self.arrangement.context.bindings.parts.len()];
+        let mut places = vec![None; self.arrangement.context.bindings.parts.len()];
         let mut count = 0;
         for index in (0..self.arrangement.shapes.len()).filter(|index| takes_part[*index]) {
             place[index] = count;
@@ -245,12 +245,10 @@ impl Lifting<'_> {
                 behind: to_place(lay.behind),
                 ..lay
             });
-            if lay.is_some() {
-                lifted[shape.part] = Some(made.len());
-            }
+            places[shape.part] = Some(made.len());
             made.push(self.body(index, lay, raised[shape.part]));
         }
-        (Pile::new(made, recent), lifted)
+        (Pile::new(made, recent), places)
     }
 
     fn body(&self, index: usize, lay: Option<Lay>, raised: [f64; 2]) -> Body {

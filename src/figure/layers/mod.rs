@@ -124,8 +124,8 @@ pub(super) struct Layers {
     offsets: Vec<f64>,
     /// Per part how far the faces of its solid are moved outwards, back and front.
     raised: Vec<[f64; 2]>,
-    /// Per part that is lifted, its place in the pile.
-    lifted: Vec<Option<usize>>,
+    /// Per part its place in the pile, if it has one.
+    places: Vec<Option<usize>>,
     pile: Arc<Pile>,
 }
 
@@ -236,9 +236,15 @@ impl Layers {
         self.raised[part]
     }
 
-    /// A part's place in the pile, if it is lifted by others.
-    pub(super) fn lifted(&self, part: usize) -> Option<(&Arc<Pile>, usize)> {
-        self.lifted[part].map(|body| (&self.pile, body))
+    /// Whether a part is lifted by others.
+    pub(super) fn is_lifted(&self, part: usize) -> bool {
+        self.places[part].is_some_and(|body| self.pile.bodies()[body].lay.is_some())
+    }
+
+    /// A part's place in the pile, if that makes its surface.
+    pub(super) fn in_pile(&self, part: usize) -> Option<(&Arc<Pile>, usize)> {
+        let body = self.places[part].filter(|body| self.pile.makes(*body))?;
+        Some((&self.pile, body))
     }
 }
 

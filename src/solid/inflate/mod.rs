@@ -25,33 +25,23 @@ use super::{Options, Placement};
 use crate::geometry::Outline;
 use crate::scene::Surface;
 
-/// The smallest height over an inner point, relative to depths, that `f32` can distinguish from 0.
+/// The smallest height over an inner point, relative to depths and to the highest point, that `f32` can distinguish from 0.
 const MIN_HEIGHT: f64 = 1e-6;
 
-/// The front of an inflated outline: heights over a mesh in the drawing plane.
+/// The front of a solid that is a height field, over a mesh in the drawing plane.
 #[derive(Debug, Default)]
-pub(in crate::solid) struct Field {
+pub struct Field {
     pub(in crate::solid) mesh: Mesh,
     /// Over each point of the mesh, model units: 0 on the border, positive elsewhere.
     pub(in crate::solid) heights: Vec<f64>,
 }
 
-/// The surface over both sides of an outline whose bounding box has these half extents. Its highest points have the given
-/// height, drawing units.
-///
-/// Without a given height the field is not scaled: a ball over a disc, about 0.7 of the width over a narrow bar. The height is
-/// at most half the smaller side of the box, so that a ring or a letter stays thin.
-pub(super) fn inflate(
-    outline: &Outline,
-    given: Option<f64>,
-    half: DVec2,
-    options: &Options,
-) -> Surface {
-    let field = field(outline, given, half, options);
+/// The surface over both sides of a field about the plane that the options place it in.
+pub(super) fn surface(field: &Field, options: &Options) -> Surface {
     let Placement {
         translation, scale, ..
     } = options.placement;
-    let sides = Sides::of(&field, scale * translation.z);
+    let sides = Sides::of(field, scale * translation.z);
     // All edges come from the steps, so either all of them are smooth or none is.
     let step = 180.0 / f64::from(steps_per_half_turn(options));
     if options.crease <= step || options.crease.is_nan() {
@@ -63,43 +53,28 @@ pub(super) fn inflate(
     }
 }
 
-/// The front of the surface of [`inflate`], without normals.
-pub(super) fn front(
+/// The heights over an outline whose bounding box has these half extents. The highest points have the given height, drawing units.
+/// The depth at which the options place it does not matter.
+///
+/// Without a given height the field is not scaled: a ball over a disc, about 0.7 of the width over a narrow bar. The height is
+/// at most half the smaller side of the box, so that a ring or a letter stays thin.
+pub(super) fn field(
     outline: &Outline,
     given: Option<f64>,
     half: DVec2,
     options: &Options,
-) -> Surface {
-    let field = field(outline, given, half, options);
-    let Placement {
-        translation, scale, ..
-    } = options.placement;
-    let positions = sides::front(&field, scale * translation.z);
-    Surface {
-        positions: positions.collect(),
-        triangles: field.mesh.triangles,
-        ..Surface::default()
-    }
-}
-
-/// The front of the surface of [`inflate`] as heights.
-fn field(outline: &Outline, given: Option<f64>, half: DVec2, options: &Options) -> Field {
+) -> Field {
     let transform = PlacementTransform::new(options);
     let points = points(outline, steps_per_half_turn(options));
     let mesh = mesh(&points, &transform);
     Field {
-        heights: heights(&mesh, given, half, &options.placement),
+        heights: heights(&mesh, given, half, options.placement.scale),
         mesh,
     }
 }
 
-/// The heights of the front of [`inflate`] over a mesh of the outline at its final place, model units.
-pub(super) fn heights(
-    mesh: &Mesh,
-    given: Option<f64>,
-    half: DVec2,
-    placement: &Placement,
-) -> Vec<f64> {
+/// The heights of [`field`] over a mesh of the outline at its final place, model units; `scale` are model units a drawing unit.
+pub(super) fn heights(mesh: &Mesh, given: Option<f64>, half: DVec2, scale: f64) -> Vec<f64> {
     let most = height(given, half);
     let Some(first) = mesh.points.first() else {
         return Vec::new();
@@ -117,12 +92,9 @@ pub(super) fn heights(
     let solution = poisson::solve(&plane, &mesh.triangles, &mesh.on_border);
     let highest = solution.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
 
-    let Placement {
-        translation, scale, ..
-    } = placement;
     let own = 2.0 * highest.sqrt() * extent / scale;
     let height = if given.is_none() { most.min(own) } else { most };
-    let least = MIN_HEIGHT * translation.z.abs().max(height);
+    let least = MIN_HEIGHT * height;
     let heights = solution.iter().zip(&mesh.on_border);
     let heights = heights.map(|(u, on_border)| {
         if *on_border {

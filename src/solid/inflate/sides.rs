@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::Field;
+use super::{Field, MIN_HEIGHT};
 use crate::scene::Surface;
 use crate::solid::crease::Crease;
 use crate::solid::shade::shade;
@@ -23,15 +23,21 @@ impl Sides {
     pub(super) fn of(field: &Field, middle: f64) -> Self {
         let mesh = &field.mesh;
         let count = mesh.points.len();
+        let least = MIN_HEIGHT * middle.abs();
+        let height = |i: usize| match mesh.on_border[i] {
+            true => 0.0,
+            false => field.heights[i].max(least),
+        };
         let mut points = Vec::with_capacity(2 * count);
-        points.extend(front(field, middle));
+        let front = mesh.points.iter().enumerate();
+        points.extend(front.map(|(i, [x, y])| [*x, *y, (middle + height(i)) as f32]));
         let mut back = Vec::with_capacity(count);
         for (i, [x, y]) in mesh.points.iter().enumerate() {
             if mesh.on_border[i] {
                 back.push(i as u32);
             } else {
                 back.push(points.len() as u32);
-                points.push([*x, *y, (middle - field.heights[i]) as f32]);
+                points.push([*x, *y, (middle - height(i)) as f32]);
             }
         }
         let mut triangles = Vec::with_capacity(2 * mesh.triangles.len());
@@ -100,12 +106,6 @@ impl Sides {
         turn_outward(&mut surface, &faces);
         surface
     }
-}
-
-/// The points of the front of a field about a depth, model units.
-pub(super) fn front(field: &Field, middle: f64) -> impl Iterator<Item = [f32; 3]> + '_ {
-    let points = field.mesh.points.iter().zip(&field.heights);
-    points.map(move |([x, y], height)| [*x, *y, (middle + height) as f32])
 }
 
 /// Where faces fold sharply, one may face away from their mean: it gets corners of its own, and so does that behind it.

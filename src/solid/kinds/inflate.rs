@@ -8,7 +8,7 @@ use super::{HeightField, Kind};
 use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::Options;
-use crate::solid::inflate::{Mesh, front, height, heights, inflate};
+use crate::solid::inflate::{Field, Mesh, field, height, heights, surface};
 use crate::solid::layers::DEFAULT_SEGMENTS;
 
 /// Layers per half turn of the smallest outlines: seen from near by they are still round.
@@ -19,7 +19,7 @@ const STEP: f64 = 4.0;
 /// A height field to both sides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inflate {
-    /// The height of the highest point; see [`inflate`] for what it is if not given.
+    /// The height of the highest point; see [`field`] for what it is if not given.
     height: Option<f64>,
 }
 
@@ -34,7 +34,7 @@ impl Kind for Inflate {
     }
 
     fn surface(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
-        inflate(outline, self.height, half, options)
+        surface(&self.field(outline, half, options), options)
     }
 
     fn height_field(&self) -> Option<&dyn HeightField> {
@@ -59,11 +59,15 @@ impl Kind for Inflate {
 }
 
 impl HeightField for Inflate {
-    fn front(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
-        front(outline, self.height, half, options)
+    fn field(&self, outline: &Outline, half: DVec2, options: &Options) -> Field {
+        field(outline, self.height, half, options)
+    }
+
+    fn surface_of(&self, field: &Field, options: &Options) -> Surface {
+        surface(field, options)
     }
 
     fn heights(&self, mesh: &Mesh, half: DVec2, options: &Options) -> Vec<f64> {
-        heights(mesh, self.height, half, &options.placement)
+        heights(mesh, self.height, half, options.placement.scale)
     }
 }

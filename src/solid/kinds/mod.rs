@@ -13,7 +13,7 @@ use std::ops::{Deref, DerefMut};
 use glam::DVec2;
 
 use super::Options;
-use super::inflate::Mesh;
+use super::inflate::{Field, Mesh};
 use super::layers::{DEFAULT_SEGMENTS, Layer, with_thickness};
 use super::stack;
 use crate::geometry::Outline;
@@ -150,8 +150,11 @@ pub trait Kind {
 
 /// A kind whose front is a height field over the outline, 0 along its border, and whose back mirrors the front.
 pub trait HeightField {
-    /// The front of the surface, without normals.
-    fn front(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface;
+    /// The front over an outline. The depth of the plane and the crease angle do not matter.
+    fn field(&self, outline: &Outline, half: DVec2, options: &Options) -> Field;
+
+    /// The surface of a field.
+    fn surface_of(&self, field: &Field, options: &Options) -> Surface;
 
     /// The heights over the points of any mesh of the outline at its final place, model units.
     fn heights(&self, mesh: &Mesh, half: DVec2, options: &Options) -> Vec<f64>;

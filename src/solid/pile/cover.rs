@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::LayForm;
@@ -132,7 +132,7 @@ impl<'a> Cover<'a> {
     /// What the mesh has over a place, if it is there, by what it has at its points.
     fn interpolated(&self, place: DVec2, of_level: impl Fn(&Level) -> f64) -> Option<f64> {
         // In the plane none of the triangles is a wall, so their numbers are those of the mesh.
-        let plane = self.plane.get_or_init(|| heights_over(&self.mesh, |_| 0.0));
+        let plane = self.plane.get_or_init(|| Heights::over_mesh(&self.mesh, |_| 0.0));
         let (_, triangle) = plane.find(place)?;
         let triangle = self.mesh.triangles.get(triangle as usize)?;
         let [a, b, c] = triangle.map(|i| flat(&self.mesh.points[i as usize]));
@@ -314,16 +314,6 @@ fn lift(shares: [f64; 3], room: [f64; 3], missing: f64) -> f64 {
         lift += (missing - lifted) / free;
     }
     lift
-}
-
-/// The heights over a mesh whose points have these.
-pub(super) fn heights_over(mesh: &Mesh, height: impl Fn(usize) -> f64) -> Heights {
-    let place = |i: u32| {
-        let [x, y] = mesh.points[i as usize];
-        Vec3::new(x, y, height(i as usize) as f32)
-    };
-    let triangles = mesh.triangles.iter();
-    Heights::of_field(triangles.map(|triangle| triangle.map(place)))
 }
 
 /// The places with the greatest deviations, at most this many, the greatest first.

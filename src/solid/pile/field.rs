@@ -10,12 +10,12 @@ use glam::DVec2;
 use rustc_hash::FxHashSet;
 
 use super::LayForm;
-use super::cover::{Cover, heights_over};
+use super::cover::Cover;
 use super::ground::Target;
 use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::crease::Crease;
-use crate::solid::heights::BothHeights;
+use crate::solid::heights::{BothHeights, Heights};
 use crate::solid::inflate::{Mesh, Points, mesh as mesh_of, points};
 use crate::solid::layers::steps_per_half_turn;
 use crate::solid::shade::shade;
@@ -106,8 +106,8 @@ impl Field {
     /// The heights of both sides, depths in the drawing.
     pub(super) fn heights(self: &Arc<Self>) -> BothHeights {
         let field = Arc::clone(self);
-        let back = move || heights_over(&field.mesh, |i| -field.back[i]);
-        BothHeights::new(heights_over(&self.mesh, |i| self.front[i]), back)
+        let back = move || Heights::over_mesh(&field.mesh, |i| -field.back[i]);
+        BothHeights::new(Heights::over_mesh(&self.mesh, |i| self.front[i]), back)
     }
 
     /// The number of triangles of its front.

@@ -47,6 +47,8 @@ const MAX_TOLERANCE: f64 = 2.0;
 #[derive(Debug)]
 pub struct Pile {
     bodies: Vec<Body>,
+    /// Per body a hash of its solid by itself.
+    solids: Vec<u128>,
     /// Per body a hash of all that its surface is made from.
     keys: Vec<u128>,
     /// Per body whether others lie on it.
@@ -191,15 +193,16 @@ impl Pile {
         let each = MORE_POINTS / lifted.max(1).next_power_of_two();
         let mut pile = Self {
             more_points: each.clamp(LEAST_EACH, MOST_EACH),
+            solids: Vec::new(),
             bodies,
             keys: Vec::new(),
             carries,
             recent,
         };
         let solids = pile.bodies.par_iter();
-        let solids: Vec<u128> = solids.map(|body| body.solid.long_key()).collect();
-        for body in 0..solids.len() {
-            let key = pile.key_of(body, &solids);
+        pile.solids = solids.map(|body| body.solid.long_key()).collect();
+        for body in 0..pile.bodies.len() {
+            let key = pile.key_of(body);
             pile.keys.push(key);
         }
         pile
@@ -211,10 +214,10 @@ impl Pile {
     }
 
     /// A hash of all that the surface of a body is made from; those of earlier bodies, and of the solids by themselves, are known.
-    fn key_of(&self, body: usize, solids: &[u128]) -> u128 {
+    fn key_of(&self, body: usize) -> u128 {
         let place = |hasher: &mut dyn Hasher, index: usize| {
             let body = &self.bodies[index];
-            hasher.write_u128(solids[index]);
+            hasher.write_u128(self.solids[index]);
             let numbers = body.to_plane.to_cols_array().into_iter();
             let numbers = numbers.chain([body.depth, body.node_depth, body.flattened]);
             numbers.for_each(|number| hasher.write_u64(number.to_bits()));
@@ -250,7 +253,7 @@ impl Pile {
     fn unlifted(&self, index: usize) -> Placed {
         let body = &self.bodies[index];
         Placed {
-            heights: self.recent.of_solid(&body.solid),
+            heights: self.recent.of_solid(self.solids[index], &body.solid),
             depth: body.depth,
             factor: body.flattened,
         }
@@ -348,16 +351,46 @@ impl Pile {
         };
         match field {
             Some(field) => field.surface(body.node_depth, body.solid.options.crease),
-            None => self.unlifted_surface(body),
+            None => self.unlifted_surface(index),
         }
     }
 
-    fn unlifted_surface(&self, body: &Body) -> Surface {
+    fn unlifted_surface(&self, index: usize) -> Surface {
+        let body = &self.bodies[index];
         let mut solid = body.solid.clone();
         let placement = &mut solid.options.placement;
         placement.translation.z = (body.depth - body.node_depth) / placement.scale;
         solid.texture = None;
-        solid.surface()
+        let field = match self.carries[index] {
+            true => self.recent.solid_field(self.solids[index], &body.solid),
+            false => None,
+        };
+        let surface = field.and_then(|field| solid.surface_of(&field));
+        surface.unwrap_or_else(|| solid.surface())
+    }
+
+    /// Whether the surface of a body is made from more than its solid, or from what those on top need too.
+    pub fn makes(&self, body: usize) -> bool {
+        let is_field = || self.bodies[body].solid.profile.height_field().is_some();
+        self.bodies[body].lay.is_some() || (self.carries[body] && is_field())
+    }
+
+    /// A hash of all that the surface of a body is made from, in the frame of its node.
+    fn surface_key(&self, body: usize) -> u128 {
+        let Body {
+            lay,
+            depth,
+            node_depth,
+            ..
+        } = &self.bodies[body];
+        match lay {
+            Some(_) => self.keys[body],
+            // Equal solids at different places of the drawing have the same surface.
+            None => long_hash(|hasher| {
+                hasher.write_u128(self.solids[body]);
+                hasher.write_u64((depth - node_depth).to_bits());
+            }),
+        }
     }
 }
 
@@ -379,7 +412,7 @@ impl LaidSolid {
         let texture = self
             .texture
             .map(|map| map.to_cols_array().map(f64::to_bits));
-        (self.pile.keys[self.body], self.sides, texture)
+        (self.pile.surface_key(self.body), self.sides, texture)
     }
 }
 

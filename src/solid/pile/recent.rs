@@ -9,9 +9,12 @@ use rustc_hash::FxHashMap;
 use super::field::Field;
 use crate::solid::Solid;
 use crate::solid::heights::{BothHeights, Heights};
+use crate::solid::inflate;
 
 /// Limit of the triangles of the fields that are kept: to make a field again, all below it is needed.
 const MAX_OF_FIELDS: usize = 1 << 23;
+/// Limit of the triangles of the fields of solids by themselves that are kept: each is needed for its surface and for its heights.
+const MAX_OF_SOLIDS: usize = 1 << 20;
 /// Limit of the triangles of the heights that are kept, which take more memory and are made from fields in no time.
 const MAX_OF_HEIGHTS: usize = 1 << 20;
 
@@ -21,6 +24,8 @@ const MAX_OF_HEIGHTS: usize = 1 << 20;
 pub struct RecentHeights {
     /// What solids are lifted to; `None` for one that nothing lifts.
     fields: Cache<Option<Arc<Field>>>,
+    /// The height fields of solids by themselves; `None` for one that is none.
+    solids: Cache<Option<Arc<inflate::Field>>>,
     heights: Cache<BothHeights>,
 }
 
@@ -30,16 +35,25 @@ impl Default for RecentHeights {
             fields: Cache::new(MAX_OF_FIELDS, |field| {
                 field.as_ref().map_or(0, |field| field.facet_count())
             }),
+            solids: Cache::new(MAX_OF_SOLIDS, |field| {
+                field.as_ref().map_or(0, |field| field.mesh.triangles.len())
+            }),
             heights: Cache::new(MAX_OF_HEIGHTS, BothHeights::facet_count),
         }
     }
 }
 
 impl RecentHeights {
-    /// The heights of a solid by itself.
-    pub(super) fn of_solid(&self, solid: &Solid) -> BothHeights {
-        let make = || BothHeights::of_solid(solid);
-        self.heights.get(solid.long_key(), make)
+    /// The heights of a solid by itself, whose [`Solid::long_key`] this is.
+    pub(super) fn of_solid(&self, key: u128, solid: &Solid) -> BothHeights {
+        self.heights.get(key, || {
+            BothHeights::of_solid(solid, self.solid_field(key, solid).as_deref())
+        })
+    }
+
+    /// The height field of a solid by itself, whose [`Solid::long_key`] this is, if it is one.
+    pub(super) fn solid_field(&self, key: u128, solid: &Solid) -> Option<Arc<inflate::Field>> {
+        self.solids.get(key, || solid.field().map(Arc::new))
     }
 
     /// The heights of a body with this key that is lifted to a field.
@@ -192,7 +206,7 @@ impl SolidHeights {
 
     fn made(&self) -> &Made {
         self.made.get_or_init(|| {
-            let both = self.recent.of_solid(&self.solid);
+            let both = self.recent.of_solid(self.solid.long_key(), &self.solid);
             let [front, back] = [&both.front, both.back()].map(Heights::highest);
             Made {
                 both,
