@@ -15,8 +15,8 @@ use crate::scene::{Surface, SurfaceSource};
 const WALL: f64 = 1e-6;
 /// The distance, relative to the largest coordinate, at which a point counts as lying in a triangle.
 const SLACK: f64 = 1e-7;
-/// Cells a triangle.
-const CELLS: f64 = 2.0;
+/// Cells a triangle: few, so that most triangles reach into four at most.
+const CELLS: f64 = 1.0;
 
 /// The side of a surface that faces the viewer.
 #[derive(Debug)]
@@ -51,9 +51,24 @@ impl Heights {
             let [x, y] = mesh.points[i as usize];
             Vec3::new(x, y, height(i as usize) as f32)
         };
-        let facets = mesh.triangles.iter();
-        let facets = facets.filter_map(|triangle| Facet::new(triangle.map(place)));
-        Self::over(facets.collect(), true)
+        let mut facets = Vec::with_capacity(mesh.triangles.len());
+        let mut corners = Vec::with_capacity(mesh.points.len());
+        let mut is_new = vec![true; mesh.points.len()];
+        for triangle in &mesh.triangles {
+            let Some(facet) = Facet::new(triangle.map(place)) else {
+                continue;
+            };
+            for (i, corner) in triangle.iter().zip(facet.corners) {
+                if std::mem::take(&mut is_new[*i as usize]) {
+                    corners.push(corner.truncate());
+                }
+            }
+            facets.push(facet);
+        }
+        Self {
+            corners: corners.into(),
+            ..Self::over(facets, true)
+        }
     }
 
     fn over(facets: Vec<Facet>, is_field: bool) -> Self {
@@ -287,13 +302,14 @@ struct Grid {
 
 impl Grid {
     fn of(facets: &[Facet]) -> Self {
-        let points = || facets.iter().flat_map(Facet::flat);
-        let (low, high) = (
-            points().reduce(DVec2::min).unwrap_or_default(),
-            points().reduce(DVec2::max).unwrap_or_default(),
-        );
-        let cells = Cells::over([low, high], CELLS * facets.len() as f64);
-        let mut entries: Vec<(u32, u32)> = Vec::new();
+        let points = || facets.iter().flat_map(|facet| facet.corners);
+        let [low, high] = [
+            points().reduce(Vec3::min).unwrap_or_default(),
+            points().reduce(Vec3::max).unwrap_or_default(),
+        ];
+        let bounds = [low, high].map(|corner| corner.truncate().as_dvec2());
+        let cells = Cells::over(bounds, CELLS * facets.len() as f64);
+        let mut entries: Vec<(u32, u32)> = Vec::with_capacity(4 * facets.len());
         for (index, facet) in facets.iter().enumerate() {
             cells.of_triangle(facet.flat(), |cell| {
                 entries.push((cell as u32, index as u32))

@@ -5,10 +5,7 @@ use glam::{DVec3, Vec3};
 use super::{Field, MIN_HEIGHT};
 use crate::scene::Surface;
 use crate::solid::crease::Crease;
-use crate::solid::shade::shade;
-
-/// The least weight of a face in the normal of a corner.
-const MIN_ANGLE: f64 = 1e-9;
+use crate::solid::shade::{Face, shade};
 
 /// Both sides of a height field: points and triangles of the front, then those of the back. Both sides share the border.
 pub(super) struct Sides {
@@ -135,41 +132,4 @@ fn turn_outward(surface: &mut Surface, faces: &[Face]) {
 
 fn mirrored([x, y, z]: [f32; 3]) -> [f32; 3] {
     [x, y, -z]
-}
-
-/// The unit normal of a triangle and its angles, radians.
-struct Face {
-    normal: DVec3,
-    angles: [f64; 3],
-}
-
-impl Face {
-    fn of([a, b, c]: [DVec3; 3]) -> Self {
-        // Products of three lengths of `f32` positions neither underflow nor overflow in `f64`.
-        let (ab, bc, ca) = (b - a, c - b, a - c);
-        let lengths = [ab.length(), bc.length(), ca.length()];
-        let inverse = (lengths[0] * lengths[1] * lengths[2]).recip();
-        let cosines = [
-            -ca.dot(ab) * lengths[1] * inverse,
-            -ab.dot(bc) * lengths[2] * inverse,
-            -bc.dot(ca) * lengths[0] * inverse,
-        ];
-        Self {
-            normal: ca.cross(ab).normalize_or(DVec3::Z),
-            angles: cosines.map(angle),
-        }
-    }
-}
-
-/// The angle with a cosine, to 7e-5, but not 0: Abramowitz & Stegun 4.4.45. Much faster than the exact one, and as good for a
-/// weight.
-fn angle(cosine: f64) -> f64 {
-    let x = cosine.abs().min(1.0);
-    let polynomial = 1.570_728_8 + x * (-0.212_114_4 + x * (0.074_261_0 - x * 0.018_729_3));
-    let angle = (1.0 - x).sqrt() * polynomial;
-    if cosine < 0.0 {
-        std::f64::consts::PI - angle
-    } else {
-        angle.max(MIN_ANGLE)
-    }
 }

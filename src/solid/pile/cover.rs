@@ -132,7 +132,9 @@ impl<'a> Cover<'a> {
     /// What the mesh has over a place, if it is there, by what it has at its points.
     fn interpolated(&self, place: DVec2, of_level: impl Fn(&Level) -> f64) -> Option<f64> {
         // In the plane none of the triangles is a wall, so their numbers are those of the mesh.
-        let plane = self.plane.get_or_init(|| Heights::over_mesh(&self.mesh, |_| 0.0));
+        let plane = self
+            .plane
+            .get_or_init(|| Heights::over_mesh(&self.mesh, |_| 0.0));
         let (_, triangle) = plane.find(place)?;
         let triangle = self.mesh.triangles.get(triangle as usize)?;
         let [a, b, c] = triangle.map(|i| flat(&self.mesh.points[i as usize]));
@@ -301,7 +303,10 @@ impl<'a> Cover<'a> {
 /// these shares, by `missing`. A corner without room is as high as the highest place that is to be cleared, so lifting it more
 /// would only make a spike.
 fn lift(shares: [f64; 3], room: [f64; 3], missing: f64) -> f64 {
-    let mut lift = missing.max(0.0);
+    if missing <= 0.0 {
+        return 0.0;
+    }
+    let mut lift = missing;
     // Each round but the last finds another corner without room.
     for _ in 0..shares.len() {
         let corners = || shares.into_iter().zip(room);

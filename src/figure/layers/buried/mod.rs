@@ -145,8 +145,7 @@ impl Search<'_> {
     }
 
     fn is_laid(&self, shape: usize) -> bool {
-        self.layers
-            .is_lifted(self.arrangement.shapes[shape].part)
+        self.layers.is_lifted(self.arrangement.shapes[shape].part)
     }
 
     /// Whether a shape keeps its volume, rather than being a skin on what it lies on.
