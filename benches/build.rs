@@ -8,16 +8,16 @@
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 mod drawing;
+mod process;
 
-use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Command;
 
 use okoshi::compile::{Options, compile};
 use okoshi::geometry::area;
 use okoshi::resolver::MemoryResolver;
 
 use drawing::drawing;
+use process::{build, timed, triangles};
 
 /// With this argument, the program is the baseline: it only reads the drawing.
 const BASELINE: &str = "--usvg";
@@ -55,15 +55,7 @@ fn measure(parts: usize) {
     // The first round warms up.
     for _ in 0..=rounds {
         usvg.push(timed(Command::new(&this).arg(BASELINE).arg(&input)));
-        let _ = std::fs::remove_file(&output);
-        let mut build = Command::new(env!("CARGO_BIN_EXE_okoshi"));
-        okoshi.push(timed(
-            build
-                .args(["build", "-q"])
-                .arg(&input)
-                .arg("-o")
-                .arg(&output),
-        ));
+        okoshi.push(timed(&mut build(&input, &output)));
         bytes = std::fs::metadata(&output).expect("a model").len();
     }
     let [(usvg, least_usvg), (okoshi, least_okoshi)] = [usvg, okoshi].map(|mut times| {
@@ -90,23 +82,4 @@ fn measure(parts: usize) {
         bytes as f64 / 1e6,
         found_area / true_area,
     );
-}
-
-fn timed(command: &mut Command) -> Duration {
-    let start = Instant::now();
-    let status = command.stdout(Stdio::null()).status().expect("it starts");
-    assert!(status.success(), "{command:?} failed");
-    start.elapsed()
-}
-
-/// The triangles of a model.
-fn triangles(model: &Path) -> usize {
-    let model = gltf::Gltf::open(model).expect("a model");
-    let indices = model
-        .meshes()
-        .flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
-    indices
-        .filter_map(|primitive| primitive.indices())
-        .map(|list| list.count() / 3)
-        .sum()
 }
