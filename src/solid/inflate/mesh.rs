@@ -29,56 +29,6 @@ pub struct Mesh {
 
 /// Joins points by a Delaunay triangulation that keeps the border's edges.
 pub(in crate::solid) fn mesh(points: &Points, transform: &PlacementTransform) -> Mesh {
-    let (mesh, _) = refinable(points, transform);
-    mesh
-}
-
-/// The triangulation of a mesh that grows.
-pub(in crate::solid) struct Triangulation {
-    delaunay: Delaunay,
-    vertices: Vec<Option<u32>>,
-}
-
-impl Triangulation {
-    /// The mesh with more points. Those outside the outline are left out.
-    pub(in crate::solid) fn refined(
-        &mut self,
-        points: &[DVec2],
-        transform: &PlacementTransform,
-    ) -> Mesh {
-        let places = points.iter();
-        let places: Vec<DVec2> = places
-            .map(|point| clear(transform.in_plane(*point)))
-            .filter(|place| place.is_finite())
-            .collect();
-        insert(&mut self.delaunay, &places, &mut self.vertices);
-        self.finished()
-    }
-
-    /// The mesh of all points that are there, and of some more, so that each triangle has one off the border.
-    fn finished(&mut self) -> Mesh {
-        let mut wanted = Vec::new();
-        for _ in 0..MAX_ROUNDS {
-            self.delaunay.wanted(&mut wanted);
-            if wanted.is_empty() {
-                return numbered(&self.delaunay, &self.vertices);
-            }
-            for (place, near) in &wanted {
-                let written = clear(place.as_vec2().to_array());
-                self.vertices.push(self.delaunay.insert(written, *near));
-            }
-        }
-        // Triangles too small for another `f32` point are left out.
-        while self.delaunay.drop_flat() {}
-        numbered(&self.delaunay, &self.vertices)
-    }
-}
-
-/// The mesh of [`mesh`], and its triangulation; `None` where there is none.
-pub(in crate::solid) fn refinable(
-    points: &Points,
-    transform: &PlacementTransform,
-) -> (Mesh, Option<Triangulation>) {
     let places = points.points.iter();
     let places: Vec<DVec2> = places
         .map(|point| clear(transform.in_plane(*point)))
@@ -90,7 +40,7 @@ pub(in crate::solid) fn refinable(
             Some([low.min(*place), high.max(*place)])
         });
     let Some([low, high]) = bounds.filter(|_| places.iter().all(|place| place.is_finite())) else {
-        return (Mesh::default(), None);
+        return Mesh::default();
     };
 
     let mut delaunay = Delaunay::around(low, high, places.len());
@@ -115,8 +65,20 @@ pub(in crate::solid) fn refinable(
         insert(&mut delaunay, inner, &mut vertices);
     }
 
-    let mut triangulation = Triangulation { delaunay, vertices };
-    (triangulation.finished(), Some(triangulation))
+    let mut wanted = Vec::new();
+    for _ in 0..MAX_ROUNDS {
+        delaunay.wanted(&mut wanted);
+        if wanted.is_empty() {
+            return numbered(&delaunay, &vertices);
+        }
+        for (place, near) in &wanted {
+            let written = clear(place.as_vec2().to_array());
+            vertices.push(delaunay.insert(written, *near));
+        }
+    }
+    // Triangles too small for another `f32` point are left out.
+    while delaunay.drop_flat() {}
+    numbered(&delaunay, &vertices)
 }
 
 /// Inserts points, and notes for each its vertex. Coarse first, then between: so that no order of the points is a bad one, and

@@ -14,7 +14,7 @@ mod sides;
 
 use glam::DVec2;
 
-pub(super) use mesh::{Mesh, mesh, refinable};
+pub(super) use mesh::{Mesh, mesh};
 pub(super) use points::{Points, points};
 use sides::Sides;
 

@@ -16,7 +16,7 @@ use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::crease::Crease;
 use crate::solid::heights::{BothHeights, Heights};
-use crate::solid::inflate::{Mesh, Points, points, refinable};
+use crate::solid::inflate::{Mesh, Points, mesh as mesh_of, points};
 use crate::solid::layers::steps_per_half_turn;
 use crate::solid::shade::shade;
 use crate::solid::stack::PlacementTransform;
@@ -79,15 +79,14 @@ impl Field {
             placement: Placement::default(),
             ..*options
         });
-        let (mesh, mut triangulation) = refinable(&all, &in_place);
-        let mut cover = Cover::new(mesh, target, tolerance);
-        let mut room = MAX_GROWTH * all.points.len() + target.more_points;
+        let mut cover = Cover::new(mesh_of(&all, &in_place), target, tolerance);
+        let most = (MAX_GROWTH + 1) * all.points.len() + target.more_points;
         let mut refine =
             |cover: &mut Cover<'_>, wanted: &dyn Fn(&Cover<'_>, usize) -> Vec<DVec2>| {
-                let wanted = wanted(cover, room);
-                room = room.saturating_sub(wanted.len());
-                if let Some(triangulation) = triangulation.as_mut().filter(|_| !wanted.is_empty()) {
-                    cover.refine(triangulation.refined(&wanted, &in_place));
+                let wanted = wanted(cover, most.saturating_sub(all.points.len()));
+                if !wanted.is_empty() {
+                    all.points.extend(wanted);
+                    cover.refine(mesh_of(&all, &in_place));
                 }
             };
         // Half of the points are left for what the corners do not tell.
