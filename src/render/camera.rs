@@ -246,6 +246,26 @@ impl Framing {
     }
 }
 
+/// The rays of a picture: linear functions of the place in it, in pixels from the top left. Directions are not normalised; depth
+/// increases by 1 along them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct RayField {
+    /// Origin and direction of the ray through the top left corner.
+    corner: [Vec3; 2],
+    /// Their change from a pixel to the next one, to the right and down.
+    pub(super) steps: [[Vec3; 2]; 2],
+}
+
+impl RayField {
+    /// Origin and direction of the ray through a point of the picture.
+    #[inline]
+    pub(super) fn at(&self, place: Vec2) -> [Vec3; 2] {
+        let [right, down] = self.steps;
+        let of = |part: usize| self.corner[part] + right[part] * place.x + down[part] * place.y;
+        [of(0), of(1)]
+    }
+}
+
 /// A camera, framed for a picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Camera {
@@ -303,12 +323,14 @@ impl Camera {
     }
 
     /// The distances along a ray between which something is shown.
+    #[inline]
     pub(super) fn limits(&self, direction: Vec3) -> [f32; 2] {
         let cosine = direction.dot(self.axes.forward);
         self.depths.map(|depth| depth / cosine)
     }
 
     /// The origin and direction of the ray through a point of the picture, in pixels from the top left.
+    #[inline]
     pub(super) fn ray(&self, place: Vec2) -> (Vec3, Vec3) {
         let longer = self.size.max_element();
         let across = (place * 2.0 - self.size) / longer * self.half;
@@ -317,6 +339,29 @@ impl Camera {
             Projection::Perspective => (self.eye, (self.axes.forward + right + up).normalize()),
             Projection::Orthographic => (self.eye + right + up, self.axes.forward),
         }
+    }
+
+    /// The rays of the picture, as functions of the place in it.
+    pub(super) fn ray_field(&self) -> RayField {
+        let pixel = 2.0 * self.half / self.size.max_element();
+        let [right, down] = [self.axes.right * pixel, self.axes.up * -pixel];
+        let corner = (right * self.size.x + down * self.size.y) / -2.0;
+        let forward = self.axes.forward;
+        match self.projection {
+            Projection::Perspective => RayField {
+                corner: [self.eye, forward + corner],
+                steps: [[Vec3::ZERO, right], [Vec3::ZERO, down]],
+            },
+            Projection::Orthographic => RayField {
+                corner: [self.eye + corner, forward],
+                steps: [[right, Vec3::ZERO], [down, Vec3::ZERO]],
+            },
+        }
+    }
+
+    /// The depths of the nearest and the farthest that is shown.
+    pub(super) fn depths(&self) -> [f32; 2] {
+        self.depths
     }
 
     /// The point of the picture at which a point in space is seen, in pixels from the top left; `None` if it is not in front
@@ -334,6 +379,7 @@ impl Camera {
 
     /// The point on the horizontal plane at height `level` that is seen from above at a point of the picture, unless it is
     /// very far away.
+    #[inline]
     pub(super) fn on_level(&self, place: Vec2, level: f32) -> Option<Vec3> {
         let (origin, direction) = self.ray(place);
         on_level(origin, direction, level).map(|distance| origin + direction * distance)
@@ -348,6 +394,7 @@ impl Camera {
     }
 
     /// The width of a pixel on a surface at a distance along its ray.
+    #[inline]
     pub(super) fn pixel(&self, distance: f32) -> f32 {
         let width = 2.0 * self.half / self.size.max_element();
         match self.projection {
@@ -357,6 +404,7 @@ impl Camera {
     }
 
     /// A factor that fades shadows towards the picture's border: 1 inside, 0 at the edge (smoothstep).
+    #[inline]
     pub(super) fn border(&self, place: Vec2) -> f32 {
         let to_edge = place.min(self.size - place).min_element();
         let share = (to_edge / (MARGIN * self.size.min_element())).clamp(0.0, 1.0);
@@ -365,6 +413,7 @@ impl Camera {
 }
 
 /// The distance at which a ray from above meets the horizontal plane at height `level`, unless it is very far away.
+#[inline]
 pub(super) fn on_level(origin: Vec3, direction: Vec3, level: f32) -> Option<f32> {
     let distance = (level - origin.y) / direction.y;
     (direction.y <= -1e-4 && (0.0..1e6).contains(&distance)).then_some(distance)

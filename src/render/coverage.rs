@@ -1,6 +1,6 @@
 //! Which pixels a surface may cover, so that no rays are traced in the others.
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 use super::camera::Camera;
 use super::surface::Surface;
@@ -12,6 +12,13 @@ const TOLERANCE: f32 = 1.0;
 /// How many blocks are marked, relative to the number of triangles and blocks, before it is not worth while.
 const MAX_MARKS: usize = 8;
 
+/// The places of a surface's positions in a picture. Those beside or behind the eye are not a number; so are those that no
+/// triangle uses, perhaps.
+pub(super) fn places(surface: &Surface, camera: &Camera) -> Vec<Vec2> {
+    let place = |position: &Vec3| camera.project(*position).unwrap_or(Vec2::NAN);
+    surface.positions.iter().map(place).collect()
+}
+
 /// The blocks of a picture that the bounding boxes of triangles reach.
 pub(super) struct Coverage {
     columns: usize,
@@ -21,7 +28,8 @@ pub(super) struct Coverage {
 
 impl Coverage {
     /// The pixels that `surface` may cover in a picture of `size` pixels, or as far beyond it as `margin`.
-    pub(super) fn new(surface: &Surface, camera: &Camera, size: [u32; 2], margin: u32) -> Self {
+    /// `places` are the corners of its triangles in the picture.
+    pub(super) fn new(surface: &Surface, places: &[Vec2], size: [u32; 2], margin: u32) -> Self {
         let sides = size.map(|side| (side + margin) as f32);
         let [columns, rows] = sides.map(|side| (side / BLOCK).ceil() as usize);
         let everywhere = Self {
@@ -30,12 +38,6 @@ impl Coverage {
         };
         let mut blocks = vec![false; columns * rows];
         let mut left = MAX_MARKS * (blocks.len() + surface.triangles.len());
-        // Corners beside or behind the eye are not a number; so are those that no triangle uses, perhaps.
-        let places: Vec<Vec2> = surface
-            .positions
-            .iter()
-            .map(|position| camera.project(*position).unwrap_or(Vec2::NAN))
-            .collect();
         for triangle in &surface.triangles {
             let [a, b, c] = *triangle;
             let [a, b, c] = [places[a as usize], places[b as usize], places[c as usize]];
@@ -63,6 +65,7 @@ impl Coverage {
     }
 
     /// Whether a pixel may be covered.
+    #[inline]
     pub(super) fn contains(&self, x: u32, y: u32) -> bool {
         let block = |place: u32| place as usize / BLOCK as usize;
         let index = block(y) * self.columns + block(x);
@@ -71,9 +74,7 @@ impl Coverage {
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::Vec3;
-
+pub(super) mod tests {
     use super::*;
     use crate::render::camera::{Framing, Projection, View};
     use crate::render::hierarchy::Rays;
@@ -82,19 +83,23 @@ mod tests {
     use crate::render::surface::Material;
     use crate::render::trace::Tracer;
 
-    #[test]
-    fn rays_hit_covered_pixels_only() {
-        let material = Material {
+    /// An opaque white material without light.
+    pub(in crate::render) fn plain(double_sided: bool) -> Material {
+        Material {
             base: glam::Vec4::ONE,
             sampler: None,
             alpha: crate::render::surface::Alpha::Opaque,
-            double_sided: true,
+            double_sided,
             metallic: 0.0,
             roughness: 1.0,
             emissive: Vec3::ZERO,
             unlit: true,
-        };
-        let materials = [material];
+        }
+    }
+
+    #[test]
+    fn rays_hit_covered_pixels_only() {
+        let materials = [plain(true)];
         for (seed, projection) in [(1, Projection::Perspective), (2, Projection::Orthographic)] {
             let view = View::default();
             let size = [90, 70];
@@ -106,7 +111,8 @@ mod tests {
             });
             let camera = framing.unwrap().camera(view);
             let tracer = Tracer::new(surface, &materials, &[], Rays::Many);
-            let coverage = Coverage::new(&tracer.surface, &camera, size, 2);
+            let coverage =
+                Coverage::new(&tracer.surface, &places(&tracer.surface, &camera), size, 2);
             let (mut hits, mut empty) = (0, 0);
             for (x, y) in (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))) {
                 let corner = Vec2::new(x as f32, y as f32);
@@ -122,7 +128,8 @@ mod tests {
             // With the eye in their midst, triangles are all around.
             let within = camera.moved(tracer.surface.positions[0] - camera.ray(Vec2::ZERO).0);
             if projection == Projection::Perspective {
-                let coverage = Coverage::new(&tracer.surface, &within, size, 2);
+                let coverage =
+                    Coverage::new(&tracer.surface, &places(&tracer.surface, &within), size, 2);
                 assert!(coverage.contains(0, 0) && coverage.contains(89, 69));
             }
         }

@@ -6,8 +6,9 @@ use super::Shading;
 use super::camera::{Camera, on_level};
 use super::coverage::Coverage;
 use super::ground::{Floor, shadow_fade};
-use super::hierarchy::Hit;
+use super::lanes::Hit;
 use super::light::{IncidentLight, even};
+use super::raster::Raster;
 use super::sampling::Sampling;
 use super::surface::Alpha;
 use super::trace::Tracer;
@@ -60,6 +61,8 @@ pub(super) struct PixelSampler<'a> {
     pub(super) tracer: &'a Tracer<'a>,
     pub(super) camera: &'a Camera,
     pub(super) coverage: &'a Coverage,
+    /// What rays meet, if it was found without tracing them.
+    pub(super) raster: Option<Raster<'a>>,
     pub(super) sampling: &'a Sampling,
     pub(super) shading: Shading,
     /// The lines on the ground.
@@ -67,8 +70,14 @@ pub(super) struct PixelSampler<'a> {
 }
 
 impl PixelSampler<'_> {
-    /// Appends the fragments of a pixel to `out`.
-    pub(super) fn sample(&self, x: u32, y: u32, out: &mut Vec<Fragment>) {
+    /// Appends the fragments of a pixel to `out`. `met` gives the triangles that its rays meet, if these are known.
+    pub(super) fn sample(
+        &self,
+        x: u32,
+        y: u32,
+        met: Option<impl Fn(usize) -> Option<usize>>,
+        out: &mut Vec<Fragment>,
+    ) {
         let first = out.len();
         let corner = Vec2::new(x as f32, y as f32);
         let covered = self.coverage.contains(x, y);
@@ -82,19 +91,31 @@ impl PixelSampler<'_> {
             if uniform {
                 break;
             }
-            match covered {
-                true => self.trace(corner + even(index), first, out),
-                false => self.trace_ground(corner + even(index), first, out),
+            let place = corner + even(index);
+            match (covered, &met) {
+                (false, _) => self.trace_ground(place, first, out),
+                (true, None) => self.trace(place, first, out),
+                (true, Some(met)) => self.show(met(index), place, first, out),
             }
             rays += 1;
         }
         average(&mut out[first..], rays);
     }
 
-    /// As [`sample`](Self::sample), by one ray.
-    pub(super) fn sample_once(&self, x: u32, y: u32, out: &mut Vec<Fragment>) {
+    /// As [`sample`](Self::sample), by the ray through the middle. `met` is the triangle that it meets, if this is known.
+    pub(super) fn sample_once(
+        &self,
+        x: u32,
+        y: u32,
+        met: Option<Option<usize>>,
+        out: &mut Vec<Fragment>,
+    ) {
         let first = out.len();
-        self.trace(Vec2::new(x as f32, y as f32) + even(0), first, out);
+        let place = Vec2::new(x as f32, y as f32) + even(0);
+        match met {
+            None => self.trace(place, first, out),
+            Some(met) => self.show(met, place, first, out),
+        }
         average(&mut out[first..], 1);
     }
 
@@ -118,6 +139,7 @@ impl PixelSampler<'_> {
     }
 
     /// Whether the first `few` rays are enough.
+    #[inline]
     fn is_uniform(&self, seen: &[Fragment], few: usize) -> bool {
         match seen {
             [] => true,
@@ -162,6 +184,27 @@ impl PixelSampler<'_> {
         }
         if let Some(ground) = self.ground(origin, direction) {
             merge(ground, clear, first, out);
+        }
+    }
+
+    /// As [`trace`](Self::trace), if the first triangle is known that the ray meets.
+    fn show(&self, met: Option<usize>, place: Vec2, first: usize, out: &mut Vec<Fragment>) {
+        let Some(triangle) = met else {
+            self.trace_ground(place, first, out);
+            return;
+        };
+        let tracer = self.tracer;
+        let material = &tracer.materials[tracer.material(triangle)];
+        let (origin, direction) = self.camera.ray(place);
+        match Hit::of_plane(&tracer.surface, triangle, origin, direction) {
+            Some(hit) if material.alpha == Alpha::Opaque => {
+                let width = self.camera.pixel(hit.distance);
+                let base = tracer.base(&hit, width / (self.sampling.edge as f32).sqrt());
+                let fragment = self.fragment(&hit, origin, direction, width, base.truncate());
+                merge(fragment, 1.0, first, out);
+            }
+            // What is behind it may be seen too.
+            _ => self.trace(place, first, out),
         }
     }
 
@@ -244,6 +287,7 @@ fn average(fragments: &mut [Fragment], rays: usize) {
 }
 
 /// Whether two fragments of neighbouring pixels are on one surface, without an edge between them.
+#[inline]
 pub(super) fn same_surface(one: &Fragment, other: &Fragment) -> bool {
     let apart = other.place - one.place;
     (one.kind == FragmentKind::Ground) == (other.kind == FragmentKind::Ground)
@@ -253,6 +297,7 @@ pub(super) fn same_surface(one: &Fragment, other: &Fragment) -> bool {
 }
 
 /// Adds a fragment to a similar one of its pixel, or to the list.
+#[inline]
 fn merge(piece: Fragment, weight: f32, first: usize, out: &mut Vec<Fragment>) {
     let full = out.len() - first >= MAX_FRAGMENTS;
     let alike = |other: &&mut Fragment| {

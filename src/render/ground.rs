@@ -4,7 +4,8 @@ use glam::{Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::camera::Camera;
-use super::light::{CELL, IncidentLight, Lights};
+use super::light::{CELL, Lights};
+use super::shade::ground_light;
 use super::surface::Surface;
 use super::trace::Tracer;
 
@@ -22,6 +23,7 @@ const LINES: f64 = 4.0;
 const LINES_FADE: [f32; 2] = [0.5, 1.5];
 
 /// How strong the model's shadow is at a point on the ground: it fades with the distance from the model.
+#[inline]
 pub(super) fn shadow_fade(place: Vec3, model: &Surface) -> f32 {
     let beside = (model.low - place).max(place - model.high).max(Vec3::ZERO);
     let share = 1.0 - (Vec2::new(beside.x, beside.z).length() / SHADOW_REACH).min(1.0);
@@ -29,6 +31,7 @@ pub(super) fn shadow_fade(place: Vec3, model: &Surface) -> f32 {
 }
 
 /// Smoothstep.
+#[inline]
 fn smooth(share: f32) -> f32 {
     share * share * (3.0 - 2.0 * share)
 }
@@ -37,8 +40,8 @@ fn smooth(share: f32) -> f32 {
 pub(super) struct GroundLight {
     spacing: u32,
     columns: usize,
-    /// Rows from the top. The first row and column lie outside the picture.
-    points: Vec<IncidentLight>,
+    /// The share of the light that reaches each point, 0 to 1; rows from the top. The first row and column lie outside the picture.
+    points: Vec<f32>,
 }
 
 impl GroundLight {
@@ -59,13 +62,13 @@ impl GroundLight {
             let place = camera.on_level(Vec2::new(pixel(column), pixel(row)), level)?;
             let share = (row % CELL as usize) * CELL as usize + column % CELL as usize;
             let lit = shadow_fade(place, &tracer.surface) > 0.0;
-            lit.then(|| lights.on_ground(tracer, place, share))
+            lit.then(|| ground_light(&lights.on_ground(tracer, place, share), lights))
         };
-        let own: Vec<Option<IncidentLight>> = (0..columns * rows).into_par_iter().map(at).collect();
+        let own: Vec<Option<f32>> = (0..columns * rows).into_par_iter().map(at).collect();
         // Each of the rays of a cell has the same weight.
         let gathered = |index: usize| {
             let [column, row] = [index % columns, index / columns];
-            let mut sum = IncidentLight::default();
+            let mut sum = 0.0;
             let mut weights = 0.0;
             for (y, high) in [(row.wrapping_sub(1), 1.0), (row, 2.0), (row + 1, 1.0)] {
                 for (x, wide) in [
@@ -75,14 +78,14 @@ impl GroundLight {
                 ] {
                     let inside = x < columns && y < rows;
                     if let Some(Some(light)) = inside.then(|| own[y * columns + x]) {
-                        sum.add(&light.scaled(high * wide));
+                        sum += light * high * wide;
                         weights += high * wide;
                     }
                 }
             }
             match weights > 0.0 {
-                true => sum.scaled(1.0 / weights),
-                false => sum,
+                true => sum / weights,
+                false => 1.0,
             }
         };
         Self {
@@ -92,19 +95,18 @@ impl GroundLight {
         }
     }
 
-    /// The light in the middle of a pixel.
-    pub(super) fn at(&self, x: u32, y: u32) -> IncidentLight {
+    /// The share of the light that reaches the middle of a pixel, 0 to 1.
+    #[inline]
+    pub(super) fn at(&self, x: u32, y: u32) -> f32 {
         let place = |pixel: u32| (pixel as f32 + 0.5) / self.spacing as f32 + 1.0;
         let (x, y) = (place(x), place(y));
         let (column, row) = (x as usize, y as usize);
         let (right, down) = (x.fract(), y.fract());
-        let mut light = IncidentLight::default();
-        for (row, high) in [(row, 1.0 - down), (row + 1, down)] {
-            for (column, wide) in [(column, 1.0 - right), (column + 1, right)] {
-                light.add(&self.points[row * self.columns + column].scaled(high * wide));
-            }
-        }
-        light
+        let between = |row: usize| {
+            let first = row * self.columns + column;
+            self.points[first] * (1.0 - right) + self.points[first + 1] * right
+        };
+        between(row) * (1.0 - down) + between(row + 1) * down
     }
 }
 

@@ -5,25 +5,17 @@
 
 use std::time::Duration;
 
-use glam::{Vec3, Vec3A, Vec4};
+use glam::Vec3;
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::PlocSearchDistance;
-use obvhs::ray::Ray as Inverted;
 use smallvec::SmallVec;
 
+use super::lanes::{Child, Hit, Node, Pack, Ray, WIDTH, bounds, corners};
+use super::stack::Stack;
 use super::surface::Surface;
-
-/// The number of children of a node, and of triangles in a pack.
-const WIDTH: usize = 4;
-/// How far triangles extend beyond their edges, relative to their size, so that no ray slips through between two.
-const EDGE: f32 = 1e-5;
-/// How much further away the end of a box is taken to be, for rounding (Ize 2013).
-const ROUNDING: f32 = 1.0 + 4.0 * f32::EPSILON;
-/// How many entries of a stack need no memory of their own.
-const STACK: usize = 64;
 
 /// How many rays will be traced: a better tree pays off only for many.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,193 +36,6 @@ pub(super) struct Hierarchy {
     packs: Vec<Pack>,
 }
 
-/// Up to four boxes.
-#[derive(Clone)]
-struct Node {
-    /// The lower corners: x of all boxes, then y, then z.
-    low: [Vec4; 3],
-    high: [Vec4; 3],
-    children: [Child; WIDTH],
-    /// The number of boxes.
-    count: u32,
-}
-
-/// What is in a box.
-#[derive(Debug, Clone, Copy, Default)]
-struct Child {
-    /// The index of a node, or of the first pack.
-    first: u32,
-    /// The number of packs; 0 for a node.
-    packs: u32,
-}
-
-/// Up to four triangles, each in the form of `obvhs::rt_triangle`.
-#[derive(Clone)]
-struct Pack {
-    corner: [Vec4; 3],
-    /// From the second corner to the first.
-    back: [Vec4; 3],
-    /// From the first corner to the third.
-    forth: [Vec4; 3],
-    /// At a right angle to both, inward. Zero where there is no triangle: no ray meets that.
-    inward: [Vec4; 3],
-    triangles: [u32; WIDTH],
-    /// The number of triangles.
-    count: u32,
-}
-
-/// The intersection of a ray with a triangle.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Hit {
-    /// The index of the triangle in its surface.
-    pub(super) triangle: usize,
-    pub(super) distance: f32,
-    /// Barycentric coordinates.
-    pub(super) shares: Vec3,
-    /// Whether the ray comes from behind.
-    pub(super) behind: bool,
-}
-
-/// A ray, each coordinate four times.
-struct Ray {
-    origin: [Vec4; 3],
-    direction: [Vec4; 3],
-    inverse: [Vec4; 3],
-    nearest: Vec4,
-}
-
-impl Ray {
-    fn new(origin: Vec3, direction: Vec3, nearest: f32) -> Self {
-        let ray = Inverted::new(origin.into(), direction.into(), nearest, f32::INFINITY);
-        Self {
-            origin: splat(ray.origin),
-            direction: splat(ray.direction),
-            inverse: splat(ray.inv_direction),
-            nearest: Vec4::splat(nearest),
-        }
-    }
-}
-
-/// Each coordinate four times.
-fn splat(v: Vec3A) -> [Vec4; 3] {
-    [Vec4::splat(v.x), Vec4::splat(v.y), Vec4::splat(v.z)]
-}
-
-impl Node {
-    const EMPTY: Self = Self {
-        low: [Vec4::INFINITY; 3],
-        high: [Vec4::NEG_INFINITY; 3],
-        children: [Child { first: 0, packs: 0 }; WIDTH],
-        count: 0,
-    };
-
-    fn set_box(&mut self, lane: usize, of: &Aabb) {
-        for axis in 0..3 {
-            self.low[axis][lane] = of.min[axis];
-            self.high[axis][lane] = of.max[axis];
-        }
-    }
-
-    /// The box around all boxes.
-    fn bounds(&self) -> Aabb {
-        let low = self.low.map(Vec4::min_element);
-        let high = self.high.map(Vec4::max_element);
-        Aabb::new(low.into(), high.into())
-    }
-
-    /// Where the ray enters each box, and which of them it meets before `furthest`.
-    #[inline]
-    fn meet(&self, ray: &Ray, furthest: f32) -> (Vec4, u32) {
-        let mut enter = ray.nearest;
-        let mut leave = Vec4::splat(furthest);
-        for axis in 0..3 {
-            let one = (self.low[axis] - ray.origin[axis]) * ray.inverse[axis];
-            let other = (self.high[axis] - ray.origin[axis]) * ray.inverse[axis];
-            enter = enter.max(one.min(other));
-            leave = leave.min(one.max(other) * ROUNDING);
-        }
-        let used = (1 << self.count) - 1;
-        (enter, enter.cmple(leave).bitmask() & used)
-    }
-}
-
-impl Pack {
-    fn new(surface: &Surface, triangles: &[u32]) -> Self {
-        let mut pack = Self {
-            corner: [Vec4::ZERO; 3],
-            back: [Vec4::ZERO; 3],
-            forth: [Vec4::ZERO; 3],
-            inward: [Vec4::ZERO; 3],
-            triangles: [0; WIDTH],
-            count: triangles.len() as u32,
-        };
-        for (lane, triangle) in triangles.iter().enumerate() {
-            pack.triangles[lane] = *triangle;
-            let [a, b, c] = corners(surface, *triangle);
-            let (back, forth) = (a - b, c - a);
-            let inward = back.cross(forth);
-            for axis in 0..3 {
-                pack.corner[axis][lane] = a[axis];
-                pack.back[axis][lane] = back[axis];
-                pack.forth[axis][lane] = forth[axis];
-                pack.inward[axis][lane] = inward[axis];
-            }
-        }
-        pack
-    }
-
-    /// Moves the triangles to where they are in `surface`, and returns the box around them.
-    fn fit(&mut self, surface: &Surface) -> Aabb {
-        let triangles = &self.triangles[..self.count as usize];
-        let boxes = triangles
-            .iter()
-            .map(|triangle| bounds(&corners(surface, *triangle)));
-        let bounds = boxes.fold(Aabb::empty(), |all, one| all.union(&one));
-        *self = Self::new(surface, triangles);
-        bounds
-    }
-
-    /// Where the ray meets each triangle (Möller and Trumbore 1997), and calls `each` for those that it meets before
-    /// `furthest`.
-    #[inline]
-    fn meet(&self, ray: &Ray, furthest: f32, mut each: impl FnMut(Hit)) {
-        let to = sub(self.corner, ray.origin);
-        let across = cross(ray.direction, to);
-        let slope = dot(self.inward, ray.direction);
-        let inverse = Vec4::ONE / slope;
-        let u = dot(across, self.forth) * inverse;
-        let v = dot(across, self.back) * inverse;
-        let distance = dot(self.inward, to) * inverse;
-        let edge = Vec4::splat(-EDGE);
-        let within = u.cmpge(edge) & v.cmpge(edge) & (u + v).cmple(Vec4::splat(1.0 + EDGE));
-        let ahead = distance.cmpge(ray.nearest) & distance.cmple(Vec4::splat(furthest));
-        let mut met = (within & ahead).bitmask();
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize;
-            met &= met - 1;
-            if distance[lane].is_finite() {
-                each(Hit {
-                    triangle: self.triangles[lane] as usize,
-                    distance: distance[lane],
-                    shares: Vec3::new(1.0 - u[lane] - v[lane], u[lane], v[lane]),
-                    behind: slope[lane] < 0.0,
-                });
-            }
-        }
-    }
-}
-
-fn corners(surface: &Surface, triangle: u32) -> [Vec3; 3] {
-    let [a, b, c] = surface.triangles[triangle as usize];
-    let at = |corner: u32| surface.positions[corner as usize];
-    [at(a), at(b), at(c)]
-}
-
-fn bounds(corners: &[Vec3; 3]) -> Aabb {
-    let [a, b, c] = corners.map(Vec3A::from);
-    Aabb::new(a.min(b).min(c), a.max(b).max(c))
-}
-
 /// The nodes of a binary tree that become the children of one node: those that a ray hits most probably are replaced by their
 /// own children.
 fn opened<'t>(nodes: &'t [Bvh2Node], parent: &'t Bvh2Node) -> SmallVec<[&'t Bvh2Node; WIDTH]> {
@@ -245,22 +50,6 @@ fn opened<'t>(nodes: &'t [Bvh2Node], parent: &'t Bvh2Node) -> SmallVec<[&'t Bvh2
         opened.extend(&nodes[first..first + 2]);
     }
     opened
-}
-
-fn sub(a: [Vec4; 3], b: [Vec4; 3]) -> [Vec4; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [Vec4; 3], b: [Vec4; 3]) -> Vec4 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [Vec4; 3], b: [Vec4; 3]) -> [Vec4; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 impl Hierarchy {
@@ -341,12 +130,10 @@ impl Hierarchy {
         let ray = Ray::new(origin, direction, nearest);
         let mut found: Option<Hit> = None;
         let mut furthest = f32::INFINITY;
-        let mut stack: SmallVec<[(f32, Child); STACK]> = SmallVec::new();
-        stack.push((0.0, Child::default()));
-        while let Some((enter, child)) = stack.pop() {
-            if enter > furthest {
-                continue;
-            }
+        let mut stack: Stack<(f32, Child)> = Stack::new();
+        let mut next = Some(Child::default());
+        while let Some(child) = next {
+            next = None;
             if child.packs > 0 {
                 for pack in &self.packs[child.first as usize..][..child.packs as usize] {
                     pack.meet(&ray, furthest, |hit| {
@@ -360,22 +147,35 @@ impl Hierarchy {
                         }
                     });
                 }
-                continue;
+            } else if let Some(node) = self.nodes.get(child.first as usize) {
+                let (enter, mut met) = node.meet(&ray, furthest);
+                if met.is_power_of_two() {
+                    next = Some(node.children[met.trailing_zeros() as usize % WIDTH]);
+                    continue;
+                }
+                let enter = enter.to_array();
+                // The nearest one is next, and the others are in the stack by their distance.
+                let mut order = [(0.0, Child::default()); WIDTH];
+                let mut count = 0;
+                while met != 0 {
+                    let lane = met.trailing_zeros() as usize % WIDTH;
+                    met &= met - 1;
+                    let mut place = count;
+                    while place > 0 && order[place - 1].0 < enter[lane] {
+                        order[place] = order[place - 1];
+                        place -= 1;
+                    }
+                    order[place] = (enter[lane], node.children[lane]);
+                    count += 1;
+                }
+                for entry in &order[..count] {
+                    stack.push(*entry);
+                }
             }
-            let Some(node) = self.nodes.get(child.first as usize) else {
-                continue;
-            };
-            let (enter, mut met) = node.meet(&ray, furthest);
-            // The nearest one comes last, so that it is next.
-            let first = stack.len();
-            while met != 0 {
-                let lane = met.trailing_zeros() as usize;
-                met &= met - 1;
-                stack.push((enter[lane], node.children[lane]));
-                let mut place = stack.len() - 1;
-                while place > first && stack[place - 1].0 < stack[place].0 {
-                    stack.swap(place - 1, place);
-                    place -= 1;
+            while let Some((enter, child)) = stack.pop() {
+                if enter <= furthest {
+                    next = Some(child);
+                    break;
                 }
             }
         }
@@ -390,53 +190,52 @@ impl Hierarchy {
         mut blocks: impl FnMut(&Hit) -> bool,
     ) -> bool {
         let ray = Ray::new(origin, direction, 0.0);
-        let mut blocked = false;
-        let mut stack: SmallVec<[Child; STACK]> = SmallVec::new();
-        stack.push(Child::default());
-        while let Some(child) = stack.pop() {
+        let mut stack: Stack<Child> = Stack::new();
+        let mut next = Some(Child::default());
+        while let Some(child) = next {
+            next = None;
             if child.packs > 0 {
+                let mut blocked = false;
                 for pack in &self.packs[child.first as usize..][..child.packs as usize] {
                     pack.meet(&ray, f32::INFINITY, |hit| blocked = blocked || blocks(&hit));
                 }
                 if blocked {
                     return true;
                 }
-                continue;
+            } else if let Some(node) = self.nodes.get(child.first as usize) {
+                let (_, mut met) = node.meet(&ray, f32::INFINITY);
+                while met != 0 {
+                    let lane = met.trailing_zeros() as usize % WIDTH;
+                    met &= met - 1;
+                    if let Some(later) = next.replace(node.children[lane]) {
+                        stack.push(later);
+                    }
+                }
             }
-            let Some(node) = self.nodes.get(child.first as usize) else {
-                continue;
-            };
-            let (_, mut met) = node.meet(&ray, f32::INFINITY);
-            while met != 0 {
-                let lane = met.trailing_zeros() as usize;
-                met &= met - 1;
-                stack.push(node.children[lane]);
-            }
+            next = next.or_else(|| stack.pop());
         }
         false
     }
 
-    /// The same tree for other positions of the same triangles: the boxes are fitted to them (Lauterbach and others 2006), which
-    /// takes a fraction of the time of building one.
-    pub(super) fn fitted(&self, surface: &Surface) -> Self {
-        let mut fitted = self.clone();
-        for index in (0..fitted.nodes.len()).rev() {
-            for lane in 0..fitted.nodes[index].count as usize {
-                let child = fitted.nodes[index].children[lane];
+    /// Fits the boxes to other positions of the same triangles (Lauterbach and others 2006), which takes a fraction of the time of
+    /// building a tree.
+    pub(super) fn fit(&mut self, surface: &Surface) {
+        for index in (0..self.nodes.len()).rev() {
+            for lane in 0..self.nodes[index].count as usize {
+                let child = self.nodes[index].children[lane];
                 let of = match child.packs {
-                    0 => fitted.nodes[child.first as usize].bounds(),
+                    0 => self.nodes[child.first as usize].bounds(),
                     packs => {
-                        let packs = &mut fitted.packs[child.first as usize..][..packs as usize];
+                        let packs = &mut self.packs[child.first as usize..][..packs as usize];
                         packs
                             .iter_mut()
                             .map(|pack| pack.fit(surface))
                             .fold(Aabb::empty(), |all, one| all.union(&one))
                     }
                 };
-                fitted.nodes[index].set_box(lane, &of);
+                self.nodes[index].set_box(lane, &of);
             }
         }
-        fitted
     }
 }
 
@@ -537,7 +336,9 @@ pub(crate) mod tests {
     fn a_tree_is_fitted_to_other_positions() {
         let (before, after) = (ring(3), ring(4));
         assert_eq!(before.triangles, after.triangles);
-        check(&Hierarchy::new(&before, Rays::Film).fitted(&after), &after);
+        let mut hierarchy = Hierarchy::new(&before, Rays::Film);
+        hierarchy.fit(&after);
+        check(&hierarchy, &after);
     }
 
     #[test]
@@ -554,10 +355,10 @@ pub(crate) mod tests {
 
     #[test]
     fn without_triangles_nothing_is_met() {
-        let hierarchy = Hierarchy::new(&Surface::default(), Rays::Many);
+        let mut hierarchy = Hierarchy::new(&Surface::default(), Rays::Many);
         let found = hierarchy.closest(Vec3::ZERO, Vec3::X, 0.0, |_| true);
         assert!(found.is_none() && !hierarchy.is_blocked(Vec3::ZERO, Vec3::X, |_| true));
-        let fitted = hierarchy.fitted(&Surface::default());
-        assert!(!fitted.is_blocked(Vec3::ZERO, Vec3::X, |_| true));
+        hierarchy.fit(&Surface::default());
+        assert!(!hierarchy.is_blocked(Vec3::ZERO, Vec3::X, |_| true));
     }
 }

@@ -6,16 +6,18 @@ use super::Shading;
 use super::fragment::{Fragment, FragmentKind, PixelSampler, same_surface};
 use super::ground::{GroundLight, shadow_fade, shadow_on_lines};
 use super::light::{IncidentLight, Lights, share};
+use super::raster::Area;
 use super::sampling::Refinement;
 use super::shade::{shade, shadow};
 use super::texture::{linear_to_srgb, srgb_to_linear, srgb_values};
 
-/// The side of a tile in pixels.
-pub(super) const TILE_SIDE: u32 = 64;
 /// The width of the border of neighbours around a tile, in pixels.
 pub(super) const HALO: u32 = 2;
 
-/// Renders the pixels from `left`, `top`, at most [`TILE_SIDE`] each way; rows from the top, RGBA. `ground` is the light on
+/// The triangles that rays meet are not known before the rays are traced.
+const TRACED: Option<fn(usize) -> Option<usize>> = None;
+
+/// Renders the pixels from `left`, `top`, of a tile; rows from the top, RGBA. `ground` is the light on
 /// the ground, unless it is computed in each pixel.
 pub(super) fn draw_tile(
     sampler: &PixelSampler<'_>,
@@ -31,7 +33,7 @@ pub(super) fn draw_tile(
         return pixels
             .map(|(x, y)| {
                 fragments.clear();
-                sampler.sample(x, y, &mut fragments);
+                sampler.sample(x, y, TRACED, &mut fragments);
                 let colour = base_colour(&fragments, lines(sampler, x, y));
                 pixel(colour, &SRGB, background)
             })
@@ -41,19 +43,26 @@ pub(super) fn draw_tile(
     pixels
         .map(|(x, y)| {
             if let Some(ground) = ground.filter(|_| !sampler.coverage.contains(x, y)) {
-                let colour = bare_ground(sampler, lights, ground, x, y);
+                let colour = bare_ground(sampler, ground, x, y);
                 return pixel(colour, &LINEAR, background);
             }
             let mut colour = Vec4::ZERO;
             for fragment in tile.at(x, y) {
-                let incident = match (fragment.kind, ground) {
-                    (FragmentKind::Ground, Some(ground)) => ground.at(x, y),
-                    _ => tile.gathered(x, y, fragment),
+                let light = match (fragment.kind, ground) {
+                    (FragmentKind::Ground, Some(ground)) => {
+                        let fade = shadow_fade(fragment.place, &sampler.tracer.surface);
+                        ground_colour(sampler, x, y, shadow(ground.at(x, y)) * fade)
+                    }
+                    (FragmentKind::Ground, None) => {
+                        let incident = tile.gathered(x, y, fragment);
+                        let shadow = shade(fragment, &incident, sampler.tracer, lights).w;
+                        ground_colour(sampler, x, y, shadow)
+                    }
+                    (FragmentKind::Model(_), _) => {
+                        let incident = tile.gathered(x, y, fragment);
+                        shade(fragment, &incident, sampler.tracer, lights)
+                    }
                 };
-                let mut light = shade(fragment, &incident, sampler.tracer, lights);
-                if fragment.kind == FragmentKind::Ground {
-                    light = ground_colour(sampler, x, y, light.w);
-                }
                 colour += light * fragment.weight;
             }
             pixel(colour, &LINEAR, background)
@@ -62,23 +71,18 @@ pub(super) fn draw_tile(
 }
 
 /// Premultiplied colour and alpha of a pixel that shows nothing but the ground.
-fn bare_ground(
-    sampler: &PixelSampler<'_>,
-    lights: &Lights,
-    ground: &GroundLight,
-    x: u32,
-    y: u32,
-) -> Vec4 {
+fn bare_ground(sampler: &PixelSampler<'_>, ground: &GroundLight, x: u32, y: u32) -> Vec4 {
     let surface = &sampler.tracer.surface;
-    let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-    let Some(place) = sampler.camera.on_level(middle, surface.low.y) else {
-        return Vec4::ZERO;
+    let faded = |shadow: f32| {
+        let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+        let place = sampler.camera.on_level(middle, surface.low.y);
+        place.map_or(0.0, |place| shadow * shadow_fade(place, surface))
     };
-    let shadow = match shadow_fade(place, surface) {
-        0.0 => 0.0,
-        fade => shadow(&ground.at(x, y), lights) * fade,
-    };
-    ground_colour(sampler, x, y, shadow)
+    match (shadow(ground.at(x, y)), sampler.floor) {
+        (0.0, None) => Vec4::ZERO,
+        (0.0, Some(_)) => ground_colour(sampler, x, y, 0.0),
+        (shadow, _) => ground_colour(sampler, x, y, faded(shadow)),
+    }
 }
 
 /// Premultiplied colour and alpha of the ground in a pixel, with a shadow of some opacity.
@@ -182,23 +186,41 @@ impl Tile {
         let mut tile = match sampler.sampling.refinement {
             Refinement::Pixel => Self::filled(corner, size, |x, y, out| {
                 if !is_bare(x, y) {
-                    sampler.sample(x, y, out);
+                    sampler.sample(x, y, TRACED, out);
                 }
             }),
             Refinement::Neighbours => {
+                let area = Area {
+                    left: corner[0],
+                    top: corner[1],
+                    width: size[0],
+                    height: size[1],
+                };
+                let middles = sampler.raster.as_ref().map(|raster| raster.middles(area));
                 let once = Self::filled(corner, size, |x, y, out| {
                     if !is_bare(x, y) {
-                        sampler.sample_once(x, y, out);
+                        let met = middles.as_ref().map(|middles| middles.at(x, y));
+                        sampler.sample_once(x, y, met, out);
                     }
                 });
+                let is_enough = |x: u32, y: u32| {
+                    is_bare(x, y) || sampler.is_enough(once.at(x, y), once.neighbours(x, y))
+                };
+                let edges: Vec<[u32; 2]> =
+                    once.pixels().filter(|[x, y]| !is_enough(*x, *y)).collect();
+                let count = sampler.sampling.edge;
+                let samples = sampler.raster.as_ref();
+                let samples = samples.map(|raster| raster.samples(area, &edges, count));
+                let mut edges = edges.into_iter().enumerate().peekable();
                 Self::filled(corner, size, |x, y, out| {
-                    let seen = once.at(x, y);
-                    if is_bare(x, y) {
-                    } else if sampler.is_enough(seen, once.neighbours(x, y)) {
-                        out.extend_from_slice(seen);
-                    } else {
+                    match edges.next_if(|(_, edge)| *edge == [x, y]) {
+                        None => out.extend_from_slice(once.at(x, y)),
                         // Most pixels beside an edge contain none: the first few rays tell.
-                        sampler.sample(x, y, out);
+                        Some((edge, _)) => {
+                            let met = samples.as_ref();
+                            let met = met.map(|samples| move |index| samples.at(edge, index));
+                            sampler.sample(x, y, met, out);
+                        }
                     }
                 })
             }
@@ -244,6 +266,15 @@ impl Tile {
             fragments,
             starts,
         }
+    }
+
+    /// The pixels of the tile and its halo, as far as they are in the picture or behind it.
+    fn pixels(&self) -> impl Iterator<Item = [u32; 2]> {
+        let width = self.width as i64;
+        let height = (self.starts.len() as i64 - 1) / width;
+        let rows = self.top.max(0)..self.top + height;
+        let columns = self.left.max(0)..self.left + width;
+        rows.flat_map(move |y| columns.clone().map(move |x| [x as u32, y as u32]))
     }
 
     /// The fragments of the pixels beside, above and below a pixel, as far as they are in the tile or its halo.

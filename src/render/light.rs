@@ -60,6 +60,7 @@ pub(super) struct IncidentLight {
 }
 
 impl IncidentLight {
+    #[inline]
     pub(super) fn add(&mut self, other: &Self) {
         for (sum, one) in self.lamps.iter_mut().zip(other.lamps) {
             *sum += one;
@@ -67,6 +68,7 @@ impl IncidentLight {
         self.sky += other.sky;
     }
 
+    #[inline]
     pub(super) fn scaled(&self, factor: f32) -> Self {
         Self {
             // Not `map`, which is not inlined.
@@ -194,32 +196,38 @@ impl Lights {
     }
 
     /// How much a surface faces a lamp, 0 to 1.
+    #[inline]
     fn facing(&self, lamp: usize, normal: Vec3) -> f32 {
         let wrap = LAMP[lamp].wrap;
         ((normal.dot(self.directions[lamp]) + wrap) / (1.0 + wrap)).max(0.0)
     }
 
     /// The light of a lamp on a white surface.
+    #[inline]
     pub(super) fn on(&self, lamp: usize, normal: Vec3, incident: &IncidentLight) -> f32 {
         LAMP[lamp].strength * self.facing(lamp, normal) * incident.lamps[lamp]
     }
 
+    #[inline]
     pub(super) fn strength(&self, lamp: usize) -> f32 {
         LAMP[lamp].strength
     }
 
+    #[inline]
     pub(super) fn sky_strength(&self) -> f32 {
         SKY
     }
 }
 
 /// The light from an unobstructed direction, relative to the sky.
+#[inline]
 pub(super) fn sky(direction: Vec3) -> f32 {
     let share = (direction.y * 0.9 + 0.45).clamp(0.0, 1.0);
     GROUND + (1.0 - GROUND) * share * share * (3.0 - 2.0 * share)
 }
 
 /// The mean of [`sky`] over the hemisphere of a normal.
+#[inline]
 pub(super) fn open_sky(normal: Vec3) -> f32 {
     GROUND + (1.0 - GROUND) * (0.5 + 0.5 * normal.y).clamp(0.0, 1.0)
 }
@@ -249,6 +257,7 @@ fn disk(share: Vec2, radius: f32) -> Vec2 {
 }
 
 /// The position of a pixel in its block's order, in which neighbours are far apart (Bayer matrix).
+#[inline]
 pub(super) fn share(x: u32, y: u32) -> usize {
     const ORDER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
     usize::from(ORDER[(y % BLOCK) as usize][(x % BLOCK) as usize])

@@ -7,14 +7,15 @@ use image::RgbaImage;
 use rayon::prelude::*;
 
 use super::camera::{Camera, Framing, Sheet, View};
-use super::coverage::Coverage;
+use super::coverage::{Coverage, places};
 use super::fragment::PixelSampler;
 use super::ground::{Floor, GroundLight};
 use super::hierarchy::Rays;
-use super::image_tile::{HALO, TILE_SIDE, draw_tile};
+use super::image_tile::{HALO, draw_tile};
 use super::light::Lights;
 use super::model::Model;
-use super::sampling::{FILM, GroundSampling, STILL, Sampling};
+use super::raster::Raster;
+use super::sampling::{FILM, GroundSampling, Refinement, STILL, Sampling};
 use super::surface::{Normalization, Surface};
 use super::trace::Tracer;
 use super::{MAX_SIDE, Options, RenderError, Shading, on_pool};
@@ -233,10 +234,21 @@ pub(super) fn draw(
         floor,
     } = take;
     let lights = Lights::new(camera.yaw, sampling);
+    let places = places(&tracer.surface, camera);
+    let raster = match sampling.refinement {
+        Refinement::Neighbours if options.shading != Shading::Unlit => Raster::new(
+            tracer,
+            camera,
+            &places,
+            options.size.map(|side| side + HALO),
+        ),
+        _ => None,
+    };
     let sampler = PixelSampler {
         tracer,
         camera,
-        coverage: &Coverage::new(&tracer.surface, camera, options.size, HALO),
+        coverage: &Coverage::new(&tracer.surface, &places, options.size, HALO),
+        raster,
         sampling,
         shading: options.shading,
         floor: *floor,
@@ -247,19 +259,20 @@ pub(super) fn draw(
         ),
         _ => None,
     };
+    let side = sampling.tile;
     let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
     let bands = pixels
-        .par_chunks_mut(width as usize * TILE_SIDE as usize)
+        .par_chunks_mut(width as usize * side as usize)
         .enumerate();
     bands.for_each(|(band, pixels)| {
-        let top = band as u32 * TILE_SIDE;
-        let high = TILE_SIDE.min(height - top);
+        let top = band as u32 * side;
+        let high = side.min(height - top);
         // Tiles within a band run in parallel too, for pictures with fewer bands than threads.
-        let lefts: Vec<u32> = (0..width).step_by(TILE_SIDE as usize).collect();
+        let lefts: Vec<u32> = (0..width).step_by(side as usize).collect();
         let tiles: Vec<Vec<[u8; 4]>> = lefts
             .par_iter()
             .map(|left| {
-                let wide = TILE_SIDE.min(width - left);
+                let wide = side.min(width - left);
                 draw_tile(
                     &sampler,
                     &lights,
@@ -271,7 +284,7 @@ pub(super) fn draw(
             })
             .collect();
         for (left, tile) in lefts.iter().zip(&tiles) {
-            let wide = TILE_SIDE.min(width - left) as usize;
+            let wide = side.min(width - left) as usize;
             for (line, tile) in pixels
                 .chunks_exact_mut(width as usize)
                 .zip(tile.chunks_exact(wide))

@@ -13,6 +13,8 @@ pub(super) struct Sampling {
     /// Rays of a pixel of the model to each lamp, and to the sky.
     pub(super) model: LightRays,
     pub(super) ground: GroundSampling,
+    /// The side of the tiles that are rendered in parallel, in pixels. What is around a tile is rendered with it.
+    pub(super) tile: u32,
 }
 
 /// Which pixels contain an edge.
@@ -58,6 +60,7 @@ pub(super) static STILL: Sampling = Sampling {
         lamps: [3, 0, 0],
         sky: 16,
     }),
+    tile: 64,
 };
 
 /// A picture of a film, which is seen for a moment. The rays are the same in all pictures, so that nothing flickers.
@@ -76,4 +79,6 @@ pub(super) static FILM: Sampling = Sampling {
             sky: 8,
         },
     },
+    // Several pictures are rendered at the same time.
+    tile: 160,
 };

@@ -25,7 +25,7 @@ pub(super) fn shade(
     match fragment.kind {
         FragmentKind::Ground => {
             let fade = shadow_fade(fragment.place, &tracer.surface);
-            Vec4::new(0.0, 0.0, 0.0, shadow(incident, lights) * fade)
+            Vec4::new(0.0, 0.0, 0.0, shadow(ground_light(incident, lights)) * fade)
         }
         FragmentKind::Model(material) => {
             let material = &tracer.materials[material];
@@ -38,11 +38,16 @@ pub(super) fn shade(
     }
 }
 
-/// The opacity of the ground's shadow, 0 in full light.
-pub(super) fn shadow(incident: &IncidentLight, lights: &Lights) -> f32 {
+/// The share of the light that reaches the ground, 0 to 1.
+pub(super) fn ground_light(incident: &IncidentLight, lights: &Lights) -> f32 {
     let key = lights.strength(0) * lights.directions[0].y;
     let sky = lights.sky_strength();
-    let light = (key * incident.lamps[0] + sky * incident.sky / open_sky(Vec3::Y)) / (key + sky);
+    (key * incident.lamps[0] + sky * incident.sky / open_sky(Vec3::Y)) / (key + sky)
+}
+
+/// The opacity of the ground's shadow where this share of the light reaches it, 0 in full light.
+#[inline]
+pub(super) fn shadow(light: f32) -> f32 {
     // The faintest shadow is cut off, so that the background stays fully transparent.
     ((1.0 - light) * 1.05 - 0.05).clamp(0.0, 1.0) * SHADOW
 }

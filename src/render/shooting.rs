@@ -1,5 +1,6 @@
 //! Renders the pictures of a film one after another, several at the same time.
 
+use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use rayon::prelude::*;
@@ -24,6 +25,8 @@ pub struct Shooting<'a> {
     sampling: &'static Sampling,
     /// The triangles of one pose and their hierarchy, which is fitted to other poses.
     hierarchy: (Vec<[u32; 3]>, Hierarchy),
+    /// Hierarchies of the same triangles that no picture uses: they need not be allocated again.
+    spare: Mutex<Vec<Hierarchy>>,
 }
 
 /// The camera of a film.
@@ -71,6 +74,7 @@ impl<'a> Film<'a> {
             camera,
             sampling,
             hierarchy: on_pool(hierarchy)?,
+            spare: Mutex::default(),
         })
     }
 }
@@ -147,8 +151,14 @@ impl Shooting<'_> {
         // The ground stays where it is when the model jumps.
         surface.low.y = surface.low.y.min(film.ground);
         let (triangles, hierarchy) = &self.hierarchy;
-        let hierarchy = match *triangles == surface.triangles {
-            true => hierarchy.fitted(&surface),
+        let same = *triangles == surface.triangles;
+        let hierarchy = match same {
+            true => {
+                let spare = self.spare.lock().ok().and_then(|mut spare| spare.pop());
+                let mut fitted = spare.unwrap_or_else(|| hierarchy.clone());
+                fitted.fit(&surface);
+                fitted
+            }
             // Other triangles are visible: some are too small in one of the poses.
             false => Hierarchy::new(&surface, Rays::Many),
         };
@@ -158,7 +168,11 @@ impl Shooting<'_> {
             sampling: self.sampling,
             floor: film.floor(time),
         };
-        draw(&tracer, options, &take)
+        let image = draw(&tracer, options, &take);
+        if same && let Ok(mut spare) = self.spare.lock() {
+            spare.push(tracer.into_hierarchy());
+        }
+        image
     }
 }
 

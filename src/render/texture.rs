@@ -22,6 +22,7 @@ pub(super) fn srgb_to_linear(byte: u8) -> f32 {
 }
 
 /// The nearest sRGB byte of linear light.
+#[inline]
 pub(super) fn linear_to_srgb(light: f32) -> u8 {
     (srgb_value(light) * 255.0 + 0.5).clamp(0.0, 255.0) as u8
 }

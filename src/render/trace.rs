@@ -2,7 +2,8 @@
 
 use glam::{Vec3, Vec4};
 
-use super::hierarchy::{Hierarchy, Hit, Rays};
+use super::hierarchy::{Hierarchy, Rays};
+use super::lanes::Hit;
 use super::surface::{Alpha, Material, Surface};
 use super::texture::Texture;
 
@@ -46,6 +47,12 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// Its hierarchy, for other pictures.
+    pub(super) fn into_hierarchy(self) -> Hierarchy {
+        self.hierarchy
+    }
+
+    #[inline]
     pub(super) fn material(&self, triangle: usize) -> usize {
         self.surface.materials[triangle] as usize
     }
@@ -72,6 +79,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The opacity of a surface whose material has this alpha at the hit.
+    #[inline]
     pub(super) fn cover(&self, hit: &Hit, alpha: f32) -> f32 {
         match self.materials[self.material(hit.triangle)].alpha {
             Alpha::Opaque => 1.0,
@@ -81,6 +89,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// Base colour and alpha at a hit, for a sample of this width.
+    #[inline]
     pub(super) fn base(&self, hit: &Hit, width: f32) -> Vec4 {
         let material = &self.materials[self.material(hit.triangle)];
         let corners = self.surface.triangles[hit.triangle];
@@ -112,18 +121,21 @@ impl<'a> Tracer<'a> {
     }
 
     /// The unit normal of a triangle.
+    #[inline]
     pub(super) fn facet(&self, triangle: usize) -> Vec3 {
         -self.inward(triangle).normalize_or_zero()
     }
 
     /// A vector at a right angle to a triangle, twice as long as its area.
-    fn inward(&self, triangle: usize) -> Vec3 {
+    #[inline]
+    pub(super) fn inward(&self, triangle: usize) -> Vec3 {
         let [a, b, c] = self.surface.triangles[triangle];
         let at = |corner: u32| self.surface.positions[corner as usize];
         (at(a) - at(b)).cross(at(c) - at(a))
     }
 
     /// The interpolated normal of the file, if it has any.
+    #[inline]
     pub(super) fn normal(&self, hit: &Hit) -> Option<Vec3> {
         let normals = &self.surface.normals;
         let corners = self.surface.triangles[hit.triangle];
@@ -132,6 +144,7 @@ impl<'a> Tracer<'a> {
 
     /// The origin of shadow rays on a smooth surface: lifted off the triangle to the curved surface that it approximates, so
     /// that smooth objects cast no jagged shadows on themselves (Hanika 2021).
+    #[inline]
     pub(super) fn lifted(&self, hit: &Hit, place: Vec3, side: f32) -> Vec3 {
         let (positions, normals) = (&self.surface.positions, &self.surface.normals);
         let corners = self.surface.triangles[hit.triangle];
