@@ -5,6 +5,7 @@
 //!
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, chapter 4.
 
+mod assignment;
 mod backing;
 mod character;
 mod diagnostics;

@@ -16,6 +16,7 @@ mod offset;
 mod pixels;
 mod query;
 mod scanline;
+mod simplify;
 mod tangled;
 mod touching;
 
@@ -31,6 +32,7 @@ pub use pixels::pixel_borders;
 pub use query::{area, border_distance_squared, bounds, centroid, contains, distance_squared};
 pub(crate) use query::{crosses, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
+pub(crate) use simplify::simplify;
 pub use tangled::crossings as count_crossings;
 
 use glam::DVec2;

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
-use super::Ring;
+use super::{Ring, simplify};
 
 /// How far the outline may deviate from the pixels' edges, in pixels: enough to smooth the steps of slanted borders.
 const BORDER_TOLERANCE: f64 = 0.75;
@@ -48,15 +48,15 @@ pub fn pixel_borders(width: u32, height: u32, is_solid: impl Fn(u32, u32) -> boo
                     None => break,
                 }
             }
-            rings.push(simplify(&ring));
+            rings.push(smoothed(&ring));
         }
     }
     rings.retain(|ring| ring.len() > 2);
     rings
 }
 
-/// Douglas–Peucker simplification of a ring, split at its first point and the point farthest from it.
-fn simplify(ring: &[DVec2]) -> Ring {
+/// A ring without the points that matter little, split at its first point and the point farthest from it.
+fn smoothed(ring: &[DVec2]) -> Ring {
     let Some(first) = ring.first() else {
         return Ring::new();
     };
@@ -77,11 +77,7 @@ fn simplify(ring: &[DVec2]) -> Ring {
 }
 
 fn halves(line: &[DVec2]) -> Vec<DVec2> {
-    let mut keep = vec![false; line.len()];
-    let mut stack = vec![(0, line.len() - 1)];
-    keep[0] = true;
-    keep[line.len() - 1] = true;
-    while let Some((from, to)) = stack.pop() {
+    let kept = simplify(line.len(), |from, to| {
         let direction = (line[to] - line[from]).normalize_or_zero();
         let distance = |p: DVec2| match direction == DVec2::ZERO {
             true => p.distance(line[from]),
@@ -89,15 +85,7 @@ fn halves(line: &[DVec2]) -> Vec<DVec2> {
         };
         let farthest =
             (from + 1..to).max_by(|a, b| distance(line[*a]).total_cmp(&distance(line[*b])));
-        if let Some(middle) = farthest.filter(|index| distance(line[*index]) > BORDER_TOLERANCE) {
-            keep[middle] = true;
-            stack.push((from, middle));
-            stack.push((middle, to));
-        }
-    }
-    line.iter()
-        .zip(keep)
-        .filter(|(_, keep)| *keep)
-        .map(|(p, _)| *p)
-        .collect()
+        farthest.filter(|index| distance(line[*index]) > BORDER_TOLERANCE)
+    });
+    kept.into_iter().map(|index| line[index]).collect()
 }

@@ -56,6 +56,16 @@ impl Cells {
         is_near.then(|| self.nearest(point))
     }
 
+    /// The cell of a point, or the nearest one, and those to the left of it, each with an x a little greater than that of its left
+    /// side.
+    pub(super) fn leftward(&self, point: DVec2) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let [column, row] = self.place(point);
+        (0..=column).rev().map(move |column| {
+            let left = self.low.x + (column as f64 + 1e-6) / self.scale.x;
+            (row * self.size[0] + column, left)
+        })
+    }
+
     /// The cells that a box reaches into.
     pub(super) fn in_box(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = usize> + '_ {
         let is_apart = high.cmplt(self.low).any() || low.cmpgt(self.high).any();
@@ -65,18 +75,30 @@ impl Cells {
     }
 
     /// Calls `each` with the cells that a triangle reaches into, row by row, and perhaps with a few beside it.
-    pub(super) fn of_triangle(&self, [a, b, c]: [DVec2; 3], mut each: impl FnMut(usize)) {
+    pub(super) fn of_triangle(&self, triangle: [DVec2; 3], mut each: impl FnMut(usize)) {
+        self.any_of_triangle(triangle, |cell| {
+            each(cell);
+            false
+        });
+    }
+
+    /// Whether this is true of any cell that a triangle reaches into, or of one beside it.
+    pub(super) fn any_of_triangle(
+        &self,
+        [a, b, c]: [DVec2; 3],
+        mut is: impl FnMut(usize) -> bool,
+    ) -> bool {
         let [[left, bottom], [right, top]] =
             [a.min(b).min(c), a.max(b).max(c)].map(|corner| self.place(corner));
         // Most triangles are about as large as a cell: which cells of their box they do not reach is not worth finding out.
         let is_small = top - bottom <= 1 && right - left <= 1;
-        for row in bottom..=top {
+        (bottom..=top).any(|row| {
             let [left, right] = match is_small {
                 true => [left, right],
                 false => self.columns_of([[a, b], [b, c], [c, a]], row),
             };
-            (left..=right).for_each(|column| each(row * self.size[0] + column));
-        }
+            (left..=right).any(|column| is(row * self.size[0] + column))
+        })
     }
 
     /// The first and the last column that a triangle with these edges reaches into in a row that it reaches into.

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use glam::DVec2;
 
+use super::border::Border;
 use super::cells::Cells;
 
 /// Polygons with more corners than this have a grid, in which those near an ear are found.
@@ -45,11 +46,7 @@ struct Clip<'a> {
 /// h holes, that gives n + 2h − 2 triangles.
 pub(super) fn clip(points: &[DVec2], rings: &[Range<usize>], triangles: &mut Vec<[u32; 3]>) {
     let Some(border) = rings.first() else { return };
-    let (low, high) = points[border.clone()]
-        .iter()
-        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
-            (l.min(*p), h.max(*p))
-        });
+    let [low, high] = bounds(&points[border.clone()]);
     let extent = (high - low).max_element();
     let mut clip = Clip {
         points,
@@ -65,10 +62,7 @@ pub(super) fn clip(points: &[DVec2], rings: &[Range<usize>], triangles: &mut Vec
         holes.extend(leftmost.map(|i| (i, ring)));
     }
     holes.sort_unstable_by(|a, b| points[a.0].x.total_cmp(&points[b.0].x));
-    let mut border: Vec<u32> = (0..clip.corners.len() as u32).collect();
-    for (leftmost, ring) in holes {
-        clip.join(&mut border, leftmost, ring);
-    }
+    clip.join(&holes, rings);
     clip.cut([low, high], triangles);
 }
 
@@ -96,33 +90,29 @@ impl Clip<'_> {
         self.corners[corner as usize].before
     }
 
-    /// Joins a hole to the border, from the hole's leftmost point to the left.
-    fn join(&mut self, border: &mut Vec<u32>, leftmost: usize, ring: &Range<usize>) {
-        let hole = self.points[leftmost];
-        // The nearest edge to the left, and where the line meets it.
-        let mut nearest: Option<(f64, u32)> = None;
-        for &corner in border.iter() {
-            let (p, q) = (self.at(corner), self.at(self.next(corner)));
-            if (p.y > hole.y) == (q.y > hole.y) {
-                continue;
-            }
-            let x = p.x + (q.x - p.x) * ((hole.y - p.y) / (q.y - p.y));
-            if x <= hole.x && nearest.is_none_or(|(most, _)| x > most) {
-                let end = if p.x < q.x { corner } else { self.next(corner) };
-                nearest = Some((x, end));
-            }
+    fn edge(&self, corner: u32) -> [DVec2; 2] {
+        [self.at(corner), self.at(self.next(corner))]
+    }
+
+    /// Joins holes to the border. Each is given with its leftmost point, from the left to the right.
+    fn join(&mut self, holes: &[(usize, &Range<usize>)], rings: &[Range<usize>]) {
+        if holes.is_empty() {
+            return;
         }
-        let bridge = match nearest {
-            Some((x, end)) => self.visible(border, hole, DVec2::new(x, hole.y), end),
-            None => border
-                .iter()
-                .copied()
-                .min_by(|a, b| {
-                    let far = |c: u32| self.at(c).distance_squared(hole);
-                    far(*a).total_cmp(&far(*b))
-                })
-                .unwrap_or(0),
-        };
+        let all = || rings.iter().flat_map(|ring| &self.points[ring.clone()]);
+        let count = all().count() + 2 * holes.len();
+        let mut border = Border::new(bounds(all()), count);
+        for corner in 0..self.corners.len() as u32 {
+            border.add(self.edge(corner));
+        }
+        for (leftmost, ring) in holes {
+            self.join_hole(&mut border, *leftmost, ring);
+        }
+    }
+
+    /// Joins a hole to the border, from the hole's leftmost point to the left.
+    fn join_hole(&mut self, border: &mut Border, leftmost: usize, ring: &Range<usize>) {
+        let bridge = self.bridge(border, self.points[leftmost]);
         let base = self.corners.len() as u32;
         self.add(ring);
         let entry = base + (leftmost - ring.start) as u32;
@@ -145,12 +135,49 @@ impl Clip<'_> {
         self.corners[after as usize].before = back;
         self.corners[bridge as usize].next = entry;
         self.corners[entry as usize].before = bridge;
-        border.extend(base..self.corners.len() as u32);
+        for corner in base..back {
+            border.add(self.edge(corner));
+        }
+        border.split(bridge, self.edge(bridge));
+    }
+
+    /// The corner of the border to which a hole is joined from its leftmost point.
+    fn bridge(&self, border: &Border, hole: DVec2) -> u32 {
+        // The nearest edge to the left, and where the line meets it; the earliest of several.
+        let mut nearest: Option<(f64, u32)> = None;
+        border.leftward(hole, |corner| {
+            let [p, q] = self.edge(corner);
+            if (p.y > hole.y) == (q.y > hole.y) {
+                return None;
+            }
+            let x = p.x + (q.x - p.x) * ((hole.y - p.y) / (q.y - p.y));
+            if x > hole.x {
+                return None;
+            }
+            if nearest.is_none_or(|(most, first)| x > most || (x == most && corner < first)) {
+                nearest = Some((x, corner));
+            }
+            Some(x)
+        });
+        match nearest {
+            Some((x, corner)) => {
+                let [p, q] = self.edge(corner);
+                let end = if p.x < q.x { corner } else { self.next(corner) };
+                self.visible(border, hole, DVec2::new(x, hole.y), end)
+            }
+            // Only damaged rings have holes that nothing is to the left of.
+            None => (0..self.corners.len() as u32)
+                .min_by(|a, b| {
+                    let far = |c: u32| self.at(c).distance_squared(hole);
+                    far(*a).total_cmp(&far(*b))
+                })
+                .unwrap_or(0),
+        }
     }
 
     /// The corner that is visible from a hole's point: the end of the edge it meets, unless others are in
     /// between; then the one of those nearest to the line.
-    fn visible(&self, border: &[u32], hole: DVec2, meets: DVec2, end: u32) -> u32 {
+    fn visible(&self, border: &Border, hole: DVec2, meets: DVec2, end: u32) -> u32 {
         let mut best = end;
         let tip = self.at(end);
         let slope = |p: DVec2| (p.y - hole.y).abs() / (hole.x - p.x).max(f64::MIN_POSITIVE);
@@ -160,7 +187,7 @@ impl Clip<'_> {
         } else {
             [hole, meets, tip]
         };
-        for &corner in border {
+        for corner in border.corners_near(wound) {
             let p = self.at(corner);
             if corner == end || p.x > hole.x || !self.faces(corner, hole) {
                 continue;
@@ -324,12 +351,16 @@ impl Reflex {
         if let [all] = &self.lists[..] {
             return all.iter().any(is);
         }
-        let mut found = false;
-        self.cells.of_triangle(triangle, |cell| {
-            found = found || self.lists[cell].iter().any(&is);
-        });
-        found
+        self.cells
+            .any_of_triangle(triangle, |cell| self.lists[cell].iter().any(&is))
     }
+}
+
+/// The lowest and the highest coordinates.
+fn bounds<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> [DVec2; 2] {
+    let none = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+    let points = points.into_iter();
+    points.fold(none, |[low, high], p| [low.min(*p), high.max(*p)])
 }
 
 fn within([a, b, c]: [DVec2; 3], p: DVec2, margin: f64) -> bool {

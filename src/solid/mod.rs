@@ -8,6 +8,7 @@
 
 pub mod check;
 
+mod border;
 mod cap;
 mod cells;
 mod crease;

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::assignment::Gains;
+use super::gains::Gains;
 
 /// What two pairs cost whose order differs.
 const DISORDER: f64 = 0.5;

@@ -3,20 +3,20 @@
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, section 4.2.3, for the similarity; the one-to-one assignment
 //! is our own.
 
-mod assignment;
 #[cfg(test)]
 pub(super) mod by_similarity;
 mod cost;
 mod diagnose;
 mod exchange;
+mod gains;
 #[cfg(test)]
 mod tests;
 
 use glam::DVec2;
 
-use assignment::{Gains, assign};
 use cost::{Features, Turn, features, may_match};
 use exchange::{Sides, exchange};
+use gains::Gains;
 
 use super::place::{Frame, angle};
 use super::region::View;
@@ -210,7 +210,7 @@ impl<'a> Step<'a> {
         let known = &self.all[self.view];
         let turn = |v: &View| Turn::new(v.direction, self.views[self.view].direction);
         let mut turns: Vec<_> = self.views.iter().map(turn).collect();
-        let rough = assign(&self.gains(&self.compared(&turns)));
+        let rough = self.gains(&self.compared(&turns)).assign();
         for (view, turn) in turns.iter_mut().enumerate() {
             let of_view = |(row, _): &(&(usize, Place), _)| row.1.view == view;
             let pairs = self.rows.iter().zip(&rough).filter(of_view);
@@ -219,7 +219,7 @@ impl<'a> Step<'a> {
         }
         let compared = self.compared(&turns);
         let gains = self.gains(&compared);
-        let mut partners = assign(&gains);
+        let mut partners = gains.assign();
         let at =
             |row: &(usize, Place)| (row.1.view, turns[row.1.view].predicted(self.features(row)));
         let sides = Sides {

@@ -1,9 +1,9 @@
 use glam::DVec2;
 use proptest::prelude::*;
 
-use super::assignment::{Gains, assign};
 use super::by_similarity::most_similar;
 use super::exchange::{Sides, exchange};
+use super::gains::Gains;
 use super::*;
 use crate::billboard::generated::{Drawn, character, directions};
 use crate::billboard::place::frames;
@@ -269,7 +269,7 @@ fn like_neighbours_keep_their_order() {
         columns: 2,
         values: [2.6, 2.8, 2.8, 2.6].map(Some).to_vec(),
     };
-    let mut partners = assign(&gains);
+    let mut partners = gains.assign();
     assert_eq!(partners, [Some(1), Some(0)]);
     let at = [DVec2::new(-0.1, 0.0), DVec2::new(0.1, 0.0)];
     let rows = at.map(|at| (0, at));
@@ -318,7 +318,7 @@ fn any_gains(most: usize) -> impl Strategy<Value = Gains> {
 proptest! {
     #[test]
     fn no_assignment_gains_more(gains in any_gains(5)) {
-        let partners = assign(&gains);
+        let partners = gains.assign();
         prop_assert_eq!(partners.len(), gains.rows);
         let most = best(&gains, 0, &mut vec![false; gains.columns]);
         prop_assert!((total(&gains, &partners) - most).abs() < 1e-5);
@@ -329,7 +329,7 @@ proptest! {
         gains in any_gains(9),
         places in prop::collection::vec((-0.2..0.2, -0.2..0.2), 18),
     ) {
-        let mut partners = assign(&gains);
+        let mut partners = gains.assign();
         let place = |i: usize| DVec2::new(places[i].0, places[i].1);
         let rows: Vec<_> = (0..gains.rows).map(|i| (i % 2, place(i))).collect();
         let columns: Vec<_> = (0..gains.columns).map(|i| place(9 + i)).collect();

@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use crate::geometry::simplify;
+
 /// Two edges whose directions have a smaller cross product are one straight line for the purpose of moving them.
 const STRAIGHT: f64 = 0.2;
 
@@ -87,12 +89,9 @@ fn farthest_from(points: &[DVec2], from: DVec2) -> usize {
         .unwrap_or(0)
 }
 
-/// The indices of the points that Douglas and Peucker keep, the ends included.
+/// The indices of the points at corners, the ends included.
 fn corners(line: &[DVec2], tolerance: f64) -> Vec<usize> {
-    let last = line.len() - 1;
-    let mut kept = vec![0, last];
-    let mut stack = vec![(0, last)];
-    while let Some((from, to)) = stack.pop() {
+    simplify(line.len(), |from, to| {
         let edge = line[to] - line[from];
         let length = edge.length_squared();
         let distance = |index: usize| {
@@ -112,14 +111,8 @@ fn corners(line: &[DVec2], tolerance: f64) -> Vec<usize> {
                 farthest = (distance, Some(index));
             }
         }
-        if let Some(middle) = farthest.1 {
-            kept.push(middle);
-            stack.push((from, middle));
-            stack.push((middle, to));
-        }
-    }
-    kept.sort_unstable();
-    kept
+        farthest.1
+    })
 }
 
 /// An edge between kept points.

@@ -1,8 +1,8 @@
 //! Which polygons and which holes of a region belong together in its views.
 
 use glam::DVec2;
-use pathfinding::kuhn_munkres::kuhn_munkres_min;
-use pathfinding::matrix::Matrix;
+
+use crate::billboard::assignment;
 
 /// Pairs that cost more are not the same polygon.
 const MAX_COST: f64 = 1.2;
@@ -12,8 +12,6 @@ const DISTANCE: f64 = 2.0;
 const FEATURE: f64 = 10.0;
 /// At most so many rings are paired in a view, the largest.
 const MAX_RINGS: usize = 64;
-/// Costs are whole numbers to the assignment.
-const UNIT: f64 = 1e6;
 
 /// A polygon or a hole.
 #[derive(Debug, Clone, Default)]
@@ -62,23 +60,12 @@ fn assign(a: &[Item], b: &[Item]) -> Vec<Option<usize>> {
         return partners;
     }
     let [large_a, large_b] = [a, b].map(largest);
-    let (rows, columns) = (large_a.len(), large_b.len());
-    let size = rows + columns;
-    if rows == 0 || columns == 0 {
-        return partners;
-    }
-    let costs = Matrix::from_fn(size, size, |(row, column)| {
-        let cost = match (large_a.get(row), large_b.get(column)) {
-            (Some(i), Some(j)) => cost(&a[*i], &b[*j]),
-            (None, None) => 0.0,
-            _ => MAX_COST / 2.0,
-        };
-        (cost * UNIT).round() as i64
-    });
-    let (_, columns) = kuhn_munkres_min(&costs);
+    let gain =
+        |row: usize, column: usize| Some(MAX_COST - cost(&a[large_a[row]], &b[large_b[column]]));
+    let columns = assignment::assign(large_a.len(), large_b.len(), gain);
     for (row, column) in columns.into_iter().enumerate() {
-        if let (Some(i), Some(j)) = (large_a.get(row), large_b.get(column)) {
-            partners[*j] = Some(*i);
+        if let Some(column) = column {
+            partners[large_b[column]] = Some(large_a[row]);
         }
     }
     partners

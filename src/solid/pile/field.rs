@@ -12,7 +12,7 @@ use rustc_hash::FxHashSet;
 use super::LayForm;
 use super::cover::Cover;
 use super::ground::Target;
-use crate::geometry::Outline;
+use crate::geometry::{Outline, simplify};
 use crate::scene::Surface;
 use crate::solid::crease::Crease;
 use crate::solid::heights::{BothHeights, Heights};
@@ -228,9 +228,10 @@ fn border(rings: &[Vec<DVec2>], target: &Target<'_>, tolerance: f64) -> Points {
             };
             let mut profile: Vec<(f64, f64)> = profile.map(at).collect();
             profile.dedup_by(|next, last| (next.0 - last.0) * length < apart && next.0 < 1.0);
-            keep_bends(&profile, tolerance, &mut |share| {
-                points.points.push(from.lerp(to, share));
-            });
+            let kept = bends(&profile, tolerance);
+            let inner = kept.iter().skip(1).take(kept.len().saturating_sub(2));
+            let places = inner.map(|index| from.lerp(to, profile[*index].0));
+            points.points.extend(places);
         }
         let end = points.points.len();
         let next = |i: usize| if i + 1 == end { start } else { i + 1 };
@@ -239,23 +240,18 @@ fn border(rings: &[Vec<DVec2>], target: &Target<'_>, tolerance: f64) -> Points {
     points
 }
 
-/// Calls `keep` with the places between the first and the last at which a profile of heights bends by more than the tolerance
-/// (Douglas & Peucker 1973), in their order.
-fn keep_bends(profile: &[(f64, f64)], tolerance: f64, keep: &mut impl FnMut(f64)) {
-    let (Some(&(from, low)), Some(&(to, high))) = (profile.first(), profile.last()) else {
-        return;
-    };
-    let deviation = |(share, height): &(f64, f64)| {
-        let straight = low + (high - low) * (share - from) / (to - from);
-        (height - straight).abs()
-    };
-    let places = 1..profile.len().saturating_sub(1);
-    let worst = places.max_by(|a, b| deviation(&profile[*a]).total_cmp(&deviation(&profile[*b])));
-    if let Some(worst) = worst.filter(|worst| deviation(&profile[*worst]) > tolerance) {
-        keep_bends(&profile[..=worst], tolerance, keep);
-        keep(profile[worst].0);
-        keep_bends(&profile[worst..], tolerance, keep);
-    }
+/// The indices of the points at which a profile of heights bends by more than the tolerance, with its ends.
+fn bends(profile: &[(f64, f64)], tolerance: f64) -> Vec<usize> {
+    simplify(profile.len(), |from, to| {
+        let [(start, low), (end, high)] = [profile[from], profile[to]];
+        let deviation = |(share, height): (f64, f64)| {
+            let straight = low + (high - low) * (share - start) / (end - start);
+            (height - straight).abs()
+        };
+        let farthest =
+            (from + 1..to).max_by(|a, b| deviation(profile[*a]).total_cmp(&deviation(profile[*b])));
+        farthest.filter(|index| deviation(profile[*index]) > tolerance)
+    })
 }
 
 fn sides([a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
