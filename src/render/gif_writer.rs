@@ -147,13 +147,20 @@ impl<W: Write> GifWriter<W> {
     /// The index of each pixel's colour. On a transparent background a pixel is opaque or not, so partial alpha is dithered.
     fn indices(&mut self, image: &Image) -> Vec<u8> {
         let (palette, known) = (&self.palette, &mut self.known);
+        // Most pixels have the colour of the one before. No colour is `u32::MAX`.
+        let mut before = (u32::MAX, CLEAR);
         let pixels = image.enumerate_pixels().map(|(x, y, pixel)| {
             let [r, g, b, alpha] = pixel.0;
             let threshold = BAYER_8X8[(y % 8) as usize][(x % 8) as usize];
             match alpha > threshold * 4 + 1 {
-                true => *known
-                    .entry(u32::from_le_bytes([r, g, b, 0]))
-                    .or_insert_with(|| palette.nearest([r, g, b])),
+                true => {
+                    let colour = u32::from_le_bytes([r, g, b, 0]);
+                    if colour != before.0 {
+                        let nearest = || palette.nearest([r, g, b]);
+                        before = (colour, *known.entry(colour).or_insert_with(nearest));
+                    }
+                    before.1
+                }
                 false => CLEAR,
             }
         });

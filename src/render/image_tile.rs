@@ -17,8 +17,8 @@ pub(super) const HALO: u32 = 2;
 /// The triangles that rays meet are not known before the rays are traced.
 const TRACED: Option<fn(usize) -> Option<usize>> = None;
 
-/// Renders the pixels from `left`, `top`, of a tile; rows from the top, RGBA. `ground` is the light on
-/// the ground, unless it is computed in each pixel.
+/// Renders the pixels of the tile that begins at `left`, `top`; rows from the top, RGBA. `ground` is the light on the ground,
+/// unless it is computed in each pixel.
 pub(super) fn draw_tile(
     sampler: &PixelSampler<'_>,
     lights: &Lights,

@@ -401,7 +401,7 @@ mod tests {
     #[test]
     fn for_many_large_triangles_rays_are_traced() {
         pictures(true, |tracer, camera| {
-            let everywhere = vec![Vec2::ZERO, Vec2::new(90.0, 0.0), Vec2::new(0.0, 70.0)];
+            let everywhere = [Vec2::ZERO, Vec2::new(90.0, 0.0), Vec2::new(0.0, 70.0)];
             let corners: Vec<Vec2> = (0..tracer.surface.positions.len())
                 .map(|corner| everywhere[corner % 3])
                 .collect();

@@ -1,7 +1,7 @@
 //! A stack whose first entries need no memory of their own.
 
 /// How many entries are in the stack itself.
-const INLINE: usize = 48;
+const INLINE: usize = 24;
 
 /// Entries of which the last one is taken first. Almost always all of them are in the array, which is why this is faster than a
 /// `SmallVec`: an entry is written without asking where.
