@@ -3,7 +3,6 @@
 use glam::{DVec2, Vec2Swizzles as _};
 use resvg::tiny_skia::{FillRule as PictureRule, Mask, PathBuilder, Transform};
 
-use super::query::shoelace;
 use super::{FillRule, Ring, pixel_borders};
 
 /// How often edges may cross for an area to be found exactly. An area with more crossings is in as many pieces.
@@ -14,8 +13,6 @@ const MAX_PAIRS: usize = 1 << 26;
 const SIDES: std::ops::RangeInclusive<u32> = 64..=2048;
 /// The largest number of points of an area that is taken from a picture at more than the smallest size.
 const MAX_POINTS: usize = 100_000;
-/// The largest product of its numbers of points and of holes: to join a hole to what is around it, all points are looked at.
-const MAX_JOINTS: usize = 1 << 27;
 
 /// How often the edges of rings cross, or a number above 20,000: sweep and prune along the axis along which edges are
 /// shorter.
@@ -68,9 +65,7 @@ pub(super) fn pictured(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
             (high - low) * scale,
         );
         let count: usize = borders.iter().map(Vec::len).sum();
-        let holes = borders.iter().filter(|ring| shoelace(ring) < 0.0).count();
-        let is_fine = count <= MAX_POINTS && count * holes <= MAX_JOINTS;
-        if is_fine || side <= *SIDES.start() {
+        if count <= MAX_POINTS || side <= *SIDES.start() {
             let points = borders.iter_mut().flatten();
             points.for_each(|point| *point = low + *point / scale);
             return borders;

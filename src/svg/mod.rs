@@ -6,6 +6,7 @@
 
 mod clip;
 mod elements;
+mod entities;
 mod excerpts;
 mod fit;
 mod growth;
@@ -18,6 +19,7 @@ mod paths;
 mod pictures;
 mod prepare;
 mod raster;
+mod replacements;
 mod round;
 mod separate;
 mod shapes;
@@ -32,6 +34,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+pub(crate) use entities::character;
 pub use excerpts::{Excerpts, excerpts};
 pub use image::PictureSource;
 pub use incremental::TextEdit;
@@ -39,7 +42,6 @@ pub(crate) use links::broken_link;
 pub use oklab::oklab;
 pub use paths::StrokeSource;
 pub(crate) use pictures::LARGE;
-pub(crate) use prepare::character;
 pub use raster::{LeftOut, Raster, raster};
 pub use text::{Label, TextPosition};
 pub use unseen::{ConvertedText, Hidden, Unseen};

@@ -5,12 +5,12 @@
 //! elements that repeat one, are given one here, by byte range. Positions in the copy are mapped back by
 //! [`Prepared::original`].
 
-use std::borrow::Cow;
-
 use rustc_hash::{FxHashMap, FxHashSet};
 use xmlparser::{ElementEnd, EntityDefinition, StrSpan, Token, Tokenizer};
 
+use super::entities::Entities;
 use super::growth::DRAWN_AGAIN;
+use super::replacements::{Positions, Replacement, replaced};
 use super::round;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
@@ -23,13 +23,6 @@ pub(super) const ID_PREFIX: &str = "okoshi-";
 
 /// How many elements a drawing may have; usvg reads no more.
 const MAX_ELEMENTS: usize = 1_000_000;
-
-/// How many bytes the entities of any drawing may expand to.
-const ENTITY_TEXT: usize = 1 << 20;
-
-/// How many more they may expand to, as a multiple of the drawing's own length: programs that write every style as an
-/// entity stay far below.
-const ENTITY_GROWTH: usize = 4;
 
 /// Elements that usvg turns into nodes.
 pub(super) const JOINED: &[&str] = &[
@@ -54,31 +47,20 @@ pub(super) struct Prepared {
     pub entities: FxHashMap<String, String>,
     /// The number of elements in the text, without those in entities.
     element_count: usize,
-    /// Replacements in order: start in the copy, length there, start in the original, length there.
-    replacements: Vec<[usize; 4]>,
+    /// Where its positions are in the original.
+    positions: Positions,
 }
 
 impl Prepared {
     /// The original offset of the copy's byte `offset`; offsets inside injected text map to its start.
     pub(super) fn original(&self, offset: usize) -> usize {
-        let next = self.replacements.partition_point(|[at, ..]| *at <= offset);
-        match next.checked_sub(1).map(|last| self.replacements[last]) {
-            None => offset,
-            Some([at, len, raw, _]) if offset < at + len => raw,
-            Some([at, len, raw, raw_len]) => raw + raw_len + (offset - at - len),
-        }
+        self.positions.original(offset)
     }
 
     /// The original span of a span in the copy.
     pub(super) fn span(&self, range: std::ops::Range<usize>) -> Span {
         Span::new(self.original(range.start), self.original(range.end))
     }
-}
-
-/// A replacement to be made in the original.
-struct Replacement {
-    span: Span,
-    text: String,
 }
 
 /// Makes the copy.
@@ -175,9 +157,7 @@ struct Scan<'a> {
     ids: FxHashSet<&'a str>,
     counter: usize,
     replacements: Vec<Replacement>,
-    entities: FxHashMap<String, String>,
-    entity_text: usize,
-    entity_limit: usize,
+    entities: Entities,
     element_count: usize,
 }
 
@@ -194,9 +174,7 @@ impl<'a> Scan<'a> {
             ids: FxHashSet::default(),
             counter: 0,
             replacements: Vec::new(),
-            entities: FxHashMap::default(),
-            entity_text: 0,
-            entity_limit: ENTITY_TEXT + ENTITY_GROWTH * text.len(),
+            entities: Entities::new(text.len()),
             element_count: 0,
         }
     }
@@ -246,7 +224,7 @@ impl<'a> Scan<'a> {
                         name => self.bound(name, value),
                     }
                 }
-                self.count_entities(value.as_str(), value.start())?;
+                self.entities.count(value.as_str(), value.start())?;
             }
             Token::ElementEnd { end, .. } => match end {
                 ElementEnd::Open => self.end_tag(),
@@ -261,13 +239,10 @@ impl<'a> Scan<'a> {
                 definition: EntityDefinition::EntityValue(value),
                 ..
             } => {
-                self.count_entities(value.as_str(), value.start())?;
-                let text = expand(value.as_str(), &self.entities, self.entity_limit);
                 self.entities
-                    .entry(name.as_str().to_owned())
-                    .or_insert(text);
+                    .declare(name.as_str(), value.as_str(), value.start())?;
             }
-            Token::Text { text } => self.count_entities(text.as_str(), text.start())?,
+            Token::Text { text } => self.entities.count(text.as_str(), text.start())?,
             _ => {}
         }
         Ok(())
@@ -278,37 +253,13 @@ impl<'a> Scan<'a> {
         if !round::ATTRIBUTES.contains(&attribute) {
             return;
         }
-        let text = match value.as_str().contains('&') {
-            true => Cow::Owned(expand(value.as_str(), &self.entities, self.entity_limit)),
-            false => Cow::Borrowed(value.as_str()),
-        };
+        let text = self.entities.expand(value.as_str());
         if let Some(text) = round::bounded(attribute, &text) {
             self.replacements.push(Replacement {
                 span: value.range().into(),
                 text: text.to_owned(),
             });
         }
-    }
-
-    /// Adds up the expanded size of the entities in `text`, before they are expanded.
-    fn count_entities(&mut self, text: &str, at: usize) -> Result<(), Box<Diagnostic>> {
-        if self.entities.is_empty() || !text.contains('&') {
-            return Ok(());
-        }
-        for (name, _) in references(text) {
-            self.entity_text += self.entities.get(name).map_or(0, String::len);
-            if self.entity_text > self.entity_limit {
-                let message = format!(
-                    "the drawing's entities expand to more than {} MiB and {ENTITY_GROWTH} times the drawing's length",
-                    ENTITY_TEXT >> 20
-                );
-                return Err(Box::new(
-                    Diagnostic::new(Code::LimitPassed, Span::new(at, at + text.len()), message)
-                        .help("save the drawing without entities, as Plain SVG"),
-                ));
-            }
-        }
-        Ok(())
     }
 
     fn end_tag(&mut self) {
@@ -368,85 +319,17 @@ impl<'a> Scan<'a> {
         }
     }
 
-    fn finish(mut self) -> Prepared {
-        self.replacements
-            .sort_by_key(|replacement| replacement.span.start);
-        let grown: usize = self
-            .replacements
-            .iter()
-            .map(|replacement| replacement.text.len())
-            .sum();
-        let mut text = String::with_capacity(self.text.len() + grown);
-        let mut replacements = Vec::with_capacity(self.replacements.len());
-        let mut done = 0;
-        for Replacement { span, text: new } in &self.replacements {
-            text.push_str(&self.text[done..span.start]);
-            replacements.push([text.len(), new.len(), span.start, span.end - span.start]);
-            text.push_str(new);
-            done = span.end;
-        }
-        text.push_str(&self.text[done..]);
+    fn finish(self) -> Prepared {
+        let (text, positions) = replaced(self.text, self.replacements);
         Prepared {
             text,
             id_prefix: self.prefix.to_owned(),
             id_count: self.counter,
             draws_again: self.draws_again,
             has_clones: self.has_clones,
-            entities: self.entities,
+            entities: self.entities.into_texts(),
             element_count: self.element_count,
-            replacements,
-        }
-    }
-}
-
-/// The references in `text`: name, and the byte range of `&name;`.
-pub(super) fn references(text: &str) -> impl Iterator<Item = (&str, std::ops::Range<usize>)> {
-    text.match_indices('&').filter_map(move |(at, _)| {
-        let tail = &text[at + 1..];
-        let end = tail.find(';')?;
-        Some((&tail[..end], at..at + 1 + end + 1))
-    })
-}
-
-/// `text` with its known references replaced, except those that exceed twice the `limit`.
-fn expand(text: &str, entities: &FxHashMap<String, String>, limit: usize) -> String {
-    let mut out = String::new();
-    let mut done = 0;
-    for (name, range) in references(text) {
-        if range.start < done {
-            continue;
-        }
-        out.push_str(&text[done..range.start]);
-        match entities
-            .get(name)
-            .cloned()
-            .or_else(|| character(name).map(String::from))
-        {
-            // Nested entities may multiply; an entity above the limit is rejected where it is used.
-            Some(value) if out.len() + value.len() <= 2 * limit => out.push_str(&value),
-            _ => out.push_str(&text[range.clone()]),
-        }
-        done = range.end;
-    }
-    out.push_str(&text[done..]);
-    out
-}
-
-/// The character of a predefined or numeric reference.
-pub(crate) fn character(name: &str) -> Option<char> {
-    match name {
-        "amp" => Some('&'),
-        "lt" => Some('<'),
-        "gt" => Some('>'),
-        "quot" => Some('"'),
-        "apos" => Some('\''),
-        _ => {
-            let digits = name.strip_prefix('#')?;
-            let code = match digits.strip_prefix('x') {
-                Some(hex) => u32::from_str_radix(hex, 16).ok()?,
-                None => digits.parse().ok()?,
-            };
-            char::from_u32(code)
+            positions,
         }
     }
 }
@@ -483,20 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn entity_bombs_and_deep_nesting_are_refused() {
-        let mut bomb =
-            String::from("<!DOCTYPE svg [<!ENTITY a \"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\">");
-        for (name, inner) in ["b", "c", "d", "e", "f", "g"]
-            .iter()
-            .zip(["a", "b", "c", "d", "e", "f"])
-        {
-            bomb.push_str(&format!(
-                "<!ENTITY {name} \"{}\">",
-                format!("&{inner};").repeat(32)
-            ));
-        }
-        bomb.push_str("]><svg><text>&g;</text></svg>");
-        assert_eq!(prepare(&bomb).unwrap_err().code, Code::LimitPassed);
+    fn deep_nesting_is_refused() {
         let deep = "<g>".repeat(100_000);
         assert_eq!(
             prepare(&format!("<svg>{deep}")).unwrap_err().code,

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::{DAffine2, DMat2, DVec2};
 use roxmltree::Node;
 
-use super::prepare::{Prepared, character};
+use super::entities::character;
+use super::prepare::Prepared;
 use super::separate::start_tag_of;
 use super::style::Styles;
 use crate::source::{Form, Span, Text};
