@@ -10,7 +10,7 @@ use super::bindings::Place;
 use super::fills::Fills;
 use crate::lang::is_name_char;
 use crate::source::Text;
-use crate::svg::{Drawing, GroupKind, Label, Shape};
+use crate::svg::{Drawing, Label, Shape};
 
 /// The fewest names that make a drawing annotated: a single word is a title or a signature.
 const FEWEST: usize = 2;
@@ -34,32 +34,6 @@ pub(super) fn is_bare_name(text: &str) -> bool {
         && text.chars().any(char::is_alphabetic)
 }
 
-/// The labels in groups of several texts without a filled shape, by their indices, ascending: words on a shirt or a sign, drawn as
-/// texts. Names are grouped with the parts that they name, or not at all.
-pub(super) fn grouped_without_shape(drawing: &Drawing) -> Vec<usize> {
-    let mut texts = vec![0_usize; drawing.groups.len()];
-    for (label, group) in &drawing.labels {
-        texts[*group] += usize::from(!label.text.as_str().trim().is_empty());
-    }
-    let mut holds_shape = vec![false; drawing.groups.len()];
-    for shape in &drawing.shapes {
-        let mut group = shape.group;
-        // If a group has been seen, so have those around it.
-        while !shape.outline.polygons.is_empty() && !holds_shape[group] {
-            holds_shape[group] = true;
-            group = drawing.groups[group].parent;
-        }
-    }
-    let is_lettering = |group: usize| {
-        drawing.groups[group].kind == GroupKind::Group && texts[group] > 1 && !holds_shape[group]
-    };
-    let labels = drawing.labels.iter().enumerate();
-    labels
-        .filter(|(_, (_, group))| is_lettering(*group))
-        .map(|(index, _)| index)
-        .collect()
-}
-
 /// Whether the names in the descriptions of a drawing without any sign of the language are names of parts: distinct words, each of a
 /// filled shape, or of a group that directly holds one.
 pub(super) fn descriptions_name_parts(drawing: &Drawing, names: &[(Place, Arc<Text>)]) -> bool {
@@ -79,13 +53,9 @@ pub(super) fn descriptions_name_parts(drawing: &Drawing, names: &[(Place, Arc<Te
 
 /// Whether the texts of a drawing without any sign of the language but `*` are names of parts: distinct words, two or more with the
 /// `*`s, each on a filled shape, beside one, or joined to one by a line.
-///
-/// `without` are indices of labels that do not count.
-pub(super) fn name_parts(drawing: &Drawing, without: &[usize]) -> bool {
-    let labels = drawing.labels.iter().enumerate();
+pub(super) fn name_parts(drawing: &Drawing) -> bool {
+    let labels = drawing.labels.iter().map(|(label, _)| label);
     let labels: Vec<&Label> = labels
-        .filter(|(index, _)| without.binary_search(index).is_err())
-        .map(|(_, (label, _))| label)
         .filter(|label| !label.text.as_str().trim().is_empty())
         .collect();
     let mut seen = FxHashSet::default();

@@ -20,13 +20,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
     let mut labels = drawing.labels.iter();
     let signed = labels.any(|(label, _)| lang::annotates(label.text.as_str()));
     let mut texts = descriptions(drawing, signed);
-    let mut annotated = signed || !texts.is_empty();
-    let mut lettering = Vec::new();
-    if !annotated && bare_names::name_parts(drawing, &[]) {
-        lettering = bare_names::grouped_without_shape(drawing);
-        annotated = lettering.is_empty() || bare_names::name_parts(drawing, &lettering);
-        diagnostics.extend(grouped_words(drawing, &lettering));
-    }
+    let annotated = signed || !texts.is_empty() || bare_names::name_parts(drawing);
     if !annotated {
         return Bindings::default();
     }
@@ -42,9 +36,6 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
         .into_par_iter()
         .with_min_len(GRAIN)
         .map(|(place, text)| {
-            if matches!(place, Place::Label(label) if lettering.binary_search(&label).is_ok()) {
-                return (place, text, Annotation::Caption, Vec::new());
-            }
             let kind = if matches!(place, Place::Label(_)) {
                 lang::Container::Text
             } else {
@@ -68,9 +59,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
     let mut captions = Vec::new();
     for (place, text, annotation, findings) in parsed {
         diagnostics.extend(findings);
-        let is_lettering =
-            matches!(place, Place::Label(label) if lettering.binary_search(&label).is_ok());
-        if annotation == Annotation::Caption && !is_lettering {
+        if annotation == Annotation::Caption {
             captions.push(Arc::clone(&text));
         }
         bindings.strings.push(DrawingString {
@@ -237,18 +226,6 @@ fn without_sign(text: &str) -> Option<Range<usize>> {
         && rest.len() > word.len()
         && Keyword::from_name(&text[..name]).is_none())
     .then(|| name..text.len() - rest.len())
-}
-
-/// Reports words that are taken for lettering because they are in groups without a shape.
-fn grouped_words(drawing: &Drawing, lettering: &[usize]) -> Option<Diagnostic> {
-    let texts = || lettering.iter().map(|label| &drawing.labels[*label].0.text);
-    let words = texts().map(|text| format!("`{}`", shortened(text.as_str().trim())));
-    let message = format!(
-        "words that are grouped without a shape name no parts; they are taken for lettering: {}",
-        listed(words)
-    );
-    let finding = Diagnostic::new(Code::Caption, texts().next()?.whole(), message);
-    Some(finding.help("if they are names of parts, ungroup them, or put them into a layer"))
 }
 
 fn caption(text: &Text) -> Diagnostic {

@@ -126,26 +126,6 @@ fn a_string_too_many_has_no_part() {
 }
 
 #[test]
-fn words_grouped_without_a_shape_are_lettering_where_nothing_has_a_sign() {
-    let shapes = [square(40, 50, ""), square(100, 50, ""), square(160, 50, "")].concat();
-    let words = text(40, 50, "Left") + &text(100, 50, "Right");
-    let compiled =
-        |group: &str, other: &str| drawing(&format!("{shapes}{group}{words}</g>{other}"));
-    let is_named = |compiled: &Compiled| {
-        let mut parts = compiled.bindings.parts.iter();
-        parts.any(|part| part.name == "Left")
-    };
-    let lettering = compiled("<g>", "");
-    assert!(has(&lettering, Code::Caption) && !has(&lettering, Code::NoPartLeft));
-    assert!(!is_named(&lettering));
-    let layer = r#"<g xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" inkscape:groupmode="layer">"#;
-    let names = compiled(layer, "");
-    assert!(!has(&names, Code::Caption) && is_named(&names));
-    let signed = compiled("<g>", &text(160, 50, "Other$"));
-    assert!(!has(&signed, Code::Caption) && has(&signed, Code::NoPartLeft));
-}
-
-#[test]
 fn own_strings_win_over_legends_and_legends_over_defaults() {
     let elements = [
         filled(20, 20, "#ff0000", "Own$Smooth 40"),

@@ -363,9 +363,6 @@ codes! {
     /// ```
     ///
     /// If it is a caption, put `#` before it. If it is a part's name, put it in quotes.
-    ///
-    /// Where all texts are names without signs, words that are grouped without a shape, such as the lettering on a shirt,
-    /// name nothing either. If they are names of parts, ungroup them, or put them into a layer.
     Caption = "W308", "caption";
     /// The drawing uses an SVG feature that has no meaning for solids, for example a mask or a filter. The part is
     /// built without it.
