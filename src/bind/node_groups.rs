@@ -12,7 +12,7 @@ use super::settings::Strokes;
 use super::unseen::ConvertedStrings;
 use super::wrappers;
 use crate::memo::Memo;
-use crate::svg::{Drawing, GroupKind};
+use crate::svg::{Drawing, GroupKind, Shape};
 
 /// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
@@ -61,10 +61,16 @@ impl NodeGroups {
     /// The groups of a drawing. What shares their nodes is found by [`find_sources`](Self::find_sources).
     pub(super) fn read(drawing: &Drawing, bindings: &Bindings) -> Self {
         let parents: Vec<usize> = drawing.groups.iter().map(|group| group.parent).collect();
+        let holds_shape = holding(drawing, |_| true);
         let mut strings = vec![0_usize; drawing.groups.len()];
         for string in bindings.strings.iter().filter(|string| string.wants_part()) {
             if let Place::Label(label) = string.place {
-                strings[drawing.labels[label].1] += 1;
+                let mut group = drawing.labels[label].1;
+                // Texts that are grouped by themselves are strings of what that group is in.
+                while !holds_shape[group] && drawing.groups[group].kind == GroupKind::Group {
+                    group = parents[group];
+                }
+                strings[group] += 1;
             }
         }
         let groups = 0..drawing.groups.len();
@@ -231,18 +237,25 @@ fn sources(
     sources
 }
 
+/// Per group, whether it or a group in it holds a shape of this kind.
+fn holding(drawing: &Drawing, is: impl Fn(&Shape) -> bool) -> Vec<bool> {
+    let mut holding = vec![false; drawing.groups.len()];
+    for shape in drawing.shapes.iter().filter(|shape| is(shape)) {
+        let mut group = shape.group;
+        // If a group is known, so are those around it.
+        while !holding[group] {
+            holding[group] = true;
+            group = drawing.groups[group].parent;
+        }
+    }
+    holding
+}
+
 /// Per shape, whether it is an unfilled line with a string of its own: a description, or a string in its group without filled
 /// shapes.
 fn described_lines(drawing: &Drawing, bindings: &Bindings) -> Vec<bool> {
     let mut described = vec![false; drawing.shapes.len()];
-    let mut filled = vec![false; drawing.groups.len()];
-    for shape in &drawing.shapes {
-        let mut group = shape.group;
-        while !shape.outline.polygons.is_empty() && !filled[group] {
-            filled[group] = true;
-            group = drawing.groups[group].parent;
-        }
-    }
+    let filled = holding(drawing, |shape| !shape.outline.polygons.is_empty());
     let mut has_string = vec![false; drawing.groups.len()];
     for string in bindings.strings.iter().filter(|string| string.wants_part()) {
         let group = match string.place {

@@ -118,6 +118,30 @@ fn strings_in_a_group_of_several_stay_in_it() {
 }
 
 #[test]
+fn texts_grouped_by_themselves_are_where_their_group_is() {
+    let shapes = square(20, 20, "") + &square(60, 20, "");
+    let outside = square(150, 150, "");
+    for (left, right) in [("Left$", "Right$"), ("Left", "Right")] {
+        let texts = text(20, 20, left) + &text(60, 20, right);
+        let each = format!("<g>{}</g><g>{}</g>", text(20, 20, left), text(60, 20, right));
+        for elements in [
+            format!("{shapes}<g>{texts}</g>"),
+            format!("{shapes}<g><g>{texts}</g></g>"),
+            format!("<g>{shapes}</g><g>{texts}</g>"),
+            format!("{outside}<g>{shapes}<g>{texts}</g></g>"),
+            format!("{outside}<g>{shapes}{each}</g>"),
+        ] {
+            let compiled = drawing(&elements);
+            assert!(!has(&compiled, Code::NoPartLeft), "{elements}");
+            for (name, x) in [("Left", 20.0), ("Right", 60.0)] {
+                let part = &compiled.bindings.parts[part(&compiled, name)];
+                assert_eq!(part.measure.center.x, x, "{elements}");
+            }
+        }
+    }
+}
+
+#[test]
 fn a_string_too_many_has_no_part() {
     let one = drawing(&(square(20, 20, "") + &text(20, 20, "A$")));
     assert!(!has(&one, Code::NoPartLeft));
