@@ -31,6 +31,7 @@ mod scene {
 #[path = "../src/billboard"]
 mod billboard {
     // Two are for the unit tests of the others, which cargo compiles with a benchmark.
+    mod assignment;
     mod generated;
     mod matching;
     mod place;
