@@ -32,6 +32,7 @@ mod scene {
 mod billboard {
     mod assignment;
     // Two are for the unit tests of the others, which cargo compiles with a benchmark.
+    mod assignment;
     mod generated;
     mod matching;
     mod place;
