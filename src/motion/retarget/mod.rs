@@ -4,12 +4,15 @@
 //! axes of the clip's first frame are mapped to them, so the figure starts in the direction in which it is drawn.
 
 mod axes;
+mod carried;
 mod contacts;
 mod ground;
 mod kinematics;
+mod planting;
 mod rest_pose;
 mod root_motion;
 mod rotations;
+mod spline;
 mod swing;
 mod turns;
 
