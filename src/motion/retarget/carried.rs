@@ -12,9 +12,7 @@ use crate::smoothing::smoothed;
 /// How a part would be without swinging, at a moment. All directions are those of the drawing's axes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Carriage {
-    /// Where its joint is.
-    pub(super) joint: DVec3,
-    /// The velocity of the joint, drawing units a frame.
+    /// The velocity of its joint, drawing units a frame.
     pub(super) velocity: DVec3,
     /// From its joint to its far end.
     pub(super) aim: DVec3,
@@ -93,14 +91,14 @@ impl Carried {
     }
 }
 
-fn carriage([joint, aim, down, above, x, y]: [DVec3; 6], velocity: DVec3) -> Carriage {
+/// What the points of [`Paths`] say.
+fn carriage([_, aim, down, above, x, y]: [DVec3; 6], velocity: DVec3) -> Carriage {
     let x = x.normalize_or(DVec3::X);
     let y = y.reject_from_normalized(x);
     let y = y
         .try_normalize()
         .unwrap_or_else(|| x.any_orthonormal_vector());
     Carriage {
-        joint,
         velocity,
         aim,
         down,

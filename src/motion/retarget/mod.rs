@@ -90,7 +90,7 @@ pub struct RetargetedClip {
     pub rotations: Vec<Option<Vec<DQuat>>>,
     /// Per part the position of its node; for rooted nodes only.
     pub translations: Vec<Option<Vec<DVec3>>>,
-    /// Per frame whether a foot is in contact with the ground.
+    /// Per frame whether a foot is in contact with the ground, and none takes over from another.
     pub grounded: Vec<bool>,
     /// The rest pose from which the clip's rotations were measured.
     pub rest: RestSource,

@@ -21,7 +21,7 @@ const RELEASE: f64 = 1.5;
 const PREFERENCE: f64 = 0.1;
 /// Paths are smoothed by a Gaussian of this deviation, seconds: single frames may be wrong.
 const SMOOTHING: f64 = 0.04;
-/// The velocity must be low for about this long, seconds.
+/// A contact lasts: what a foot's velocity changes by in this time, seconds, counts as speed.
 const TURN: f64 = 0.03;
 /// Samples per second, at least; every frame has a whole number of them.
 const SAMPLES: f64 = 240.0;
@@ -152,7 +152,7 @@ fn point_contacts(path: &[DVec3], lowest: f64, time: f64, leg: f64) -> Vec<Conta
         let [before, after] = [sample.saturating_sub(1), (sample + 1).min(path.len() - 1)];
         let passed = (after - before).max(1) as f64 * time;
         let speed = path[before].distance(path[after]) / passed / leg;
-        // A foot that turns back stops for a moment, but stands on nothing.
+        // A foot that turns back in the air is slow for a moment only.
         let change = (path[before] + path[after] - 2.0 * path[sample]).length();
         let speed = speed.hypot(change / (time * time * leg) * TURN);
         let height = (path[sample].y - lowest) / leg;

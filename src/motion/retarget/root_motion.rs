@@ -14,7 +14,7 @@ use crate::motion::skeleton::Clip;
 /// A foot rolls over the points of its sole that are about this high above the lowest one, in leg lengths.
 const ROLLING: f64 = 0.01;
 
-/// A foot is in contact with the ground in a frame if it held the figure for this share of the way to it.
+/// A foot is in contact with the ground in a frame if its share in holding the figure in place was this large on the way to it.
 const GROUNDED: f64 = 0.9;
 
 /// The motion of the root part.
@@ -71,13 +71,13 @@ pub(super) fn root_motion(
         for (steps, (before, now)) in steps.iter_mut().zip(before.iter().zip(&feet)) {
             steps.push(rolled(before, now, ROLLING * legs[1]));
         }
+        let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
+        let clearance = clearance.fold(f64::INFINITY, f64::min);
+        let lifted = lifted(clearance, legs[0]) * scale;
+        let mut holds = walk.feet.iter().map(|foot| foot.holds[frame].mean);
+        motion.grounded[frame] = lifted == 0.0 && holds.any(|held| held >= GROUNDED);
         heights.push(match floor {
             Some(floor) => {
-                let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
-                let clearance = clearance.fold(f64::INFINITY, f64::min);
-                let lifted = lifted(clearance, legs[0]) * scale;
-                let mut feet_held = walk.feet.iter().map(|foot| foot.holds[frame].mean);
-                motion.grounded[frame] = lifted == 0.0 && feet_held.any(|held| held >= GROUNDED);
                 let lowest = feet.iter().flatten().flatten().map(|point| point.y);
                 (floor + lifted - lowest.fold(f64::INFINITY, f64::min))
                     .max(floor - surfaces.lowest(rig, &kinematics))

@@ -6,6 +6,7 @@ use glam::DVec3;
 pub(super) struct Spline([DVec3; 4]);
 
 impl Spline {
+    /// The spline to a frame, which is not the first one.
     pub(super) fn of(path: &[DVec3], frame: usize) -> Self {
         let [b, c] = [path[frame - 1], path[frame]];
         // Beyond the ends it goes on as it came.
@@ -23,12 +24,13 @@ impl Spline {
         ])
     }
 
+    /// The point at a share of the time between the frames.
     pub(super) fn position(&self, share: f64) -> DVec3 {
         let [still, linear, square, cubic] = self.0;
         still + (linear + (square + cubic * share) * share) * share
     }
 
-    /// Per frame.
+    /// The velocity there, per frame.
     pub(super) fn velocity(&self, share: f64) -> DVec3 {
         let [_, linear, square, cubic] = self.0;
         linear + (square * 2.0 + cubic * (3.0 * share)) * share
