@@ -17,7 +17,7 @@ const CONTACT_SPEED: f64 = 0.6;
 const LOWEST: f64 = 0.02;
 /// At this many times the height or the speed of a contact, nothing is left of it.
 const RELEASE: f64 = 1.5;
-/// Of two feet in contact, one that is slower by this, in leg lengths per second, is planted e times as firmly.
+/// Of two feet that could take over, one that is slower by this, in leg lengths per second, gets e times as much.
 const PREFERENCE: f64 = 0.1;
 /// Paths are smoothed by a Gaussian of this deviation, seconds: single frames may be wrong.
 const SMOOTHING: f64 = 0.04;
@@ -105,7 +105,7 @@ impl Planting {
         }
         Self {
             rate,
-            shares: match is_timed {
+            shares: match is_timed && leg > 0.0 {
                 true => shares(&contacts),
                 false => vec![Vec::new(); feet.len()],
             },
