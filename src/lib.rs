@@ -34,6 +34,7 @@ pub mod report;
 pub mod resolver;
 pub mod rig;
 pub mod scene;
+mod smoothing;
 pub mod solid;
 pub mod source;
 pub mod svg;

@@ -182,7 +182,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("main", &["cli"]),
     ("memo", &["resolver", "threads"]),
-    ("motion", &["anatomy", "scene"]),
+    ("motion", &["anatomy", "scene", "smoothing"]),
     (
         "preview",
         &[
@@ -205,7 +205,10 @@ const USES: &[(&str, &[&str])] = &[
             "svg", "threads",
         ],
     ),
-    ("render", &["crash", "import", "resolver", "threads"]),
+    (
+        "render",
+        &["crash", "import", "resolver", "smoothing", "threads"],
+    ),
     (
         "report",
         &[
@@ -238,6 +241,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("scene", &[]),
+    ("smoothing", &[]),
     ("solid", &["geometry", "scene"]),
     ("source", &[]),
     (

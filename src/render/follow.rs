@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::model::Model;
 use crate::import::{Clip, Travellers};
+use crate::smoothing::smoothed;
 
 /// How many points of the path there are in a second.
 const RATE: f64 = 24.0;
@@ -11,8 +12,6 @@ const RATE: f64 = 24.0;
 const MAX_POINTS: u32 = 10_000;
 /// The standard deviation of the filter that smooths the path, in seconds: steps and swaying vanish, a run-up stays.
 const SMOOTHING: f64 = 0.4;
-/// How far the filter reaches, in standard deviations.
-const REACH: f64 = 3.0;
 
 /// Where a camera is, relative to its place at the beginning of a clip. It never rises or sinks.
 #[derive(Debug)]
@@ -68,30 +67,6 @@ impl CameraPath {
     }
 }
 
-/// Smooths a path by a Gaussian filter of this standard deviation, in points. The path is continued at both ends by its
-/// mirror image through the end, so that the ends stay and a steady movement remains one.
-fn smoothed(path: &[DVec3], deviation: f64) -> Vec<DVec3> {
-    let last = path.len() as i64 - 1;
-    let reach = ((deviation * REACH).ceil() as i64).min(last);
-    let weight = |offset: i64| (-0.5 * (offset as f64 / deviation).powi(2)).exp();
-    let weights: Vec<f64> = (0..=reach).map(weight).collect();
-    let total = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
-    let at = |index: i64| {
-        let inside = |index: i64| path[index.clamp(0, last) as usize];
-        match index {
-            ..0 => 2.0 * path[0] - inside(-index),
-            _ if index > last => 2.0 * inside(last) - inside(2 * last - index),
-            _ => inside(index),
-        }
-    };
-    let point = |index: i64| {
-        let around = (1..=reach)
-            .map(|offset| (at(index - offset) + at(index + offset)) * weights[offset as usize]);
-        (at(index) * weights[0] + around.sum::<DVec3>()) / total
-    };
-    (0..=last).map(point).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -105,18 +80,6 @@ mod tests {
     fn largest_difference(one: &[DVec3], other: &[DVec3]) -> f64 {
         let pairs = one.iter().zip(other);
         pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
-    }
-
-    #[test]
-    fn steady_movements_stay_and_swaying_vanishes() {
-        let steady = path(|time| 1.3 * time + 0.2);
-        assert!(largest_difference(&smoothed(&steady, 9.6), &steady) < 1e-9);
-        let swaying =
-            path(|time| 1.3 * time + 0.2 + 0.1 * (time * 2.0 * std::f64::consts::TAU).sin());
-        assert!(largest_difference(&smoothed(&swaying, 9.6), &steady) < 0.02);
-        // Longer than the path.
-        assert!(largest_difference(&smoothed(&steady[..5], 9.6), &steady[..5]) < 1e-9);
-        assert_eq!(smoothed(&steady[..1], 9.6), &steady[..1]);
     }
 
     #[test]

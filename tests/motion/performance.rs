@@ -87,7 +87,9 @@ fn contacts_go_through_the_map() {
             let map = TimeMap::through(&[[0, 0], [last * factor, last]]);
             let slow = Turns::new(clip, rig, landmarks).timed(&map).travel();
             let [before, now] = [&whole, &slow].map(share);
-            assert!((before - now).abs() < 0.02, "{file}: {before} {now}");
+            // Frames in which one foot takes over from another do not count, and are shorter in slow motion.
+            let gained = now - before;
+            assert!((-0.02..0.08).contains(&gained), "{file}: {before} {now}");
             for frame in 0..=last {
                 let heights = [(&whole, frame), (&slow, frame * factor)].map(|(clip, frame)| {
                     let nodes = placed(rig, clip, frame);

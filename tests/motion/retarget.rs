@@ -1,6 +1,7 @@
 //! Retargeted clips against the poses of their source: the laws of motion on figures.
 
 pub(crate) mod clips;
+mod frame_rates;
 mod random;
 mod rewritten;
 pub(crate) mod rigs;

@@ -3,23 +3,18 @@
 use glam::DVec3;
 
 use super::axes::{Axes, Landmarks};
+use super::planting::{Hold, Planting};
 use super::{PoseBuffer, Rig};
 use crate::motion::labels::Tip;
 use crate::motion::matching::Drive;
 use crate::motion::resample::TimeMap;
 use crate::motion::skeleton::Clip;
 
-/// A point of a foot is in contact if it is lower than this above its lowest height, in leg lengths …
-pub(super) const CONTACT_HEIGHT: f64 = 0.08;
-/// … and slower than this, in leg lengths per second.
-const CONTACT_SPEED: f64 = 0.6;
-/// The lowest height of a foot is this quantile of its heights, because single frames may be wrong.
-const LOWEST: f64 = 0.02;
-
 /// The walk of a clip, in the drawing's axes and the clip's unit.
 pub(super) struct Walk {
     pub(super) hips: Vec<DVec3>,
     pub(super) feet: Vec<Foot>,
+    planting: Planting,
 }
 
 /// A foot of the clip, and the parts of the figure that stand on it.
@@ -28,8 +23,8 @@ pub(super) struct Foot {
     pub(super) parts: Vec<usize>,
     /// Per frame its height above its lowest height: that of its heel or of its toes, whichever is lower.
     pub(super) clearance: Vec<f64>,
-    /// Per frame the length of its step from the frame before, if its heel or its toes were in contact since then.
-    contact: Vec<Option<f64>>,
+    /// Per frame how it holds the figure in place on the way from the frame before.
+    pub(super) holds: Vec<Hold>,
 }
 
 impl Walk {
@@ -54,7 +49,7 @@ impl Walk {
                     drive,
                     parts: vec![index],
                     clearance: vec![f64::INFINITY; clip.frames()],
-                    contact: vec![None; clip.frames()],
+                    holds: Vec::new(),
                 }),
             }
         }
@@ -77,41 +72,49 @@ impl Walk {
                 }
             }
         }
-        for (foot, paths) in feet.iter_mut().zip(&paths) {
-            for path in paths {
-                foot.measure(path, clip.frame_time, leg);
+        let planting = Planting::of(&paths, clip.frame_time, leg);
+        for (index, foot) in feet.iter_mut().enumerate() {
+            for (path, lowest) in paths[index].iter().zip(&planting.lowest[index]) {
+                foot.measure(path, *lowest);
             }
         }
-        Self { hips, feet }
+        let frames: Vec<f64> = (0..clip.frames()).map(|frame| frame as f64).collect();
+        Self {
+            hips,
+            feet,
+            planting,
+        }
+        .held_at(&frames)
     }
 
-    /// The same walk, played along a map of time. A foot is in contact on the way to a frame if it was in contact on the whole way in
-    /// the source, however slow or fast it is now.
+    /// The same walk, whose frames are at these places of the clip.
+    fn held_at(mut self, places: &[f64]) -> Self {
+        let holds = self.planting.holds(places);
+        for (foot, holds) in self.feet.iter_mut().zip(holds) {
+            foot.holds = holds;
+        }
+        self
+    }
+
+    /// The same walk, played along a map of time. Feet hold the figure in place where they did so in the source, however slow or fast
+    /// they are now.
     #[must_use]
     pub(super) fn timed(&self, map: &TimeMap) -> Self {
+        let places = map.places().iter();
+        let places: Vec<f64> = places.map(|mix| mix.from as f64 + mix.t).collect();
         let between = |a: f64, b: f64, t: f64| a + (b - a) * t;
         let foot = |foot: &Foot| Foot {
             drive: foot.drive,
             parts: foot.parts.clone(),
             clearance: map.apply(&foot.clearance, between),
-            contact: (0..map.frames())
-                .map(|frame| foot.contact_between(map, frame))
-                .collect(),
+            holds: Vec::new(),
         };
         Self {
             hips: map.apply(&self.hips, DVec3::lerp),
             feet: self.feet.iter().map(foot).collect(),
+            planting: self.planting.clone(),
         }
-    }
-
-    /// The foot that is locked on the way to a frame: the same as before while it is in contact, else the slowest one in
-    /// contact.
-    pub(super) fn planted(&self, frame: usize, before: Option<usize>) -> Option<usize> {
-        let stays = before.filter(|foot| self.feet[*foot].contact[frame].is_some());
-        let standing = self.feet.iter().enumerate();
-        let standing = standing.filter_map(|(foot, own)| Some((foot, own.contact[frame]?)));
-        let slowest = standing.min_by(|(_, a), (_, b)| a.total_cmp(b));
-        stays.or(slowest.map(|(foot, _)| foot))
+        .held_at(&places)
     }
 }
 
@@ -132,40 +135,10 @@ fn ground_points(landmarks: &Landmarks, drive: &Drive) -> Vec<Tip> {
 }
 
 impl Foot {
-    /// The length of the foot's step in the source between two frames of a map, if it was in contact all the time.
-    fn contact_between(&self, map: &TimeMap, frame: usize) -> Option<f64> {
-        let place = |frame: usize| {
-            let mix = &map.places()[frame];
-            mix.from as f64 + mix.t
-        };
-        let [start, end] = [place(frame.saturating_sub(1)), place(frame)];
-        // A source frame's contact is that of the way to it. A pose that is held is one moment of such a way.
-        let first = (start.floor() as usize + 1).min(end.ceil() as usize);
-        let ways = first..=end.ceil() as usize;
-        let mut length = 0.0;
-        for source in ways {
-            let share = end.min(source as f64) - start.max(source as f64 - 1.0);
-            length += self.contact[source]? * share.max(0.0);
-        }
-        Some(length)
-    }
-
-    fn measure(&mut self, path: &[DVec3], frame_time: f64, leg: f64) {
-        let mut heights: Vec<f64> = path.iter().map(|point| point.y).collect();
-        heights.sort_by(f64::total_cmp);
-        let lowest = match heights.len() {
-            0 => 0.0,
-            count => heights[((count - 1) as f64 * LOWEST) as usize],
-        };
-        let is_low = |frame: usize| path[frame].y - lowest < CONTACT_HEIGHT * leg;
-        for (frame, point) in path.iter().enumerate() {
-            self.clearance[frame] = self.clearance[frame].min(point.y - lowest);
-            let before = frame.saturating_sub(1);
-            let step = point.distance(path[before]);
-            if is_low(frame) && is_low(before) && step < CONTACT_SPEED * leg * frame_time {
-                let contact = &mut self.contact[frame];
-                *contact = Some(contact.map_or(step, |least| least.min(step)));
-            }
+    /// Measures how far a point of the foot is above its lowest height.
+    fn measure(&mut self, path: &[DVec3], lowest: f64) {
+        for (clearance, point) in self.clearance.iter_mut().zip(path) {
+            *clearance = clearance.min(point.y - lowest);
         }
     }
 }

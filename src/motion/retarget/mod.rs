@@ -4,12 +4,15 @@
 //! axes of the clip's first frame are mapped to them, so the figure starts in the direction in which it is drawn.
 
 mod axes;
+mod carried;
 mod contacts;
 mod ground;
 mod kinematics;
+mod planting;
 mod rest_pose;
 mod root_motion;
 mod rotations;
+mod spline;
 mod swing;
 mod turns;
 
@@ -87,7 +90,7 @@ pub struct RetargetedClip {
     pub rotations: Vec<Option<Vec<DQuat>>>,
     /// Per part the position of its node; for rooted nodes only.
     pub translations: Vec<Option<Vec<DVec3>>>,
-    /// Per frame whether a foot is in contact with the ground.
+    /// Per frame whether a foot is in contact with the ground, and none takes over from another.
     pub grounded: Vec<bool>,
     /// The rest pose from which the clip's rotations were measured.
     pub rest: RestSource,

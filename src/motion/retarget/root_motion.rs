@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::axes::Landmarks;
-use super::contacts::{CONTACT_HEIGHT, Walk};
+use super::contacts::Walk;
 use super::kinematics::ForwardKinematics;
+use super::planting::{CONTACT_HEIGHT, Hold};
 use super::rotations::Rotations;
 use super::{PoseBuffer, Rig};
 use crate::motion::matching::Drive;
@@ -12,6 +13,9 @@ use crate::motion::skeleton::Clip;
 
 /// A foot rolls over the points of its sole that are about this high above the lowest one, in leg lengths.
 const ROLLING: f64 = 0.01;
+
+/// A foot is in contact with the ground in a frame if its share in holding the figure in place was this large on the way to it.
+const GROUNDED: f64 = 0.9;
 
 /// The motion of the root part.
 pub(super) struct RootMotion {
@@ -47,10 +51,11 @@ pub(super) fn root_motion(
     let floor = soles.map(|point| point.y).reduce(f64::min);
     let surfaces = Surfaces::of(rig, order, floor);
     let mut kinematics = ForwardKinematics::new(rig);
-    let mut position = start;
-    let mut planted: Option<usize> = None;
     // Per foot of the clip, and per part that stands on it, the points of the part's surface.
     let mut before: Vec<Vec<Vec<DVec3>>> = Vec::new();
+    // Per foot its steps on the ground, relative to the root.
+    let mut steps = vec![vec![DVec3::ZERO]; walk.feet.len()];
+    let mut heights = Vec::with_capacity(frames);
     for frame in 0..frames {
         kinematics.pose(rig, rotations, order, frame);
         let feet: Vec<Vec<Vec<DVec3>>> = walk
@@ -63,31 +68,63 @@ pub(super) fn root_motion(
                     .collect()
             })
             .collect();
-        planted = walk.planted(frame, planted);
-        motion.grounded[frame] = planted.is_some();
-        if frame > 0 {
-            let step = match planted {
-                // Foot locking: the foot stays in place, so the root moves by the opposite of its step.
-                Some(foot) => -rolled(&before[foot], &feet[foot], ROLLING * legs[1]),
-                None => (walk.hips[frame] - walk.hips[frame - 1]) * scale,
-            };
-            position += DVec3::new(step.x, 0.0, step.z);
+        for (steps, (before, now)) in steps.iter_mut().zip(before.iter().zip(&feet)) {
+            steps.push(rolled(before, now, ROLLING * legs[1]));
         }
-        position.y = match floor {
+        let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
+        let clearance = clearance.fold(f64::INFINITY, f64::min);
+        let lifted = lifted(clearance, legs[0]) * scale;
+        let mut holds = walk.feet.iter().map(|foot| foot.holds[frame].mean);
+        motion.grounded[frame] = lifted == 0.0 && holds.any(|held| held >= GROUNDED);
+        heights.push(match floor {
             Some(floor) => {
-                let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
-                let clearance = clearance.fold(f64::INFINITY, f64::min);
-                let lifted = floor + lifted(clearance, legs[0]) * scale;
                 let lowest = feet.iter().flatten().flatten().map(|point| point.y);
-                (lifted - lowest.fold(f64::INFINITY, f64::min))
+                (floor + lifted - lowest.fold(f64::INFINITY, f64::min))
                     .max(floor - surfaces.lowest(rig, &kinematics))
             }
             None => start.y + (walk.hips[frame].y - walk.hips[0].y) * scale,
-        };
+        });
         before = feet;
-        motion.path.push(position);
+    }
+    motion.path = travel(walk, &steps, scale, start);
+    for (place, height) in motion.path.iter_mut().zip(heights) {
+        place.y = height;
     }
     motion
+}
+
+/// Where the root goes, frame by frame. Feet are locked: one stays in place if the root moves by the opposite of its step. Where none
+/// holds it, the root goes as far as the clip's hips. `steps` are those of each foot from the frame before, relative to the root.
+fn travel(walk: &Walk, steps: &[Vec<DVec3>], scale: f64, start: DVec3) -> Vec<DVec3> {
+    let mut ways = vec![DVec3::ZERO];
+    ways.extend(walk.hips.windows(2).map(|pair| (pair[1] - pair[0]) * scale));
+    // The ways before, to and after a frame; nothing is known about those beyond the ends.
+    let around = |ways: &[DVec3], frame: usize| {
+        let before = ways[if frame > 1 { frame - 1 } else { frame }];
+        [
+            before,
+            ways[frame],
+            ways.get(frame + 1).copied().unwrap_or(ways[frame]),
+        ]
+    };
+    let mut place = start;
+    let mut path = Vec::with_capacity(walk.hips.len());
+    for frame in 0..walk.hips.len() {
+        if frame > 0 {
+            let mut free = Hold {
+                mean: 1.0,
+                lean: 0.0,
+            };
+            for (foot, steps) in walk.feet.iter().zip(steps) {
+                let hold = foot.holds[frame];
+                place -= hold.part_of(around(steps, frame));
+                free = free - hold;
+            }
+            place += free.part_of(around(&ways, frame));
+        }
+        path.push(place);
+    }
+    path
 }
 
 /// How far a foot moves from one pose to the next where it touches the ground: the mean over the points of its lowest part, of which

@@ -6,7 +6,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Rig;
-use super::kinematics::ForwardKinematics;
+use super::carried::{Carriage, Carried};
 use super::rotations::{Rotations, arc};
 use crate::motion::skeleton::{Transform, height};
 
@@ -22,9 +22,9 @@ const DAMPING: f64 = 0.3;
 const GRAVITY: f64 = 9.81;
 /// The height of a figure, metres: drawings have no scale.
 const HEIGHT: f64 = 1.7;
-/// What pulls the weight is smoothed by a Gaussian of this deviation, seconds: frames miss what happens between them, and feet that
-/// are locked to the ground push the body in jerks.
-const SMOOTHING: f64 = 0.05;
+/// How a part is carried is smoothed by a Gaussian of this deviation, seconds: frames miss what happens between them, and feet that
+/// are locked to the ground push the body in jerks. With less, motions at 24 and at 60 frames a second differ by more than 2°.
+const SMOOTHING: f64 = 0.07;
 /// The largest deviation from the drawn pose, degrees.
 const MAX_ANGLE: f64 = 60.0;
 /// How often the weight is pushed out of what the part hangs on and back onto its rod.
@@ -45,16 +45,17 @@ pub(super) fn swing(
     if !(metre > 0.0 && metre.is_finite() && is_timed && path.len() > 1) {
         return;
     }
+    let deviation = SMOOTHING / frame_time;
     let warm_up = is_cycle(rotations, path.len());
     for part in order {
         let own = &rig.parts[*part];
         let Some(stiffness) = own.swing else { continue };
-        let axis = own.node.rotation.inverse() * (own.tip - own.joint);
-        let length = axis.length();
+        let way = own.tip - own.joint;
+        let length = way.length();
         if !(length > 0.0 && length.is_finite() && stiffness > 0.0) {
             continue;
         }
-        let carried = Carried::of(rig, order, *part, path, rotations, SMOOTHING / frame_time);
+        let carried = Carried::of(rig, order, *part, path, rotations, deviation);
         let obstacle = own
             .parent
             .and_then(|parent| Obstacle::of(rig, parent, own.tip));
@@ -63,15 +64,13 @@ pub(super) fn swing(
             frame_time,
             stiffness: stiffness.min(MAX_STIFFNESS) * (std::f64::consts::TAU * FREQUENCY).powi(2),
             gravity: GRAVITY * metre,
-            down: own.node.rotation.inverse() * DVec3::NEG_Y,
-            axis: axis / length,
             obstacle,
         };
         let directions = pendulum.swing(&carried, warm_up);
-        let turns = carried.frames.iter().zip(directions);
+        let turns = directions.into_iter().enumerate();
         let turns = turns.map(|(frame, direction)| {
-            let drawn = frame.rotation * pendulum.axis;
-            (arc(drawn, direction, DVec3::Z) * frame.rotation).normalize()
+            let drawn = carried.at(frame).aim / length;
+            (arc(drawn, direction, DVec3::Z) * carried.rotations[frame]).normalize()
         });
         let turns = turns.collect();
         rotations.set(rig, order, *part, turns);
@@ -88,82 +87,6 @@ fn metre(rig: &Rig) -> f64 {
 fn is_cycle(rotations: &Rotations, frames: usize) -> bool {
     let mut turns = rotations.all();
     turns.all(|turns| turns[0].angle_between(turns[frames - 1]) < CYCLE.to_radians())
-}
-
-/// How a part moves without swinging.
-struct Carried {
-    /// Per frame the rotation of its node, and the position of its joint.
-    frames: Vec<Transform>,
-    /// Per frame the node of what it hangs on.
-    above: Vec<Transform>,
-    /// Per frame the position of its joint, smoothed.
-    way: Vec<DVec3>,
-    /// Per frame where its far end is, relative to the joint, smoothed.
-    aim: Vec<DVec3>,
-}
-
-impl Carried {
-    fn of(
-        rig: &Rig,
-        order: &[usize],
-        part: usize,
-        path: &[DVec3],
-        rotations: &Rotations,
-        deviation: f64,
-    ) -> Self {
-        let own = &rig.parts[part];
-        let joint = own.node.to_local(own.joint);
-        let mut kinematics = ForwardKinematics::new(rig);
-        let mut frames = Vec::with_capacity(path.len());
-        let mut above = Vec::with_capacity(path.len());
-        for (frame, root) in path.iter().enumerate() {
-            kinematics.pose(rig, rotations, order, frame);
-            let placed = |part: usize| Transform {
-                position: kinematics.transforms[part].position + *root,
-                ..kinematics.transforms[part]
-            };
-            let node = placed(part);
-            frames.push(Transform {
-                rotation: node.rotation,
-                position: node.apply(joint),
-            });
-            above.push(own.parent.map_or(node, placed));
-        }
-        let axis = own.node.rotation.inverse() * (own.tip - own.joint);
-        let joints: Vec<DVec3> = frames.iter().map(|frame| frame.position).collect();
-        let ends: Vec<DVec3> = frames.iter().map(|frame| frame.rotation * axis).collect();
-        Self {
-            way: smooth(&joints, deviation),
-            aim: smooth(&ends, deviation),
-            frames,
-            above,
-        }
-    }
-}
-
-/// A path, a point per frame, smoothed by a Gaussian whose deviation is given in frames.
-fn smooth(path: &[DVec3], deviation: f64) -> Vec<DVec3> {
-    let reach = (3.0 * deviation).ceil() as isize;
-    let last = path.len() as isize - 1;
-    // Beyond the ends it goes on as it came, mirrored in the end point.
-    let at = |index: isize| {
-        let inside = index.clamp(0, last);
-        let mirrored = (2 * inside - index).clamp(0, last);
-        match inside == index {
-            true => path[inside as usize],
-            false => path[inside as usize] * 2.0 - path[mirrored as usize],
-        }
-    };
-    let near = |frame: usize| {
-        let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
-        for away in -reach..=reach {
-            let weight = (-(away as f64 / deviation).powi(2) / 2.0).exp();
-            sum += at(frame as isize + away) * weight;
-            weights += weight;
-        }
-        sum / weights
-    };
-    (0..path.len()).map(near).collect()
 }
 
 /// The part that another hangs on, as an ellipsoid in the axes of its node.
@@ -215,9 +138,6 @@ struct Pendulum {
     /// The spring's force per length, 1/s².
     stiffness: f64,
     gravity: f64,
-    /// Down and the part's axis in the drawing, in the axes of its node.
-    down: DVec3,
-    axis: DVec3,
     obstacle: Option<Obstacle>,
 }
 
@@ -232,7 +152,7 @@ impl Pendulum {
     /// The directions of the part in all frames. It begins at rest, and with a `warm_up` as it is after having played the clip once.
     fn swing(&self, carried: &Carried, warm_up: bool) -> Vec<DVec3> {
         let rest = Weight {
-            offset: carried.frames[0].rotation * self.axis * self.length,
+            offset: carried.at(0).aim,
             velocity: DVec3::ZERO,
         };
         let (first, last) = self.play(carried, rest);
@@ -240,8 +160,7 @@ impl Pendulum {
             return first;
         }
         // The clip ends almost as it begins.
-        let [begin, end] =
-            [0, carried.frames.len() - 1].map(|frame| carried.frames[frame].rotation);
+        let [begin, end] = [0, carried.rotations.len() - 1].map(|frame| carried.rotations[frame]);
         let back = begin * end.inverse();
         let again = Weight {
             offset: back * last.offset,
@@ -253,48 +172,56 @@ impl Pendulum {
     fn play(&self, carried: &Carried, mut weight: Weight) -> (Vec<DVec3>, Weight) {
         let steps = (self.frame_time * STEPS).ceil().max(1.0);
         let time = self.frame_time / steps;
-        let mut directions = vec![weight.offset / self.length];
-        for frame in 1..carried.frames.len() {
-            let at = |step: usize| Moment::between(carried, frame, step as f64 / steps);
-            let mut before = at(0);
+        // What is shown obeys the limits in the very pose of the frame, what swings on those of the smooth paths.
+        let shown = |weight: &Weight, frame: usize| {
+            self.constrained(weight.offset, &carried.at(frame)) / self.length
+        };
+        let mut directions = vec![shown(&weight, 0)];
+        for frame in 1..carried.rotations.len() {
+            let between = carried.between(frame);
+            let mut before = between(0.0);
             for step in 1..=steps as usize {
-                let now = at(step);
+                let now = between(step as f64 / steps);
                 weight = self.step(weight, &before, &now, time);
                 before = now;
             }
-            directions.push(weight.offset / self.length);
+            directions.push(shown(&weight, frame));
         }
         (directions, weight)
     }
 
-    fn step(&self, weight: Weight, before: &Moment, now: &Moment, time: f64) -> Weight {
-        let target = now.aim.normalize_or(self.axis) * self.length;
-        let carried = (target - before.aim.normalize_or(self.axis) * self.length) / time;
+    fn step(&self, weight: Weight, before: &Carriage, now: &Carriage, time: f64) -> Weight {
+        let target = self.on_rod(now.aim, DVec3::Y);
+        let carried = (target - self.on_rod(before.aim, target)) / time;
         let damping = 2.0 * DAMPING * self.stiffness.sqrt();
         // The joint's acceleration acts on the weight like a force in the opposite direction.
         let inertia = -(now.velocity - before.velocity) / (self.frame_time * time);
-        let gravity = (DVec3::NEG_Y - now.frame.rotation * self.down) * self.gravity;
+        let gravity = (DVec3::NEG_Y - now.down) * self.gravity;
         let spring = (target - weight.offset) * self.stiffness;
         let force = spring + inertia + gravity - (weight.velocity - carried) * damping;
         let velocity = weight.velocity + force * time;
-        let drawn = now.frame.rotation * self.axis * self.length;
-        let offset = self.constrained(weight.offset + velocity * time, now, drawn);
+        let offset = self.constrained(weight.offset + velocity * time, now);
         Weight {
             offset,
             velocity: (offset - weight.offset) / time,
         }
     }
 
+    /// The end of the rod in a direction, or in another one if that has no length.
+    fn on_rod(&self, way: DVec3, other: DVec3) -> DVec3 {
+        way.try_normalize()
+            .unwrap_or_else(|| other.normalize_or(DVec3::Y))
+            * self.length
+    }
+
     /// The weight on its rod, outside of what the part hangs on, and not too far from the drawn pose.
-    fn constrained(&self, mut offset: DVec3, now: &Moment, drawn: DVec3) -> DVec3 {
+    fn constrained(&self, mut offset: DVec3, now: &Carriage) -> DVec3 {
+        let drawn = self.on_rod(now.aim, DVec3::Y);
         for _ in 0..PUSHES {
             if let Some(obstacle) = &self.obstacle {
-                let joint = now.frame.position;
-                offset = obstacle.outside(&now.above, joint + offset) - joint;
+                offset = obstacle.outside(&now.above, offset);
             }
-            offset = offset
-                .try_normalize()
-                .map_or(drawn, |way| way * self.length);
+            offset = self.on_rod(offset, drawn);
         }
         let most = MAX_ANGLE.to_radians();
         let cross = drawn.cross(offset);
@@ -305,70 +232,5 @@ impl Pendulum {
         let axis = cross.try_normalize();
         let axis = axis.unwrap_or_else(|| (drawn / self.length).any_orthonormal_vector());
         DQuat::from_axis_angle(axis, most) * drawn
-    }
-}
-
-/// How a part is carried at a time between two frames.
-struct Moment {
-    frame: Transform,
-    /// The velocity of the joint, drawing units a frame.
-    velocity: DVec3,
-    above: Transform,
-    /// Where the far end would be without swinging, relative to the joint, smoothed.
-    aim: DVec3,
-}
-
-impl Moment {
-    /// The moment at a share of the time from the frame before to a frame. Velocity and aim are those on a Catmull-Rom
-    /// spline, so that they have no kinks, whatever the frame rate.
-    fn between(carried: &Carried, frame: usize, share: f64) -> Self {
-        let way = Spline::of(&carried.way, frame);
-        let aim = Spline::of(&carried.aim, frame);
-        let place = |track: &[Transform]| {
-            let [before, now] = [&track[frame - 1], &track[frame]];
-            Transform {
-                rotation: before.rotation.slerp(now.rotation, share),
-                position: before.position.lerp(now.position, share),
-            }
-        };
-        Self {
-            frame: place(&carried.frames),
-            velocity: way.velocity(share),
-            above: place(&carried.above),
-            aim: aim.position(share),
-        }
-    }
-}
-
-/// A Catmull-Rom spline from the frame before to a frame, by the coefficients of its powers of the share of the way.
-struct Spline([DVec3; 4]);
-
-impl Spline {
-    fn of(path: &[DVec3], frame: usize) -> Self {
-        let [b, c] = [path[frame - 1], path[frame]];
-        // Beyond the ends it goes on as it came.
-        let a = if frame > 1 {
-            path[frame - 2]
-        } else {
-            b * 2.0 - c
-        };
-        let d = path.get(frame + 1).copied().unwrap_or(c * 2.0 - b);
-        Self([
-            b,
-            (c - a) / 2.0,
-            a - b * 2.5 + c * 2.0 - d / 2.0,
-            (b - c) * 1.5 + (d - a) / 2.0,
-        ])
-    }
-
-    fn position(&self, share: f64) -> DVec3 {
-        let [still, linear, square, cubic] = self.0;
-        still + (linear + (square + cubic * share) * share) * share
-    }
-
-    /// Per frame.
-    fn velocity(&self, share: f64) -> DVec3 {
-        let [_, linear, square, cubic] = self.0;
-        linear + (square * 2.0 + cubic * (3.0 * share)) * share
     }
 }

@@ -155,8 +155,9 @@ fn standing(
             steps.fold(f64::INFINITY, f64::min) / leg / clip.frame_time
         });
         let slowest = actor.fold(f64::INFINITY, f64::min);
+        // Contacts are slower than 0.6 on a smooth path; single steps may be a little faster.
         assert!(
-            slowest < 0.6,
+            slowest < 0.7,
             "frame {frame}: the actor's feet move at {slowest} legs a second"
         );
         let slide = slides.fold(f64::INFINITY, f64::min);

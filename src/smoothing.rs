@@ -1,0 +1,71 @@
+//! Smooth paths through points that are evenly spaced in time.
+
+use glam::DVec3;
+
+/// How far the filter reaches, in standard deviations.
+const REACH: f64 = 3.0;
+
+/// Smooths a path by a Gaussian filter of this standard deviation, in points; one that is not positive changes nothing. The path is
+/// continued at both ends by its mirror image through the end, so that the ends stay and a steady movement remains one.
+pub(crate) fn smoothed(path: &[DVec3], deviation: f64) -> Vec<DVec3> {
+    if path.is_empty() || deviation.is_nan() || deviation <= 0.0 {
+        return path.to_vec();
+    }
+    let last = path.len() as i64 - 1;
+    let reach = ((deviation * REACH).ceil() as i64).min(last);
+    let weight = |offset: i64| (-0.5 * (offset as f64 / deviation).powi(2)).exp();
+    let weights: Vec<f64> = (0..=reach).map(weight).collect();
+    let total = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
+    let at = |index: i64| {
+        let inside = |index: i64| path[index.clamp(0, last) as usize];
+        match index {
+            ..0 => 2.0 * path[0] - inside(-index),
+            _ if index > last => 2.0 * inside(last) - inside(2 * last - index),
+            _ => inside(index),
+        }
+    };
+    let point = |index: i64| {
+        let around = (1..=reach)
+            .map(|offset| (at(index - offset) + at(index + offset)) * weights[offset as usize]);
+        (at(index) * weights[0] + around.sum::<DVec3>()) / total
+    };
+    (0..=last).map(point).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points 24 times a second, for 4 seconds.
+    fn path(place: impl Fn(f64) -> f64) -> Vec<DVec3> {
+        (0..=96)
+            .map(|index| DVec3::X * place(f64::from(index) / 24.0))
+            .collect()
+    }
+
+    fn largest_difference(one: &[DVec3], other: &[DVec3]) -> f64 {
+        let pairs = one.iter().zip(other);
+        pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn steady_movements_stay_and_swaying_vanishes() {
+        let steady = path(|time| 1.3 * time + 0.2);
+        assert!(largest_difference(&smoothed(&steady, 9.6), &steady) < 1e-9);
+        let swaying =
+            path(|time| 1.3 * time + 0.2 + 0.1 * (time * 2.0 * std::f64::consts::TAU).sin());
+        assert!(largest_difference(&smoothed(&swaying, 9.6), &steady) < 0.02);
+        // Longer than the path.
+        assert!(largest_difference(&smoothed(&steady[..5], 9.6), &steady[..5]) < 1e-9);
+        assert_eq!(smoothed(&steady[..1], 9.6), &steady[..1]);
+    }
+
+    #[test]
+    fn without_a_deviation_nothing_changes() {
+        let path = path(|time| time * time);
+        for deviation in [0.0, -1.0, f64::NAN] {
+            assert_eq!(smoothed(&path, deviation), path);
+        }
+        assert!(smoothed(&[], 2.0).is_empty());
+    }
+}
