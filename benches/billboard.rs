@@ -30,7 +30,6 @@ mod scene {
 /// The stages.
 #[path = "../src/billboard"]
 mod billboard {
-    mod assignment;
     // Two are for the unit tests of the others, which cargo compiles with a benchmark.
     mod assignment;
     mod generated;

@@ -123,7 +123,11 @@ fn texts_grouped_by_themselves_are_where_their_group_is() {
     let outside = square(150, 150, "");
     for (left, right) in [("Left$", "Right$"), ("Left", "Right")] {
         let texts = text(20, 20, left) + &text(60, 20, right);
-        let each = format!("<g>{}</g><g>{}</g>", text(20, 20, left), text(60, 20, right));
+        let each = format!(
+            "<g>{}</g><g>{}</g>",
+            text(20, 20, left),
+            text(60, 20, right)
+        );
         for elements in [
             format!("{shapes}<g>{texts}</g>"),
             format!("{shapes}<g><g>{texts}</g></g>"),
