@@ -2,12 +2,12 @@
 //!
 //! A text that changes while it waits is analysed once, in its newest state.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 
 use tower_lsp::ls_types::Uri;
 
-use super::documents::{Analysed, Documents};
+use super::documents::{Analysed, Document, Documents};
 
 /// When texts are analysed without a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -30,8 +30,8 @@ pub(super) struct Scheduler {
 #[derive(Debug, Default)]
 struct Queue {
     tasks: VecDeque<Task>,
-    /// Texts whose diagnostics are sent as soon as they are known.
-    due: BTreeSet<String>,
+    /// Texts whose diagnostics are sent as soon as those of this state, or of a newer one, are known.
+    due: BTreeMap<String, u64>,
     /// Texts whose diagnostics the client requests itself.
     pulled: BTreeSet<String>,
     when: When,
@@ -75,8 +75,11 @@ impl Scheduler {
 
     /// A text was opened or saved: analyses it and sends its diagnostics.
     pub(super) fn opened_or_saved(&self, uri: &str) {
+        let current = self.documents.current(uri);
         let mut queue = self.queue();
-        queue.due.insert(uri.to_owned());
+        if let Some(document) = current {
+            queue.due.insert(uri.to_owned(), document.generation);
+        }
         self.add(queue, Task::Analyse(uri.to_owned()));
     }
 
@@ -141,13 +144,57 @@ impl Scheduler {
         }
     }
 
-    /// Whether diagnostics of a text are to be sent. Resets that.
-    pub(super) fn take_due(&self, uri: &str) -> bool {
+    /// Whether diagnostics of a state of a text are to be sent: those of this one or an earlier one were due, and not also those of a
+    /// newer one. Resets that.
+    pub(super) fn take_due(&self, document: &Document) -> bool {
         let mut queue = self.queue();
-        queue.due.remove(uri)
+        let uri = document.uri.as_str();
+        let due = queue.due.get(uri);
+        let is_due = due.is_some_and(|generation| *generation <= document.generation);
+        is_due && queue.due.remove(uri).is_some()
     }
 
     pub(super) fn is_pulled(&self, uri: &str) -> bool {
         self.queue().pulled.contains(uri)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tower_lsp::ls_types::{
+        TextDocumentContentChangeEvent, TextDocumentItem, VersionedTextDocumentIdentifier,
+    };
+
+    use super::*;
+
+    #[test]
+    fn a_change_while_diagnostics_are_sent_has_its_own_sent() {
+        let documents = Arc::new(Documents::new());
+        let scheduler = Scheduler::new(Arc::clone(&documents));
+        let uri: Uri = "file:///drawing.svg".parse().unwrap();
+        documents.open(TextDocumentItem {
+            uri: uri.clone(),
+            language_id: "xml".to_owned(),
+            version: 1,
+            text: "<svg/>".to_owned(),
+        });
+        scheduler.opened_or_saved(uri.as_str());
+        let opened = documents.current(uri.as_str()).unwrap();
+        // The text changes when its first state has been analysed, but not sent yet.
+        let identifier = VersionedTextDocumentIdentifier {
+            uri: uri.clone(),
+            version: 2,
+        };
+        let change = TextDocumentContentChangeEvent {
+            range: None,
+            range_length: None,
+            text: "<svg></svg>".to_owned(),
+        };
+        documents.change(&identifier, vec![change]);
+        scheduler.changed(uri.as_str());
+        assert!(!scheduler.take_due(&opened));
+        let changed = documents.current(uri.as_str()).unwrap();
+        assert!(scheduler.take_due(&changed));
+        assert!(!scheduler.take_due(&changed));
     }
 }

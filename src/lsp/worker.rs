@@ -108,7 +108,7 @@ impl Worker {
     fn publish_diagnostics(&self, analysed: &Analysed, only_links_changed: bool) {
         let document = &analysed.document;
         let uri = document.uri.as_str();
-        if !self.scheduler.take_due(uri) {
+        if !self.scheduler.take_due(document) {
             return;
         }
         if self.scheduler.is_pulled(uri) {
@@ -122,7 +122,7 @@ impl Worker {
         }
         let links = self.client_support.links_at_codes.load(Ordering::Relaxed);
         let diagnostics = convert::diagnostics(analysed, manual::links(links));
-        // The text may change before this is sent; the diagnostics of that change follow later.
+        // If the text changes before this is sent, the diagnostics of that change are due and follow later.
         self.send(document.uri.clone(), diagnostics, Some(document.version));
     }
 

@@ -86,7 +86,7 @@ browse("the chart of a performance shows marks, joints, and which frame stands i
   const rows = await chart(page).getByRole("row").allInnerTexts();
   assert.deepEqual(rows.map((row) => row.split(/\s+/).filter(Boolean).join(" ")), ["Mark Parts R Effect", "red Rarm 1.00 emphasised", "green Larm 0.09 damped"]);
 
-  assert.match(await chart(page).locator(".performance-marks p").innerText(), /^filmed by a camera that is nearest in frame 39$/);
+  assert.match(await chart(page).locator(".performance-marks p").innerText(), /^filmed by a camera that is nearest in frame 38$/);
 
   // A curve for each mark in both rows, in the mark's colour; the one of the emphasised mark reaches the top at its key.
   assert.equal(await page.locator(".performance-picture .performance-curve").count(), 4);
