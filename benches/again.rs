@@ -7,6 +7,7 @@
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 mod drawing;
+mod sizes;
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -15,6 +16,7 @@ use okoshi::compile::{Compiled, Compiler, Options, compile};
 use okoshi::resolver::MemoryResolver;
 
 use drawing::{Random, drawing};
+use sizes::sizes;
 
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
@@ -23,7 +25,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 const ROUNDS: usize = 200;
 
 fn main() {
-    let sizes = drawing::sizes(std::env::args().skip(1), &[1_000, 10_000]);
+    let sizes = sizes(std::env::args().skip(1), &[1_000, 10_000]);
     println!("parts   what                    median ms   p99 ms   ratios to usvg's median");
     for size in sizes {
         measure(size);

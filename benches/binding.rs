@@ -7,6 +7,7 @@
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 mod drawing;
+mod sizes;
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -20,6 +21,7 @@ use okoshi::resolver::MemoryResolver;
 use okoshi::svg;
 
 use drawing::{Random, drawing};
+use sizes::sizes;
 
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
@@ -30,7 +32,7 @@ const ROUNDS: usize = 15;
 const FIGURE: usize = 40;
 
 fn main() {
-    let sizes = drawing::sizes(std::env::args().skip(1), &[1_000, 10_000]);
+    let sizes = sizes(std::env::args().skip(1), &[1_000, 10_000]);
     println!("shapes  texts  drawing  bind ms  paper's rule ms  build ms  share of the build");
     for size in sizes {
         measure("apart", &drawing(size).0);

@@ -9,6 +9,7 @@
 
 mod drawing;
 mod process;
+mod sizes;
 
 use std::process::Command;
 
@@ -17,7 +18,8 @@ use okoshi::geometry::area;
 use okoshi::resolver::MemoryResolver;
 
 use drawing::drawing;
-use process::{build, timed, triangles};
+use process::{build, interleaved, timed, triangles};
+use sizes::sizes;
 
 /// With this argument, the program is the baseline: it only reads the drawing.
 const BASELINE: &str = "--usvg";
@@ -36,7 +38,7 @@ fn main() {
         std::mem::forget(std::hint::black_box(tree));
         return;
     }
-    let sizes = drawing::sizes(arguments, &[1_000, 10_000, 100_000]);
+    let sizes = sizes(arguments, &[1_000, 10_000, 100_000]);
     println!("parts   usvg ms (least)  okoshi ms (least)  ratio (least)  triangles   MB  area");
     for size in sizes {
         measure(size);
@@ -50,19 +52,10 @@ fn measure(parts: usize) {
     std::fs::write(&input, &drawing).expect("room for it");
     let this = std::env::current_exe().expect("this program");
     let rounds = (200_000 / parts).clamp(5, 21);
-    let (mut usvg, mut okoshi) = (Vec::new(), Vec::new());
-    let mut bytes = 0;
-    // The first round warms up.
-    for _ in 0..=rounds {
-        usvg.push(timed(Command::new(&this).arg(BASELINE).arg(&input)));
-        okoshi.push(timed(&mut build(&input, &output)));
-        bytes = std::fs::metadata(&output).expect("a model").len();
-    }
-    let [(usvg, least_usvg), (okoshi, least_okoshi)] = [usvg, okoshi].map(|mut times| {
-        times.remove(0);
-        times.sort();
-        (times[times.len() / 2].as_secs_f64(), times[0].as_secs_f64())
-    });
+    let read = || timed(Command::new(&this).arg(BASELINE).arg(&input));
+    let write = || timed(&mut build(&input, &output));
+    let [usvg, okoshi] = interleaved(rounds, [&read, &write]);
+    let bytes = std::fs::metadata(&output).expect("a model").len();
     let compiled = compile(&drawing, &Options::default(), &MemoryResolver::default());
     let found_area: f64 = compiled
         .bindings
@@ -72,12 +65,12 @@ fn measure(parts: usize) {
         .sum();
     println!(
         "{parts:>6}  {:>7.1} ({:>6.1})  {:>8.1} ({:>6.1})  {:>5.2} ({:>5.2})  {:>9}  {:>4.0}  {:.4}",
-        usvg * 1e3,
-        least_usvg * 1e3,
-        okoshi * 1e3,
-        least_okoshi * 1e3,
-        okoshi / usvg,
-        least_okoshi / least_usvg,
+        usvg.median * 1e3,
+        usvg.least * 1e3,
+        okoshi.median * 1e3,
+        okoshi.least * 1e3,
+        okoshi.median / usvg.median,
+        okoshi.least / usvg.least,
         triangles(&output),
         bytes as f64 / 1e6,
         found_area / true_area,

@@ -13,6 +13,7 @@ mod drawing;
 #[path = "../tests/common/editor.rs"]
 #[allow(dead_code, reason = "a benchmark asks less than the tests do")]
 mod editor;
+mod sizes;
 
 use std::time::{Duration, Instant};
 
@@ -31,7 +32,7 @@ const ROUNDS: usize = 5;
 const TYPED: &str = "$Shape roundv -90 90 Smooth 20 Offset 3";
 
 fn main() {
-    let sizes = drawing::sizes(std::env::args().skip(1), &[1_000, 10_000]);
+    let sizes = sizes::sizes(std::env::args().skip(1), &[1_000, 10_000]);
     println!(
         "parts   what                median ms   p99 ms   to usvg's median: median   p99   p99 of edits' medians"
     );

@@ -1,9 +1,15 @@
-//! Smooth paths through points that are evenly spaced in time.
+//! Smooth changes in time.
 
 use glam::DVec3;
 
 /// How far the filter reaches, in standard deviations.
 const REACH: f64 = 3.0;
+
+/// Eases from 0 to 1 while `t` goes from 0 to 1, with no speed at either end; constant beyond.
+pub(crate) fn ease(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
 
 /// Smooths a path by a Gaussian filter of this standard deviation, in points; one that is not positive changes nothing. The path is
 /// continued at both ends by its mirror image through the end, so that the ends stay and a steady movement remains one.

@@ -8,19 +8,6 @@ use kurbo::{BezPath, Circle, Ellipse, Point, Rect, Shape};
 /// Side of the cell that each part has to itself, drawing units.
 const CELL: f64 = 40.0;
 
-/// The numbers of parts to measure with: from the arguments, else `usual`.
-pub(crate) fn sizes(arguments: impl Iterator<Item = String>, usual: &[usize]) -> Vec<usize> {
-    // cargo passes `--bench`, which is no number.
-    let asked: Vec<usize> = arguments
-        .filter_map(|argument| argument.parse().ok())
-        .collect();
-    if asked.is_empty() {
-        usual.to_vec()
-    } else {
-        asked
-    }
-}
-
 /// A drawing of so many parts in groups, each part in a cell of its own, and the area of all of them.
 pub(crate) fn drawing(parts: usize) -> (String, f64) {
     let mut random = Random(1);

@@ -12,6 +12,33 @@ pub(crate) fn timed(command: &mut Command) -> Duration {
     start.elapsed()
 }
 
+/// What repeated measurements of a time gave, in seconds.
+pub(crate) struct Times {
+    pub(crate) median: f64,
+    pub(crate) least: f64,
+}
+
+/// Measures several times in turn, so that what else the machine does disturbs all of them alike. One more round warms up.
+pub(crate) fn interleaved<const N: usize>(
+    rounds: usize,
+    measures: [&dyn Fn() -> Duration; N],
+) -> [Times; N] {
+    measures.iter().for_each(|measure| drop(measure()));
+    let mut times = [const { Vec::new() }; N];
+    for _ in 0..rounds {
+        for (times, measure) in times.iter_mut().zip(measures) {
+            times.push(measure().as_secs_f64());
+        }
+    }
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        Times {
+            median: times[times.len() / 2],
+            least: times[0],
+        }
+    })
+}
+
 /// `okoshi build` into a file that does not exist.
 pub(crate) fn build(drawing: &Path, model: &Path) -> Command {
     let _ = std::fs::remove_file(model);

@@ -8,9 +8,10 @@ use rustc_hash::FxHashSet;
 
 use super::bindings::Place;
 use super::fills::Fills;
+use super::wrappers::is_filled;
 use crate::lang::is_name_char;
 use crate::source::Text;
-use crate::svg::{Drawing, Label, Shape};
+use crate::svg::{Drawing, Label};
 
 /// The fewest names that make a drawing annotated: a single word is a title or a signature.
 const FEWEST: usize = 2;
@@ -37,7 +38,6 @@ pub(super) fn is_bare_name(text: &str) -> bool {
 /// Whether the names in the descriptions of a drawing without any sign of the language are names of parts: distinct words, each of a
 /// filled shape, or of a group that directly holds one.
 pub(super) fn descriptions_name_parts(drawing: &Drawing, names: &[(Place, Arc<Text>)]) -> bool {
-    let is_filled = |shape: &Shape| !shape.outline.polygons.is_empty();
     let holding = drawing.shapes.iter().filter(|shape| is_filled(shape));
     let holding: FxHashSet<usize> = holding.map(|shape| shape.group).collect();
     let mut seen = FxHashSet::default();

@@ -255,7 +255,7 @@ fn holding(drawing: &Drawing, is: impl Fn(&Shape) -> bool) -> Vec<bool> {
 /// shapes.
 fn described_lines(drawing: &Drawing, bindings: &Bindings) -> Vec<bool> {
     let mut described = vec![false; drawing.shapes.len()];
-    let filled = holding(drawing, |shape| !shape.outline.polygons.is_empty());
+    let filled = holding(drawing, wrappers::is_filled);
     let mut has_string = vec![false; drawing.groups.len()];
     for string in bindings.strings.iter().filter(|string| string.wants_part()) {
         let group = match string.place {

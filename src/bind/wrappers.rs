@@ -145,7 +145,7 @@ fn children(drawing: &Drawing, backgrounds: &[bool]) -> Vec<usize> {
     }
 }
 
-fn is_filled(shape: &Shape) -> bool {
+pub(super) fn is_filled(shape: &Shape) -> bool {
     !shape.outline.polygons.is_empty()
 }
 

@@ -13,7 +13,7 @@ use i_overlay::core::overlay::{ContourDirection, IntOverlayOptions, Overlay, Sha
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
-use super::query::{bounds, shoelace};
+use super::query::{bounds, bounds_of, shoelace};
 use super::tangled::{MAX_CROSSINGS, crossings, pictured};
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
@@ -354,8 +354,7 @@ struct Grid {
 impl Grid {
     /// `None` if the extent is not a usable number.
     fn over<'a>(points: impl Iterator<Item = &'a DVec2>, steps: f64) -> Option<Grid> {
-        let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-        let (low, high) = points.fold(none, |(low, high), &p| (low.min(p), high.max(p)));
+        let (low, high) = bounds_of(points.copied())?;
         let extent = (high - low).max_element();
         if !VALID_EXTENTS.contains(&extent) {
             return None;

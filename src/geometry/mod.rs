@@ -29,7 +29,9 @@ pub use frame::{Frame, y_up};
 pub use measure::{Measure, Thickness, measure, measure_along};
 pub use offset::offset;
 pub use pixels::pixel_borders;
-pub use query::{area, border_distance_squared, bounds, centroid, contains, distance_squared};
+pub use query::{
+    area, border_distance_squared, bounds, bounds_of, centroid, contains, distance_squared,
+};
 pub(crate) use query::{crosses, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
 pub(crate) use simplify::simplify;

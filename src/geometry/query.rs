@@ -60,13 +60,15 @@ pub fn border_distance_squared(outline: &Outline, point: DVec2) -> f64 {
 
 /// The lower and the upper corner of the bounding box; `None` without points.
 pub fn bounds(outline: &Outline) -> Option<(DVec2, DVec2)> {
-    let mut points = outline
-        .polygons
-        .iter()
-        .flat_map(|p| p.rings.first())
-        .flatten();
-    let first = *points.next()?;
-    Some(points.fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
+    let borders = outline.polygons.iter().flat_map(|p| p.rings.first());
+    bounds_of(borders.flatten().copied())
+}
+
+/// The lower and the upper corner of the bounding box of points; `None` without points.
+pub fn bounds_of(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
+    let mut points = points.into_iter();
+    let first = points.next()?;
+    Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
 }
 
 /// The centre of gravity of the filled area; `None` if there is none.

@@ -3,7 +3,7 @@
 use glam::{DVec2, Vec2Swizzles as _};
 use resvg::tiny_skia::{FillRule as PictureRule, Mask, PathBuilder, Transform};
 
-use super::{FillRule, Ring, pixel_borders};
+use super::{FillRule, Ring, bounds_of, pixel_borders};
 
 /// How often edges may cross for an area to be found exactly. An area with more crossings is in as many pieces.
 pub(super) const MAX_CROSSINGS: usize = 20_000;
@@ -51,9 +51,9 @@ pub fn crossings(rings: &[Ring]) -> usize {
 
 /// The borders of the area that rings enclose by a fill rule, to within a pixel of a picture of it. They may touch.
 pub(super) fn pictured(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
-    let infinite = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let points = rings.iter().flatten();
-    let (low, high) = points.fold(infinite, |(low, high), p| (low.min(*p), high.max(*p)));
+    let Some((low, high)) = bounds_of(rings.iter().flatten().copied()) else {
+        return Vec::new();
+    };
     let extent = (high - low).max_element();
     let mut side = *SIDES.end();
     loop {

@@ -7,6 +7,7 @@ use super::limited::ssd;
 use super::resample::{Mix, mixed};
 use super::skeleton::Clip;
 use super::travel::root_positions;
+use crate::smoothing::ease;
 
 /// A cycle has at least this length, seconds …
 const MIN_SECONDS: f64 = 0.5;
@@ -128,11 +129,10 @@ fn closed(clip: &Clip, cycle: Cycle, up: DVec3) -> Clip {
     let mixes: Vec<Mix> = (first..=last)
         .map(|frame| {
             let left = last - frame;
-            let t = (1.0 - left as f64 / blend as f64).max(0.0);
             Mix {
                 from: frame,
                 to: first.saturating_sub(left),
-                t: t * t * (3.0 - 2.0 * t),
+                t: ease(1.0 - left as f64 / blend as f64),
             }
         })
         .collect();

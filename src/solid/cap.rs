@@ -14,7 +14,7 @@ use i_triangle::int::validation::Validation;
 
 use super::ears;
 use super::rings::Rings;
-use crate::geometry::is_convex;
+use crate::geometry::{bounds_of, is_convex};
 
 /// Polygons with more points than this are triangulated by a sweep, others by ear clipping.
 const SWEEP: usize = 200;
@@ -77,8 +77,9 @@ thread_local! {
 /// Triangulates a polygon in integer coordinates; `false`, with nothing added, if these are too coarse.
 fn sweep(points: &[DVec2], polygon: &[Range<usize>], triangles: &mut Vec<[u32; 3]>) -> bool {
     let own = || polygon.iter().flat_map(|ring| &points[ring.clone()]);
-    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    let (low, high) = own().fold(none, |(l, h), p| (l.min(*p), h.max(*p)));
+    let Some((low, high)) = bounds_of(own().copied()) else {
+        return false;
+    };
     let middle = low.midpoint(high);
     let scale = GRID / (high - low).max_element();
     let place = |p: &DVec2| {

@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use super::border::Border;
 use super::cells::Cells;
+use crate::geometry::bounds_of;
 
 /// Polygons with more corners than this have a grid, in which those near an ear are found.
 const FEW: usize = 256;
@@ -46,7 +47,9 @@ struct Clip<'a> {
 /// h holes, that gives n + 2h − 2 triangles.
 pub(super) fn clip(points: &[DVec2], rings: &[Range<usize>], triangles: &mut Vec<[u32; 3]>) {
     let Some(border) = rings.first() else { return };
-    let [low, high] = bounds(&points[border.clone()]);
+    let Some((low, high)) = bounds_of(points[border.clone()].iter().copied()) else {
+        return;
+    };
     let extent = (high - low).max_element();
     let mut clip = Clip {
         points,
@@ -100,8 +103,8 @@ impl Clip<'_> {
             return;
         }
         let all = || rings.iter().flat_map(|ring| &self.points[ring.clone()]);
-        let count = all().count() + 2 * holes.len();
-        let mut border = Border::new(bounds(all()), count);
+        let (low, high) = bounds_of(all().copied()).unwrap_or_default();
+        let mut border = Border::new([low, high], all().count() + 2 * holes.len());
         for corner in 0..self.corners.len() as u32 {
             border.add(self.edge(corner));
         }
@@ -354,13 +357,6 @@ impl Reflex {
         self.cells
             .any_of_triangle(triangle, |cell| self.lists[cell].iter().any(&is))
     }
-}
-
-/// The lowest and the highest coordinates.
-fn bounds<'a>(points: impl IntoIterator<Item = &'a DVec2>) -> [DVec2; 2] {
-    let none = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-    let points = points.into_iter();
-    points.fold(none, |[low, high], p| [low.min(*p), high.max(*p)])
 }
 
 fn within([a, b, c]: [DVec2; 3], p: DVec2, margin: f64) -> bool {

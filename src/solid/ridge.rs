@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::rings::Rings;
-use crate::geometry::Outline;
+use crate::geometry::{Outline, bounds_of};
 
 /// Points whose positions along the line differ by less than this, relative to the extent, share a station.
 const SAME: f64 = 1e-5;
@@ -48,11 +48,7 @@ pub(super) fn matched(outline: &Outline, collapse: Collapse) -> Option<Matched> 
         Collapse::Along => p.perp(),
     };
     let ring: Vec<DVec2> = ring.iter().map(|p| turn(*p)).collect();
-    let (low, high) = ring
-        .iter()
-        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
-            (l.min(*p), h.max(*p))
-        });
+    let (low, high) = bounds_of(ring.iter().copied()).unwrap_or_default();
     let same = SAME * (high - low).max_element();
 
     let mut places: Vec<f64> = ring.iter().map(|p| p.y).collect();

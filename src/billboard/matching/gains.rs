@@ -30,6 +30,7 @@ impl Gains {
     pub(super) fn of_named(cost: f64) -> f64 {
         NAMED - cost
     }
+
     /// The partner of each row with the largest sum of gains. Each row can do without.
     pub(super) fn assign(&self) -> Vec<Option<usize>> {
         assign(self.rows, self.columns, |row, column| self.get(row, column))

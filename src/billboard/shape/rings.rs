@@ -7,7 +7,7 @@ use super::features;
 use super::pairs::{Item, pair};
 use super::simplify::{Limits, simplify};
 use super::unite::unite;
-use crate::geometry::{Outline, Ring, shoelace};
+use crate::geometry::{Outline, Ring, bounds_of, shoelace};
 
 /// Extents outside of this range are not drawn geometry: their squares would overflow or vanish.
 const VALID_EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
@@ -345,7 +345,5 @@ fn finite(outline: &Outline) -> Vec<Vec<Ring>> {
 }
 
 fn bounds<'a>(rings: impl IntoIterator<Item = &'a Ring>) -> Option<(DVec2, DVec2)> {
-    let mut points = rings.into_iter().flatten();
-    let first = *points.next()?;
-    Some(points.fold((first, first), |(low, high), p| (low.min(*p), high.max(*p))))
+    bounds_of(rings.into_iter().flatten().copied())
 }

@@ -6,10 +6,11 @@ use glam::{DQuat, DVec3};
 
 use super::BuiltIn;
 use super::body::{Arm, Body, Leg, sign};
-use super::curves::{bump, ease, hermite, keyed};
+use super::curves::{bump, hermite, keyed};
 use super::gaits::lower;
 use super::pose::{Foot, Pose, lean, tip, turn};
 use crate::motion::labels::Side;
+use crate::smoothing::ease;
 
 /// The height of the hips above the ankles for which lengths in this file are meant: an adult's, centimetres.
 const LEG: f64 = 83.0;

@@ -2,11 +2,7 @@
 
 use std::f64::consts::TAU;
 
-/// Eases from 0 to 1 while `t` goes from 0 to 1, with no speed at either end; constant beyond.
-pub(super) fn ease(t: f64) -> f64 {
-    let t = t.clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
+use crate::smoothing::ease;
 
 /// A wave with its crest, 1, at `crest` and its trough, −1, half a turn later.
 pub(super) fn wave(t: f64, crest: f64) -> f64 {

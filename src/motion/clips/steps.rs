@@ -3,8 +3,9 @@
 use glam::{DQuat, DVec3};
 
 use super::body::Leg;
-use super::curves::{bump, ease, hermite};
+use super::curves::{bump, hermite};
 use super::pose::{Foot, tip};
+use crate::smoothing::ease;
 
 /// The steps of a gait. Times are turns of its cycle, lengths centimetres, angles degrees.
 #[derive(Debug, Clone, Copy)]

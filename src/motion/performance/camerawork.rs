@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 
+use crate::smoothing::ease;
+
 /// The vertical field of view of the camera, radians: that of an 85 mm lens on a square of 36 mm.
 pub const CAMERA_FOV: f64 = 0.417_4;
 /// How much of the distance is left where the camera is nearest.
@@ -43,7 +45,7 @@ pub fn camerawork(joint: &[DVec3], front: DVec3, reach: f64, depth: f64) -> Came
             true => (nearest - frame) as f64 / nearest.max(1) as f64,
             false => (frame - nearest) as f64 / (last - nearest) as f64,
         };
-        far * (NEAREST + (1.0 - NEAREST) * smooth(away))
+        far * (NEAREST + (1.0 - NEAREST) * ease(away))
     };
     let distances: Vec<f64> = (0..joint.len()).map(distance).collect();
     let positions = joint.iter().zip(&distances);
@@ -54,11 +56,6 @@ pub fn camerawork(joint: &[DVec3], front: DVec3, reach: f64, depth: f64) -> Came
         distances,
         nearest,
     }
-}
-
-/// From 0 to 1 without a jump of speed at either end.
-fn smooth(t: f64) -> f64 {
-    t * t * (3.0 - 2.0 * t)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::ops::Sub;
 
 use glam::DVec3;
 
-use crate::smoothing::smoothed;
+use crate::smoothing::{ease, smoothed};
 
 /// A point of a foot is in contact if it is lower than this above its lowest height, in leg lengths …
 pub(super) const CONTACT_HEIGHT: f64 = 0.08;
@@ -167,8 +167,7 @@ fn point_contacts(path: &[DVec3], lowest: f64, time: f64, leg: f64) -> Vec<Conta
 
 /// 1 up to a limit of 1, then less and less down to 0 at [`RELEASE`].
 fn within(value: f64) -> f64 {
-    let over = ((value - 1.0) / (RELEASE - 1.0)).clamp(0.0, 1.0);
-    1.0 - over * over * (3.0 - 2.0 * over)
+    1.0 - ease((value - 1.0) / (RELEASE - 1.0))
 }
 
 /// A foot is as firmly in contact as the firmest of its points.

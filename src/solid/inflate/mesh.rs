@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::delaunay::Delaunay;
 use super::points::Points;
-use crate::geometry::crosses;
+use crate::geometry::{bounds_of, crosses};
 use crate::solid::stack::PlacementTransform;
 
 /// The number of rounds in which triangles without an inner point are given one.
@@ -33,13 +33,8 @@ pub(in crate::solid) fn mesh(points: &Points, transform: &PlacementTransform) ->
     let places: Vec<DVec2> = places
         .map(|point| clear(transform.in_plane(*point)))
         .collect();
-    let bounds = places
-        .iter()
-        .fold(None, |bounds: Option<[DVec2; 2]>, place| {
-            let [low, high] = bounds.unwrap_or([*place; 2]);
-            Some([low.min(*place), high.max(*place)])
-        });
-    let Some([low, high]) = bounds.filter(|_| places.iter().all(|place| place.is_finite())) else {
+    let bounds = bounds_of(places.iter().copied());
+    let Some((low, high)) = bounds.filter(|_| places.iter().all(|place| place.is_finite())) else {
         return Mesh::default();
     };
 

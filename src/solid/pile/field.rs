@@ -228,10 +228,10 @@ fn border(rings: &[Vec<DVec2>], target: &Target<'_>, tolerance: f64) -> Points {
             };
             let mut profile: Vec<(f64, f64)> = profile.map(at).collect();
             profile.dedup_by(|next, last| (next.0 - last.0) * length < apart && next.0 < 1.0);
-            let kept = bends(&profile, tolerance);
-            let inner = kept.iter().skip(1).take(kept.len().saturating_sub(2));
-            let places = inner.map(|index| from.lerp(to, profile[*index].0));
-            points.points.extend(places);
+            if let [_, inner @ .., _] = &bends(&profile, tolerance)[..] {
+                let places = inner.iter().map(|index| from.lerp(to, profile[*index].0));
+                points.points.extend(places);
+            }
         }
         let end = points.points.len();
         let next = |i: usize| if i + 1 == end { start } else { i + 1 };

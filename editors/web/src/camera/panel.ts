@@ -25,8 +25,8 @@ const STEP = 2;
 const LARGE_STEP = 16;
 
 /**
- * closed · asking: before the camera is used · connecting: to the program · live: marks are chosen and followed · counting: in · recording · tracking: the recording
- * is tracked once more · replay · failed: the message says why
+ * closed · asking: before the camera is used · connecting: to the program · live: marks are chosen and followed · counting: in ·
+ * recording · tracking: the recording is tracked once more · replay · failed: the message says why
  */
 type Stage = "closed" | "asking" | "connecting" | "live" | "counting" | "recording" | "tracking" | "replay" | "failed";
 
