@@ -22,6 +22,7 @@ pub mod figure;
 pub mod geometry;
 pub mod ide;
 pub mod import;
+mod index;
 pub mod lang;
 pub mod look;
 pub mod lsp;

@@ -140,6 +140,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("import", &["resolver", "scene"]),
+    ("index", &[]),
     ("lang", &["diagnostic", "source"]),
     ("lib", &[]),
     (

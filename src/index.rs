@@ -1,0 +1,51 @@
+//! Indices with types: what is counted cannot be mistaken for something else that is counted.
+//!
+//! Each kind of index is declared where the list lives that it counts, by [`index_type!`]; the list is a
+//! [`TiVec`](typed_index_collections::TiVec), which accepts no other kind.
+
+/// Declares a type of indices: a `usize` with a meaning.
+macro_rules! index_type {
+    ($(#[$attribute:meta])* $visibility:vis $name:ident) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        $visibility struct $name(usize);
+
+        impl From<usize> for $name {
+            fn from(index: usize) -> Self {
+                Self(index)
+            }
+        }
+
+        impl From<$name> for usize {
+            fn from(index: $name) -> Self {
+                index.0
+            }
+        }
+
+        impl std::fmt::Debug for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                write!(f, concat!(stringify!($name), " {}"), self.0)
+            }
+        }
+    };
+}
+
+pub(crate) use index_type;
+
+#[cfg(test)]
+mod tests {
+    use typed_index_collections::{TiVec, ti_vec};
+
+    index_type!(
+        /// Counts letters.
+        Letter
+    );
+
+    #[test]
+    fn a_list_is_indexed_by_its_own_type() {
+        let letters: TiVec<Letter, char> = ti_vec!['a', 'b'];
+        let last = letters.last_key().unwrap();
+        assert_eq!((usize::from(last), letters[last]), (1, 'b'));
+        assert_eq!(format!("{last:?}"), "Letter 1");
+    }
+}
