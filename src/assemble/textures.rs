@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::bind::{Bindings, PartKind};
+use crate::bind::{Bindings, PartKind, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::figure::LinkedModels;
 use crate::memo::Memo;
@@ -313,7 +313,7 @@ struct Files<'a> {
     /// The pictures that were read, by link.
     read: FxHashMap<&'a str, ReadPicture>,
     /// Strings whose file was reported.
-    reported: FxHashSet<usize>,
+    reported: FxHashSet<StringId>,
 }
 
 /// The key of a picture file, by its link.
@@ -328,7 +328,7 @@ impl<'a> Files<'a> {
     fn picture(
         &mut self,
         link: &'a str,
-        string: usize,
+        string: StringId,
         span: Span,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<(&'a str, Picture)> {

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::drawn::DrawnView;
 use super::matching::Track;
 use super::place::Frame;
-use crate::bind::Bindings;
+use crate::bind::{Bindings, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::border_distance_squared;
 use crate::lang::ast::Annotation;
@@ -15,8 +15,7 @@ use crate::svg::Drawing;
 #[derive(Debug)]
 pub(super) struct FeaturePoint {
     name: String,
-    /// Index of its string.
-    string: usize,
+    string: StringId,
     /// Points on the page, drawing units, of which the one nearest to the outline is meant.
     points: [DVec2; 3],
 }
@@ -78,8 +77,8 @@ pub(super) fn report_others(
 }
 
 /// The strings that name feature points.
-fn strings(bindings: &Bindings) -> impl Iterator<Item = (&str, usize)> {
-    let strings = bindings.strings.iter().enumerate();
+fn strings(bindings: &Bindings) -> impl Iterator<Item = (&str, StringId)> {
+    let strings = bindings.strings.iter_enumerated();
     strings.filter_map(|(index, string)| match &string.annotation {
         Annotation::Feature(name) => Some((name.text.as_str(), index)),
         _ => None,

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
+use typed_index_collections::TiVec;
+
 use crate::geometry::{Measure, Outline};
+use crate::index::index_type;
 use crate::lang::Variables;
 use crate::lang::ast::Annotation;
 use crate::lang::value::Setting;
@@ -12,17 +15,22 @@ use crate::svg::{Drawing, Element, Paint};
 use super::attributes::Legend;
 use super::matching::{DrawingSettings, Layers, Leaders};
 
+index_type!(
+    /// A string of a drawing.
+    pub StringId
+);
+
 /// The strings and parts of a drawing, and which belong together.
 #[derive(Debug, Default)]
 pub struct Bindings {
     /// Whether the drawing is annotated at all (language.md, Where strings live).
     pub annotated: bool,
     /// The strings, in the order of the file.
-    pub strings: Vec<DrawingString>,
+    pub strings: TiVec<StringId, DrawingString>,
     /// The parts, back-most first; sub-parts, legends and unused parts included.
     pub parts: Vec<Part>,
-    /// The settings of all `%` strings, each with the index of its string; for each keyword the last one.
-    pub defaults: Vec<(usize, Setting)>,
+    /// The settings of all `%` strings, each with its string; for each keyword the last one.
+    pub defaults: Vec<(StringId, Setting)>,
     /// The legends, merged by paint.
     pub legends: Vec<Legend>,
     /// The variables that the `%` strings define.
@@ -184,8 +192,8 @@ pub struct Part {
     pub outline: Arc<Outline>,
     /// Its axis, centre and ends. `Axis` replaces the measured axis.
     pub measure: Measure,
-    /// Index of its string.
-    pub string: Option<usize>,
+    /// Its string.
+    pub string: Option<StringId>,
     /// Index of the legend of its paint.
     pub legend: Option<usize>,
     /// For a main part the index of its parent; `None` for a child of the root.

@@ -20,7 +20,9 @@ pub use attributes::{
     Legend, MaterialFactors, MotionSource, PartMark, PerformanceEffects, PerformanceRequest,
     Resolved, SetBy, SetColor, SignedAxis, Source, plate_depth,
 };
-pub use bindings::{Binding, Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place};
+pub use bindings::{
+    Binding, Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place, StringId,
+};
 pub use matching::{
     BindRule, DistanceMode, DrawingSettings, Layer, LayerKind, Layers, Strokes, in_layers_of_pixels,
 };

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Analysis;
 use super::at::{At, attributes};
-use crate::bind::{BindRule, DistanceMode, Part, PartKind};
+use crate::bind::{BindRule, DistanceMode, Part, PartKind, StringId};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
@@ -150,7 +150,7 @@ impl Analysis {
     }
 
     /// Moves the attributes of a part's string to the legend of its paint.
-    fn move_to_legend(&self, string: usize) -> Option<Action> {
+    fn move_to_legend(&self, string: StringId) -> Option<Action> {
         let part = &self.bindings().parts[self.part_of_string(string)?];
         let found = &self.bindings().strings[string];
         let Annotation::Part(annotation) = &found.annotation else {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Analysis;
-use crate::bind::DrawingString;
+use crate::bind::{DrawingString, StringId};
 use crate::lang::ast::{Annotation, Attribute};
 
 /// The item at an offset of a drawing.
@@ -11,8 +11,8 @@ use crate::lang::ast::{Annotation, Attribute};
 pub enum At {
     /// A string.
     String {
-        /// Its index in the bindings.
-        string: usize,
+        /// Its id in the bindings.
+        string: StringId,
         /// The offset in its decoded characters.
         offset: usize,
         /// The token there; `None` between tokens.
@@ -78,15 +78,15 @@ impl Analysis {
     }
 
     /// The string at byte `offset`, and the offset in its decoded characters.
-    pub(super) fn string_at(&self, offset: usize) -> Option<(usize, usize)> {
+    pub(super) fn string_at(&self, offset: usize) -> Option<(StringId, usize)> {
         let strings = &self.bindings().strings;
         let behind = strings.partition_point(|string| string.text.whole().start <= offset);
+        let start = |string: StringId| strings[string].text.whole().start;
+        let last = StringId::from(usize::from(behind).checked_sub(1)?);
         // A clone shares the description of its original, so several strings can have one span.
-        let string = (0..behind)
-            .rev()
-            .take_while(|string| {
-                strings[*string].text.whole().start == strings[behind - 1].text.whole().start
-            })
+        let before = strings.keys().take(usize::from(behind)).rev();
+        let string = before
+            .take_while(|string| start(*string) == start(last))
             .last()?;
         let text = &strings[string].text;
         let inside = text.whole().touches(offset) && !text.as_str().is_empty();
@@ -99,7 +99,7 @@ impl Analysis {
         parts.position(|part| part.shape == shape)
     }
 
-    pub(super) fn part_of_string(&self, string: usize) -> Option<usize> {
+    pub(super) fn part_of_string(&self, string: StringId) -> Option<usize> {
         let binding = self.bindings().strings[string].binding?;
         let part = &self.bindings().parts[binding.part];
         (part.string == Some(string)).then_some(binding.part)

@@ -15,7 +15,7 @@ use std::ops::Range;
 use super::Analysis;
 use super::at::attributes;
 use super::typed::{Typed, typed_at};
-use crate::bind::Place;
+use crate::bind::{Place, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::colours::COLOURS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
@@ -101,7 +101,7 @@ struct Cursor<'a> {
     head: &'a str,
     in_desc: bool,
     /// Index of the string in the bindings, if it is bound.
-    string: Option<usize>,
+    string: Option<StringId>,
 }
 
 /// The completion at byte `offset` of the present text; `None` outside of strings.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::at::{At, Item, attributes};
 use super::{Analysis, Symbol};
-use crate::bind::SetBy;
+use crate::bind::{SetBy, StringId};
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
@@ -107,7 +107,7 @@ impl Analysis {
     }
 
     /// What a string names: in the other views of a character, or else its own shape.
-    fn named_by(&self, string: usize) -> Option<Vec<Target>> {
+    fn named_by(&self, string: StringId) -> Option<Vec<Target>> {
         if let Some(others) = self.in_other_views(string) {
             return Some(others);
         }
@@ -117,7 +117,7 @@ impl Analysis {
     }
 
     /// The setting of a legend or default that an attribute of a part's own string overrides.
-    fn overruled(&self, string: usize, index: usize) -> Option<Vec<Target>> {
+    fn overruled(&self, string: StringId, index: usize) -> Option<Vec<Target>> {
         let part = self.part_of_string(string)?;
         let keyword = attributes(&self.bindings().strings[string].annotation)[index].keyword;
         let others = self.bindings().inherited(part, keyword)?;
@@ -126,12 +126,12 @@ impl Analysis {
         )])
     }
 
-    pub(super) fn setting_span(&self, string: usize, range: &Range<usize>) -> Span {
+    pub(super) fn setting_span(&self, string: StringId, range: &Range<usize>) -> Span {
         self.bindings().strings[string].text.span(range.clone())
     }
 
     /// The file that an argument names.
-    fn file(&self, string: usize, item: Item) -> Option<Target> {
+    fn file(&self, string: StringId, item: Item) -> Option<Target> {
         let Item::Argument(attribute, argument) = item else {
             return None;
         };
@@ -183,7 +183,7 @@ impl Analysis {
     }
 
     /// The parts that inherit from a legend or default: anything, or one attribute.
-    fn inheriting_parts(&self, string: usize, item: Item) -> Vec<Span> {
+    fn inheriting_parts(&self, string: StringId, item: Item) -> Vec<Span> {
         let keyword = match item {
             Item::Keyword(index) => {
                 Some(attributes(&self.bindings().strings[string].annotation)[index].keyword)

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::at::{At, Item, attributes};
 use super::{Analysis, Symbol};
-use crate::bind::{BoundBy, NamedBy, PartKind, SetBy};
+use crate::bind::{BoundBy, NamedBy, PartKind, SetBy, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::{Keyword, kinds};
@@ -68,7 +68,7 @@ impl Analysis {
         })
     }
 
-    fn token_card(&self, string: usize, item: Item, offset: usize) -> Option<String> {
+    fn token_card(&self, string: StringId, item: Item, offset: usize) -> Option<String> {
         let annotation = &self.bindings().strings[string].annotation;
         let attribute = |index: usize| &attributes(annotation)[index];
         match item {
@@ -128,7 +128,7 @@ impl Analysis {
 
     fn argument_card(
         &self,
-        string: usize,
+        string: StringId,
         (index, argument): (usize, usize),
         slot: ParameterRef,
         offset: usize,
@@ -179,7 +179,7 @@ impl Analysis {
     }
 
     /// The variable at an offset of a string: its value and its `Let`.
-    fn variable_card(&self, string: usize, offset: usize) -> Option<String> {
+    fn variable_card(&self, string: StringId, offset: usize) -> Option<String> {
         let at = self.bindings().strings[string]
             .text
             .span(offset..offset)
@@ -198,7 +198,7 @@ impl Analysis {
         })
     }
 
-    fn string_card(&self, string: usize) -> Option<String> {
+    fn string_card(&self, string: StringId) -> Option<String> {
         let bindings = self.bindings();
         match &bindings.strings[string].annotation {
             Annotation::Defaults(_) => Some(self.defaults_card(string)),
@@ -339,7 +339,7 @@ impl Analysis {
         }
     }
 
-    fn defaults_card(&self, string: usize) -> String {
+    fn defaults_card(&self, string: StringId) -> String {
         let parts = self.parts_inheriting_from(string);
         let mut out = "Defaults and settings of the whole drawing.".to_owned();
         if let Some(names) = self.names(parts) {
@@ -348,7 +348,7 @@ impl Analysis {
         out
     }
 
-    fn legend_card(&self, string: usize) -> Option<String> {
+    fn legend_card(&self, string: StringId) -> Option<String> {
         let part = self.bindings().strings[string].binding?.part;
         let mut out = format!(
             "A legend for all parts that are painted like {}.",
@@ -364,7 +364,7 @@ impl Analysis {
     }
 
     /// The parts that inherit an attribute from a legend or a `%` string.
-    fn parts_inheriting_from(&self, string: usize) -> Vec<usize> {
+    fn parts_inheriting_from(&self, string: StringId) -> Vec<usize> {
         let bindings = self.bindings();
         let keywords = attributes(&bindings.strings[string].annotation);
         let goes_by = |part: &usize| {

@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use super::uses::own_name;
-use crate::bind::{NamedBy, PartKind, Place, SetBy};
+use crate::bind::{NamedBy, PartKind, Place, SetBy, StringId};
 use crate::lang::looks_like_string;
 use crate::source::Span;
 
@@ -95,7 +95,7 @@ impl Analysis {
     }
 
     /// Before a description without a name: the name of its element.
-    fn name_of_element(&self, index: usize, string: usize) -> Option<Inlay> {
+    fn name_of_element(&self, index: usize, string: StringId) -> Option<Inlay> {
         let bindings = self.bindings();
         let found = &bindings.strings[string];
         let text = found.text.as_str();
@@ -122,7 +122,7 @@ impl Analysis {
     }
 
     /// After a string: the attributes that its part inherits from a legend or `%`.
-    fn inherited_by(&self, index: usize, string: usize) -> Option<Inlay> {
+    fn inherited_by(&self, index: usize, string: StringId) -> Option<Inlay> {
         let bindings = self.bindings();
         let text = &bindings.strings[string].text;
         let resolved = bindings.resolved(self.drawing(), index).into_iter();

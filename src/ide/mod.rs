@@ -46,7 +46,7 @@ pub use uses::{Symbol, Use};
 
 use std::sync::Arc;
 
-use crate::bind::{Bindings, PartKind};
+use crate::bind::{Bindings, PartKind, StringId};
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
@@ -125,7 +125,7 @@ impl Analysis {
     }
 
     /// The span that names a string's part: the name, or the whole string.
-    fn place_of_string(&self, string: usize) -> Span {
+    fn place_of_string(&self, string: StringId) -> Span {
         let string = &self.bindings().strings[string];
         let name = at::tokens(string)
             .into_iter()

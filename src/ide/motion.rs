@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::Analysis;
 use super::at::attributes;
 use super::hover::escaped;
-use crate::bind::PartKind;
+use crate::bind::{PartKind, StringId};
 use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
 use crate::report::{cut_frames, ranges, undriven};
@@ -74,7 +74,7 @@ impl Analysis {
     }
 
     /// The clips that attribute `index` of a string asks for, limits or performs, or the joint or mark of its part.
-    pub(super) fn motion_card(&self, string: usize, index: usize) -> Option<String> {
+    pub(super) fn motion_card(&self, string: StringId, index: usize) -> Option<String> {
         let string_of = &self.bindings().strings[string];
         let attribute = &attributes(&string_of.annotation)[index];
         let span = string_of.text.span(attribute.range.clone());
@@ -144,7 +144,7 @@ impl Analysis {
     }
 
     /// The joint that a `Bone` names, in each motion of the part's figure, or of the whole drawing if its figure has none.
-    pub(super) fn joint_card(&self, string: usize, name: &str) -> Option<String> {
+    pub(super) fn joint_card(&self, string: StringId, name: &str) -> Option<String> {
         let part = self.part_of_string(string);
         let clips = self.clips_for(part);
         let is_own = |clip: &&&FigureClip| {
@@ -178,7 +178,12 @@ impl Analysis {
     }
 
     /// The joint name in an argument of `Bone`.
-    pub(super) fn bone_name(&self, string: usize, index: usize, argument: usize) -> Option<&str> {
+    pub(super) fn bone_name(
+        &self,
+        string: StringId,
+        index: usize,
+        argument: usize,
+    ) -> Option<&str> {
         let attribute = &attributes(&self.bindings().strings[string].annotation)[index];
         match &attribute.arguments.get(argument)?.kind {
             ArgumentKind::Word(name) | ArgumentKind::Quoted(name)

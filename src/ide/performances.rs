@@ -2,6 +2,7 @@
 
 use super::Analysis;
 use super::motion::{code, list};
+use crate::bind::StringId;
 use crate::report::{Performance, PerformedMark, Reader, performance, performed_mark};
 use crate::rig::FigureClip;
 use crate::source::Span;
@@ -39,7 +40,7 @@ impl Analysis {
     }
 
     /// What the mark of a string's part does to it in each clip.
-    pub(super) fn mark_card(&self, string: usize) -> Option<String> {
+    pub(super) fn mark_card(&self, string: StringId) -> Option<String> {
         let part = self.bindings().parts[self.part_of_string(string)?].main;
         let lines = self.compiled.clips.iter().filter_map(|clip| {
             let performed = clip.performed.as_ref()?;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::hover::escaped;
 use super::{Analysis, Target};
 use crate::billboard::{Candidate, Character, Pair, Place, Reason, Unmatched};
-use crate::bind::LayerKind;
+use crate::bind::{LayerKind, StringId};
 use crate::source::Span;
 
 /// The most regions of a view that are listed; the rest is only counted.
@@ -218,7 +218,7 @@ impl Analysis {
     }
 
     /// Describes the view that a string makes of its layer: its regions and their partners. `None` for other strings.
-    pub(super) fn view_card(&self, string: usize) -> Option<String> {
+    pub(super) fn view_card(&self, string: StringId) -> Option<String> {
         let bindings = self.bindings();
         let mut layers = bindings.layers.iter();
         let index = layers.position(|layer| layer.string == string)?;
@@ -320,7 +320,7 @@ impl Analysis {
 
     /// Where what a string names is in the other views of a character: the partners of its region, or the strings of the other
     /// views. `None` if there are none.
-    pub(super) fn in_other_views(&self, string: usize) -> Option<Vec<Target>> {
+    pub(super) fn in_other_views(&self, string: StringId) -> Option<Vec<Target>> {
         let spans = match self.part_of_string(string) {
             Some(part) => self.partners_of_shape(self.bindings().parts[part].shape),
             None => self.other_views(string),
@@ -329,9 +329,9 @@ impl Analysis {
     }
 
     /// The strings of the other views of the character whose view a string makes.
-    fn other_views(&self, string: usize) -> Vec<Span> {
+    fn other_views(&self, string: StringId) -> Vec<Span> {
         let layers = &self.bindings().layers;
-        let strings = |character: &Character| -> Vec<usize> {
+        let strings = |character: &Character| -> Vec<StringId> {
             let views = character.layers.iter();
             views.map(|layer| layers[*layer].string).collect()
         };

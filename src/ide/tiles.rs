@@ -7,6 +7,7 @@ use glam::DVec2;
 
 use super::Analysis;
 use super::hover::escaped;
+use crate::bind::StringId;
 use crate::geometry::contains;
 use crate::terrain::{Layer, Tile};
 
@@ -28,7 +29,7 @@ enum Cells {
 
 impl Analysis {
     /// Describes the landscape that a string names, if it names one.
-    pub(super) fn landscape_card(&self, string: usize) -> Option<String> {
+    pub(super) fn landscape_card(&self, string: StringId) -> Option<String> {
         let mut layers = self.compiled().layers.iter();
         let layer = layers.find(|layer| layer.string == string)?;
         let group = self.drawing().groups[layer.group].element.describe();

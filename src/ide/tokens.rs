@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Analysis;
 use super::at::{Item, attributes, tokens};
+use crate::bind::StringId;
 use crate::lang::ast::{ArgumentKind, Function};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::{is_word_char, parameter_at};
@@ -53,7 +54,7 @@ impl Analysis {
         let strings = &self.bindings().strings;
         let first = strings.partition_point(|string| string.text.whole().end < window.start);
         let mut out: Vec<SemanticToken> = vec![];
-        for (index, string) in strings.iter().enumerate().skip(first) {
+        for (index, string) in strings.iter_enumerated().skip(usize::from(first)) {
             let whole = string.text.whole();
             if whole.start > window.end {
                 break;
@@ -69,7 +70,7 @@ impl Analysis {
         out
     }
 
-    fn semantic_tokens_of(&self, index: usize, out: &mut Vec<SemanticToken>) {
+    fn semantic_tokens_of(&self, index: StringId, out: &mut Vec<SemanticToken>) {
         let string = &self.bindings().strings[index];
         let mut push = |range: Range<usize>, class, defines| {
             for piece in string.text.pieces(range) {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Analysis;
 use super::at::{At, Item, attributes};
-use crate::bind::DrawingString;
+use crate::bind::{DrawingString, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
@@ -25,8 +25,8 @@ pub enum Symbol {
 /// A use of a symbol.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Use {
-    /// Index of the string.
-    pub string: usize,
+    /// The string.
+    pub string: StringId,
     /// The range in its decoded characters, including the quotes of a name.
     pub range: Range<usize>,
     /// Whether this use is the definition.
@@ -68,7 +68,7 @@ impl Analysis {
 
     /// The uses of a symbol, in the order of the text.
     pub fn uses(&self, symbol: &Symbol) -> Vec<Use> {
-        let strings = 0..self.bindings().strings.len();
+        let strings = self.bindings().strings.keys();
         let all = strings.flat_map(|string| self.symbols_of(string));
         all.filter(|(other, _)| other == symbol)
             .map(|(_, found)| found)
@@ -83,7 +83,7 @@ impl Analysis {
     }
 
     /// The symbols of a string, in order.
-    fn symbols_of(&self, index: usize) -> Vec<(Symbol, Use)> {
+    fn symbols_of(&self, index: StringId) -> Vec<(Symbol, Use)> {
         let string = &self.bindings().strings[index];
         let mut found = vec![];
         let mut push = |symbol, range: &Range<usize>, defines| {
@@ -151,10 +151,10 @@ impl Analysis {
     }
 
     /// The string that names a part so, if any.
-    pub(super) fn named_in(&self, name: &str) -> Option<usize> {
+    pub(super) fn named_in(&self, name: &str) -> Option<StringId> {
         let symbol = Symbol::Part(name.to_owned());
-        let strings = 0..self.bindings().strings.len();
-        strings.into_iter().find(|string| {
+        let mut strings = self.bindings().strings.keys();
+        strings.find(|string| {
             self.symbols_of(*string)
                 .iter()
                 .any(|(other, found)| found.defines && *other == symbol)

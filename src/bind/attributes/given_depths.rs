@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{SetBy, Source};
-use crate::bind::bindings::Bindings;
+use crate::bind::bindings::{Bindings, StringId};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
 use crate::lang::keyword::Keyword;
@@ -69,7 +69,7 @@ impl Bindings {
     /// `None` if a copy (`-s`, `-d`) would then coincide with its original, or if nothing of a legend would be left.
     pub fn without_depth(&self, given: &GivenDepth<'_>) -> Option<Vec<Edit>> {
         let mut edits = Vec::new();
-        let mut strings: Vec<usize> = given.sources().map(|source| source.string).collect();
+        let mut strings: Vec<StringId> = given.sources().map(|source| source.string).collect();
         strings.dedup();
         for string in strings {
             let text = &self.strings[string].text;

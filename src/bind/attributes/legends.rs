@@ -1,9 +1,10 @@
 //! Legends: swatches whose attributes hold for all parts and tiles of a paint.
 
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiSlice;
 
 use super::PartAttributes;
-use crate::bind::bindings::{DrawingString, PartKind};
+use crate::bind::bindings::{DrawingString, PartKind, StringId};
 use crate::bind::matching::{Matched, MatchedPart};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
@@ -15,12 +16,12 @@ use crate::svg::{Drawing, PaintKey};
 pub struct Legend {
     /// The paint.
     pub paint: PaintKey,
-    /// Its settings, each with the index of its string.
-    pub settings: Vec<(usize, Setting)>,
+    /// Its settings, each with its string.
+    pub settings: Vec<(StringId, Setting)>,
     /// Index of the shape beside which it stands.
     pub swatch: usize,
-    /// Index of its string, the first one if there are several.
-    pub string: usize,
+    /// Its string, the first one if there are several.
+    pub string: StringId,
     /// Whether a part or a drawn tile has the paint. Colours in pictures of tile layers do not count.
     pub is_used: bool,
 }
@@ -91,7 +92,11 @@ impl Legend {
     }
 
     /// Reports that nothing has the legend's paint.
-    pub fn unused(&self, drawing: &Drawing, strings: &[DrawingString]) -> Diagnostic {
+    pub fn unused(
+        &self,
+        drawing: &Drawing,
+        strings: &TiSlice<StringId, DrawingString>,
+    ) -> Diagnostic {
         let swatch = &drawing.shapes[self.swatch].element;
         let what = match self.is_for_tiles() {
             true => "tile",

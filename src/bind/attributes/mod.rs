@@ -16,7 +16,9 @@ pub use motions::{
     SignedAxis,
 };
 
-use super::bindings::{Bindings, DrawingString};
+use typed_index_collections::TiSlice;
+
+use super::bindings::{Bindings, DrawingString, StringId};
 use super::matching::Matched;
 use crate::diagnostic::Diagnostic;
 use crate::lang::keyword::{AttributeString, Keyword};
@@ -71,8 +73,8 @@ pub struct Source<'a> {
     pub setting: &'a Setting,
     /// Who sets it.
     pub from: SetBy,
-    /// Index of the string that sets it.
-    pub string: usize,
+    /// The string that sets it.
+    pub string: StringId,
 }
 
 /// The value of an attribute that a string sets, and its source.
@@ -102,8 +104,8 @@ pub struct Resolved {
     pub value: String,
     /// Who sets it.
     pub from: SetBy,
-    /// Index of the string that sets it.
-    pub string: Option<usize>,
+    /// The string that sets it.
+    pub string: Option<StringId>,
 }
 
 /// The colour that `Color` sets.
@@ -132,27 +134,27 @@ pub struct MaterialFactors {
 /// has a hundred thousand parts, most of them without attributes.
 #[derive(Debug, Clone, Copy)]
 pub struct Attributes<'a> {
-    /// The settings of the part's own string, with its index.
-    own: Option<(usize, &'a [Setting])>,
-    /// The settings of the legend of the paint, each with the index of its string.
-    legend: &'a [(usize, Setting)],
-    /// For tiles, the settings of their layer's string, with its index.
-    layer: Option<(usize, &'a [Setting])>,
-    /// The settings of the `%` strings, each with the index of its string.
-    defaults: &'a [(usize, Setting)],
+    /// The settings of the part's own string, with its id.
+    own: Option<(StringId, &'a [Setting])>,
+    /// The settings of the legend of the paint, each with its string.
+    legend: &'a [(StringId, Setting)],
+    /// For tiles, the settings of their layer's string, with its id.
+    layer: Option<(StringId, &'a [Setting])>,
+    /// The settings of the `%` strings, each with its string.
+    defaults: &'a [(StringId, Setting)],
 }
 
 /// Who can set attributes.
 #[derive(Clone, Copy)]
 struct Setters<'a> {
-    strings: &'a [DrawingString],
+    strings: &'a TiSlice<StringId, DrawingString>,
     legends: &'a [Legend],
-    defaults: &'a [(usize, Setting)],
+    defaults: &'a [(StringId, Setting)],
 }
 
 impl<'a> Setters<'a> {
     /// The attributes of something with this string, in a paint with this legend.
-    fn attributes(self, string: Option<usize>, legend: Option<usize>) -> Attributes<'a> {
+    fn attributes(self, string: Option<StringId>, legend: Option<usize>) -> Attributes<'a> {
         Attributes {
             own: string.map(|string| self.settings_of(string)),
             legend: legend.map_or(&[], |legend| &self.legends[legend].settings),
@@ -161,7 +163,7 @@ impl<'a> Setters<'a> {
         }
     }
 
-    fn settings_of(self, string: usize) -> (usize, &'a [Setting]) {
+    fn settings_of(self, string: StringId) -> (StringId, &'a [Setting]) {
         (string, &self.strings[string].settings)
     }
 }
@@ -201,7 +203,7 @@ impl PartAttributes {
 
 impl Source<'_> {
     /// The place of the setting in one of these strings.
-    pub(in crate::bind) fn span(&self, strings: &[DrawingString]) -> Span {
+    pub(in crate::bind) fn span(&self, strings: &TiSlice<StringId, DrawingString>) -> Span {
         let text = &strings[self.string].text;
         text.span(self.setting.range.clone())
     }
@@ -332,17 +334,17 @@ macro_rules! typed {
 impl<'a> Attributes<'a> {
     /// Where an attribute is set.
     pub fn source(&self, keyword: Keyword) -> Option<Source<'a>> {
-        let in_string = |(string, settings): (usize, &'a [Setting])| {
+        let in_string = |(string, settings): (StringId, &'a [Setting])| {
             let mut settings = settings.iter();
             let setting = settings.find(|setting| setting.keyword == keyword)?;
             Some((string, setting))
         };
-        let in_list = |settings: &'a [(usize, Setting)]| {
+        let in_list = |settings: &'a [(StringId, Setting)]| {
             let mut settings = settings.iter();
             let (string, setting) = settings.find(|(_, setting)| setting.keyword == keyword)?;
             Some((*string, setting))
         };
-        let found = |from, found: Option<(usize, &'a Setting)>| {
+        let found = |from, found: Option<(StringId, &'a Setting)>| {
             found.map(|(string, setting)| Source {
                 setting,
                 from,

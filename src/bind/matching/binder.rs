@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::leaders::Leaders;
 use super::meant::{self, Scope, TextPlace};
@@ -14,7 +15,7 @@ use super::parts::MatchedPart;
 use super::settings::BindRule;
 use super::stacking::Stacking;
 use super::strings::ReadString;
-use crate::bind::bindings::{Binding, BoundBy, Place};
+use crate::bind::bindings::{Binding, BoundBy, Place, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::memo::{Bits, Memo};
@@ -25,7 +26,7 @@ const MAX_OPENINGS: usize = 32;
 
 /// A string with the part that it is bound to, and another part that it may mean.
 struct Match {
-    string: usize,
+    string: StringId,
     part: usize,
     runner_up: Option<usize>,
 }
@@ -43,7 +44,7 @@ pub(super) struct Bound {
 /// Strings and parts, bound to each other.
 pub(super) struct Rules {
     /// Per string.
-    pub(super) bound: Vec<Bound>,
+    pub(super) bound: TiVec<StringId, Bound>,
     pub(super) parts: Vec<MatchedPart>,
     pub(super) node_groups: NodeGroups,
     /// How the parts cover each other, if it had to be found out.
@@ -53,12 +54,12 @@ pub(super) struct Rules {
 /// The state of binding.
 pub(super) struct Binder<'a> {
     drawing: &'a Drawing,
-    strings: &'a [ReadString],
+    strings: &'a TiSlice<StringId, ReadString>,
     leaders: &'a Leaders,
     memo: &'a Memo,
     diagnostics: &'a mut Vec<Diagnostic>,
     /// Per string.
-    bound: Vec<Bound>,
+    bound: TiVec<StringId, Bound>,
     parts: Vec<MatchedPart>,
     node_groups: NodeGroups,
     /// How the parts cover each other, once it has been asked for.
@@ -72,7 +73,7 @@ pub(super) struct Binder<'a> {
 impl<'a> Binder<'a> {
     pub(super) fn new(
         drawing: &'a Drawing,
-        strings: &'a [ReadString],
+        strings: &'a TiSlice<StringId, ReadString>,
         leaders: &'a Leaders,
         mut parts: Vec<MatchedPart>,
         node_groups: NodeGroups,
@@ -101,7 +102,7 @@ impl<'a> Binder<'a> {
             leaders,
             memo,
             diagnostics,
-            bound: vec![Bound::default(); strings.len()],
+            bound: ti_vec![Bound::default(); strings.len()],
             parts,
             node_groups,
             stacking: OnceLock::new(),
@@ -126,7 +127,7 @@ impl<'a> Binder<'a> {
 
     /// Rule 1: descriptions belong to their element.
     fn descriptions(&mut self) {
-        for string in 0..self.strings.len() {
+        for string in self.strings.keys() {
             let part = match self.strings[string].place {
                 _ if !self.strings[string].wants_part() => continue,
                 Place::Label(_) => continue,
@@ -144,7 +145,7 @@ impl<'a> Binder<'a> {
 
     /// Rule 2: strings in a group belong to the back-most part of the innermost group that holds a part.
     fn groups(&mut self) {
-        for string in 0..self.strings.len() {
+        for string in self.strings.keys() {
             let Some(group) = self
                 .waiting_label(string)
                 .map(|label| self.drawing.labels[label].1)
@@ -182,7 +183,7 @@ impl<'a> Binder<'a> {
                 self.bind(string, part, BoundBy::Leader);
             }
         }
-        for string in 0..self.strings.len() {
+        for string in self.strings.keys() {
             let is_legend = matches!(self.strings[string].annotation, Annotation::Legend(_));
             if let Some(point) = leaders.points.get(&string)
                 && is_legend
@@ -197,7 +198,9 @@ impl<'a> Binder<'a> {
     /// Rule 4: every other string belongs to the part that it means. Containers bind their own strings first.
     fn texts(&mut self, rule: BindRule) {
         let leaders = self.leaders;
-        let mut waiting: Vec<(Scope, usize)> = (0..self.strings.len())
+        let mut waiting: Vec<(Scope, StringId)> = self
+            .strings
+            .keys()
             .filter(|string| self.waiting_label(*string).is_some())
             .map(|string| (self.bound[string].scope, string))
             .collect();
@@ -208,7 +211,7 @@ impl<'a> Binder<'a> {
                 self.meant(strings, is_free);
                 continue;
             };
-            let has_leader = |(_, string): &(Scope, usize)| leaders.points.contains_key(string);
+            let has_leader = |(_, string): &(Scope, StringId)| leaders.points.contains_key(string);
             let (with_leader, others) = strings.into_iter().partition(has_leader);
             self.meant(with_leader, is_free);
             self.nearest(&others, is_free, mode);
@@ -216,12 +219,12 @@ impl<'a> Binder<'a> {
     }
 
     /// Binds strings to what they mean, and opens the groups in which several strings mean something.
-    fn meant(&mut self, strings: Vec<(Scope, usize)>, is_free: bool) {
+    fn meant(&mut self, strings: Vec<(Scope, StringId)>, is_free: bool) {
         let leaders = self.leaders;
         if strings.is_empty() {
             return;
         }
-        let place = |(scope, string): &(Scope, usize)| {
+        let place = |(scope, string): &(Scope, StringId)| {
             let (points, em) = match self.strings[*string].place {
                 Place::Label(label) => {
                     let label = &self.drawing.labels[label].0;
@@ -303,7 +306,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Binds strings to their nearest parts, as the paper does.
-    fn nearest(&mut self, strings: &[(Scope, usize)], is_free: bool, mode: DistanceMode) {
+    fn nearest(&mut self, strings: &[(Scope, StringId)], is_free: bool, mode: DistanceMode) {
         let mut candidates: FxHashMap<Scope, Vec<usize>> = FxHashMap::default();
         for part in 0..self.parts.len() {
             if self.parts[part].main == part
@@ -312,7 +315,7 @@ impl<'a> Binder<'a> {
                 candidates.entry(scope).or_default().push(part);
             }
         }
-        let scopes: Vec<&[(Scope, usize)]> = strings
+        let scopes: Vec<&[(Scope, StringId)]> = strings
             .chunk_by(|(one, _), (other, _)| one == other)
             .collect();
         let found: Vec<Vec<Match>> = scopes
@@ -328,11 +331,11 @@ impl<'a> Binder<'a> {
     /// Assigns the strings of one scope to their nearest parts.
     fn matches(
         &self,
-        strings: &[(Scope, usize)],
+        strings: &[(Scope, StringId)],
         candidates: &[usize],
         mode: DistanceMode,
     ) -> Vec<Match> {
-        let corner = |(_, string): &(Scope, usize)| match self.strings[*string].place {
+        let corner = |(_, string): &(Scope, StringId)| match self.strings[*string].place {
             Place::Label(label) => self.drawing.labels[label].0.position.corner,
             Place::Shape(_) | Place::Group(_) => glam::DVec2::ZERO,
         };
@@ -358,7 +361,7 @@ impl<'a> Binder<'a> {
     fn bind_matches(
         &mut self,
         matches: impl Iterator<Item = Match>,
-        has_leader: impl Fn(usize) -> bool,
+        has_leader: impl Fn(StringId) -> bool,
     ) {
         for Match {
             string,
@@ -376,7 +379,7 @@ impl<'a> Binder<'a> {
     }
 
     /// The label of a string that still needs a part.
-    fn waiting_label(&self, string: usize) -> Option<usize> {
+    fn waiting_label(&self, string: StringId) -> Option<usize> {
         let is_bound = self.bound[string].binding.is_some();
         let string = &self.strings[string];
         match string.place {
@@ -385,7 +388,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn bind(&mut self, string: usize, part: usize, by: BoundBy) {
+    fn bind(&mut self, string: StringId, part: usize, by: BoundBy) {
         if let Some(other) = self.parts[part].string {
             let other_span = self.strings[other].text.whole();
             let shape = self.parts[part].shape;

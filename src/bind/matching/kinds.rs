@@ -1,15 +1,17 @@
 //! The kinds of parts, now that the strings are bound.
 
+use typed_index_collections::TiSlice;
+
 use super::layers::{LayerKind, Layers};
 use super::parts::MatchedPart;
-use crate::bind::bindings::{DrawingString, PartKind};
+use crate::bind::bindings::{DrawingString, PartKind, StringId};
 use crate::lang::ast::Annotation;
 use crate::svg::Drawing;
 
 /// The kind of every part. `backgrounds` says of each shape whether it is a background, unless a string names it.
 pub(super) fn classify(
     drawing: &Drawing,
-    strings: &[DrawingString],
+    strings: &TiSlice<StringId, DrawingString>,
     parts: &[MatchedPart],
     layers: &Layers,
     backgrounds: &[bool],

@@ -1,9 +1,10 @@
 //! Layers: groups with a string of their own, such as a map of tiles (terrain.md, Input).
 
 use rayon::prelude::*;
+use typed_index_collections::TiSlice;
 
 use super::strings::ReadString;
-use crate::bind::bindings::{Bindings, DrawingString, Place};
+use crate::bind::bindings::{Bindings, DrawingString, Place, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang;
 use crate::lang::ast::Annotation;
@@ -39,8 +40,8 @@ pub struct Layer {
     pub kind: LayerKind,
     /// Its name. No part and no other tile layer has the name of a tile layer.
     pub name: String,
-    /// Index of its string.
-    pub string: usize,
+    /// Its string.
+    pub string: StringId,
     /// Index of its group.
     pub group: usize,
 }
@@ -121,12 +122,12 @@ pub(in crate::bind) fn group_of(drawing: &Drawing, place: Place) -> usize {
 /// Finds the layers, before anything is bound.
 pub(super) fn find(
     drawing: &Drawing,
-    strings: &[ReadString],
+    strings: &TiSlice<StringId, ReadString>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Layers {
     let mut layer: Vec<Option<usize>> = vec![None; drawing.groups.len()];
     let mut layers: Vec<Layer> = Vec::new();
-    for (index, string) in strings.iter().enumerate() {
+    for (index, string) in strings.iter_enumerated() {
         let Annotation::Part(annotation) = &string.annotation else {
             continue;
         };
@@ -275,7 +276,7 @@ impl Bindings {
     }
 
     /// Index of the view that a string is in.
-    pub fn view_of_string(&self, drawing: &Drawing, string: usize) -> Option<usize> {
+    pub fn view_of_string(&self, drawing: &Drawing, string: StringId) -> Option<usize> {
         self.view_of_group(group_of(drawing, self.strings[string].place))
     }
 

@@ -4,12 +4,13 @@ use std::cell::LazyCell;
 
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
+use typed_index_collections::TiSlice;
 
 use super::fills::Fills;
 use super::node_groups::NodeGroups;
 use super::stacking::ground_count;
 use super::strings::ReadString;
-use crate::bind::bindings::{Bindings, Place};
+use crate::bind::bindings::{Bindings, Place, StringId};
 use crate::geometry::{BoxTree, area_around, indexed_box};
 use crate::svg::{Drawing, Shape};
 
@@ -30,9 +31,9 @@ const MAX_SAMPLES: f64 = 1000.0;
 #[derive(Debug, Default)]
 pub(in crate::bind) struct Leaders {
     /// Strings, each with the point that its leader leads to.
-    pub(super) points: FxHashMap<usize, DVec2>,
+    pub(super) points: FxHashMap<StringId, DVec2>,
     /// Strings and shapes that an Inkscape connector joins.
-    pub(super) connected: Vec<(usize, usize)>,
+    pub(super) connected: Vec<(StringId, usize)>,
     /// Indices of the shapes that are leaders, ascending.
     pub(super) shapes: Vec<usize>,
 }
@@ -41,7 +42,7 @@ impl Leaders {
     /// Finds the lines that lead from a string to something else.
     pub(super) fn find(
         drawing: &Drawing,
-        strings: &[ReadString],
+        strings: &TiSlice<StringId, ReadString>,
         node_groups: &NodeGroups,
     ) -> Self {
         let has_line = |shape: &Shape| shape.line.is_some();
@@ -96,7 +97,7 @@ impl Bindings {
 
     /// The points on the page, user units, of which one is meant by a string's place: the end of its leader, or the beginning, the
     /// middle and the end of its text. `None` for a string that is no text.
-    pub fn points_of_string(&self, drawing: &Drawing, string: usize) -> Option<[DVec2; 3]> {
+    pub fn points_of_string(&self, drawing: &Drawing, string: StringId) -> Option<[DVec2; 3]> {
         let Place::Label(label) = self.strings[string].place else {
             return None;
         };
@@ -139,16 +140,16 @@ fn leads(shape: &Shape, em: f64, fills: &Fills<'_>) -> bool {
 /// The strings that leaders can begin at.
 struct Labels<'a> {
     drawing: &'a Drawing,
-    strings: &'a [ReadString],
+    strings: &'a TiSlice<StringId, ReadString>,
     boxes: BoxTree,
     reach: f64,
 }
 
 impl<'a> Labels<'a> {
-    fn new(drawing: &'a Drawing, strings: &'a [ReadString]) -> Self {
+    fn new(drawing: &'a Drawing, strings: &'a TiSlice<StringId, ReadString>) -> Self {
         let mut reach = 0.0_f64;
         let mut boxes = Vec::new();
-        for (index, string) in strings.iter().enumerate() {
+        for (index, string) in strings.iter_enumerated() {
             if let Place::Label(label) = string.place
                 && string.means_a_place()
             {
@@ -156,7 +157,7 @@ impl<'a> Labels<'a> {
                 reach = reach.max(REACH * label.font_size);
                 let (low, high) = label.position.bounds;
                 let wider = DVec2::new(WIDER * (high.x - low.x), 0.0);
-                boxes.push(indexed_box((low, high + wider), index));
+                boxes.push(indexed_box((low, high + wider), usize::from(index)));
             }
         }
         Self {
@@ -167,7 +168,7 @@ impl<'a> Labels<'a> {
         }
     }
 
-    fn em(&self, string: usize) -> f64 {
+    fn em(&self, string: StringId) -> f64 {
         match self.strings[string].place {
             Place::Label(label) => self.drawing.labels[label].0.font_size,
             Place::Shape(_) | Place::Group(_) => 0.0,
@@ -175,32 +176,34 @@ impl<'a> Labels<'a> {
     }
 
     /// The string at the end of a line: the nearest, if it is near.
-    fn at(&self, point: DVec2) -> Option<usize> {
+    fn at(&self, point: DVec2) -> Option<StringId> {
         let near = area_around((point, point), self.reach);
         let found = self.boxes.locate_in_envelope_intersecting(near);
         let near = found.filter_map(|found| {
             let area = found.geom();
             let (low, high) = (DVec2::from(area.lower()), DVec2::from(area.upper()));
             let distance = point.distance(point.clamp(low, high));
-            (distance <= REACH * self.em(found.data)).then_some((distance, found.data))
+            let string = StringId::from(found.data);
+            (distance <= REACH * self.em(string)).then_some((distance, string))
         });
         near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
             .map(|(_, string)| string)
     }
 
     /// The string and the shape that an Inkscape connector joins.
-    fn connected(&self, connects: &[Option<String>; 2]) -> Option<(usize, usize)> {
+    fn connected(&self, connects: &[Option<String>; 2]) -> Option<(StringId, usize)> {
         let [Some(a), Some(b)] = connects else {
             return None;
         };
         let string = |id: &str| {
-            let mut strings = self.strings.iter();
-            strings.position(|string| match string.place {
+            let mut strings = self.strings.iter_enumerated();
+            let found = strings.find(|(_, string)| match string.place {
                 Place::Label(label) => {
                     string.means_a_place() && self.drawing.labels[label].0.id.as_deref() == Some(id)
                 }
                 _ => false,
-            })
+            });
+            found.map(|(string, _)| string)
         };
         let shape = |id: &str| {
             let mut shapes = self.drawing.shapes.iter();

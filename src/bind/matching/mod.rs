@@ -30,7 +30,9 @@ pub(in crate::bind) use strings::wants_part;
 
 use std::sync::Arc;
 
-use super::bindings::{DrawingString, PartKind};
+use typed_index_collections::TiVec;
+
+use super::bindings::{DrawingString, PartKind, StringId};
 use crate::diagnostic::Diagnostic;
 use crate::lang::Variables;
 use crate::lang::value::Setting;
@@ -45,15 +47,15 @@ pub(in crate::bind) struct Matched {
     /// Whether the drawing is annotated at all (language.md, Where strings live).
     pub(in crate::bind) annotated: bool,
     /// The strings, in the order of the file.
-    pub(in crate::bind) strings: Vec<DrawingString>,
+    pub(in crate::bind) strings: TiVec<StringId, DrawingString>,
     /// The parts, back-most first.
     pub(in crate::bind) parts: Vec<MatchedPart>,
     /// Per part its kind, before details join what they lie on.
     pub(in crate::bind) kinds: Vec<PartKind>,
     /// The layers.
     pub(in crate::bind) layers: Layers,
-    /// The settings of all `%` strings, each with the index of its string; for each keyword the last one.
-    pub(in crate::bind) defaults: Vec<(usize, Setting)>,
+    /// The settings of all `%` strings, each with its string; for each keyword the last one.
+    pub(in crate::bind) defaults: Vec<(StringId, Setting)>,
     /// The variables that the `%` strings define.
     pub(in crate::bind) variables: Variables,
     /// The settings of the whole drawing.
@@ -107,7 +109,7 @@ pub(in crate::bind) fn find(
         stacking,
     } = binder.apply_rules(settings.bind);
     let strings = read.all.into_iter().zip(bound);
-    let strings: Vec<DrawingString> = strings.map(|(read, bound)| joined(read, bound)).collect();
+    let strings: TiVec<StringId, _> = strings.map(|(read, bound)| joined(read, bound)).collect();
     let backgrounds = &node_groups.backgrounds;
     let kinds = kinds::classify(drawing, &strings, &parts, &layers, backgrounds);
     Matched {

@@ -4,6 +4,7 @@
 //! goes with what it lies on; the back-most of the others is the main part candidate.
 
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiSlice;
 
 use super::converted::ConvertedStrings;
 use super::ink;
@@ -13,7 +14,7 @@ use super::parts::MatchedPart;
 use super::settings::Strokes;
 use super::strings::ReadString;
 use super::wrappers;
-use crate::bind::bindings::Place;
+use crate::bind::bindings::{Place, StringId};
 use crate::memo::Memo;
 use crate::svg::{Drawing, GroupKind, Shape};
 
@@ -62,7 +63,11 @@ pub(in crate::bind) struct NodeGroups {
 
 impl NodeGroups {
     /// The groups of a drawing. What shares their nodes is found by [`find_sources`](Self::find_sources).
-    pub(super) fn read(drawing: &Drawing, strings: &[ReadString], layers: &Layers) -> Self {
+    pub(super) fn read(
+        drawing: &Drawing,
+        strings: &TiSlice<StringId, ReadString>,
+        layers: &Layers,
+    ) -> Self {
         let parents: Vec<usize> = drawing.groups.iter().map(|group| group.parent).collect();
         let holds_shape = holding(drawing, |_| true);
         let mut counts = vec![0_usize; drawing.groups.len()];
@@ -98,7 +103,7 @@ impl NodeGroups {
     pub(super) fn find_sources(
         &mut self,
         drawing: &Drawing,
-        strings: &[ReadString],
+        strings: &TiSlice<StringId, ReadString>,
         layers: &Layers,
         leaders: &Leaders,
         strokes: Strokes,
@@ -268,7 +273,7 @@ fn holding(drawing: &Drawing, is: impl Fn(&Shape) -> bool) -> Vec<bool> {
 
 /// Per shape, whether it is an unfilled line with a string of its own: a description, or a string in its group without filled
 /// shapes.
-fn described_lines(drawing: &Drawing, strings: &[ReadString]) -> Vec<bool> {
+fn described_lines(drawing: &Drawing, strings: &TiSlice<StringId, ReadString>) -> Vec<bool> {
     let mut described = vec![false; drawing.shapes.len()];
     let filled = holding(drawing, wrappers::is_filled);
     let mut has_string = vec![false; drawing.groups.len()];

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::node_groups::PartSource;
-use crate::bind::bindings;
+use crate::bind::bindings::{self, StringId};
 use crate::geometry::{Measure, Outline};
 use crate::svg::{Drawing, Paint};
 
@@ -20,8 +20,8 @@ pub(in crate::bind) struct MatchedPart {
     pub(in crate::bind) outline: Arc<Outline>,
     /// Its axis, center and ends, as they are drawn.
     pub(in crate::bind) measure: Measure,
-    /// Index of its string.
-    pub(in crate::bind) string: Option<usize>,
+    /// Its string.
+    pub(in crate::bind) string: Option<StringId>,
     /// Index of the main part candidate of its node, which may be itself.
     pub(in crate::bind) main: usize,
     /// The group whose content shares its node.

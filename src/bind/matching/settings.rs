@@ -3,6 +3,7 @@
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::nearest::DistanceMode;
+use crate::bind::bindings::StringId;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, Setting, Value};
 use crate::svg::Drawing;
@@ -59,7 +60,7 @@ impl Default for DrawingSettings {
 
 impl DrawingSettings {
     /// The settings of a drawing with strings.
-    pub(super) fn read(drawing: &Drawing, defaults: &[(usize, Setting)]) -> Self {
+    pub(super) fn read(drawing: &Drawing, defaults: &[(StringId, Setting)]) -> Self {
         let mut settings = Self {
             strokes: Strokes::Ink,
             ..Self::default()

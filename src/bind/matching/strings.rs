@@ -4,11 +4,12 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::bare_names;
 use super::layers::LayerKind;
 use super::settings::DrawingSettings;
-use crate::bind::bindings::Place;
+use crate::bind::bindings::{Place, StringId};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix, few_or_one, listed};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
@@ -24,9 +25,9 @@ pub(super) struct Strings {
     /// Whether the drawing is annotated at all (language.md, Where strings live).
     pub(super) annotated: bool,
     /// In the order of the file.
-    pub(super) all: Vec<ReadString>,
-    /// The settings of all `%` strings, each with the index of its string; for each keyword the last one.
-    pub(super) defaults: Vec<(usize, Setting)>,
+    pub(super) all: TiVec<StringId, ReadString>,
+    /// The settings of all `%` strings, each with its string; for each keyword the last one.
+    pub(super) defaults: Vec<(StringId, Setting)>,
     pub(super) variables: Variables,
     pub(super) settings: DrawingSettings,
 }
@@ -150,6 +151,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
         })
         .unzip();
     diagnostics.extend(findings.into_iter().flatten());
+    let all = TiVec::from(all);
     let defaults = merged_defaults(&all, diagnostics);
     Strings {
         annotated,
@@ -295,11 +297,11 @@ fn caption(text: &Text) -> Diagnostic {
 
 /// Merges the settings of the `%` strings; later strings override earlier ones.
 fn merged_defaults(
-    strings: &[ReadString],
+    strings: &TiSlice<StringId, ReadString>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<(usize, Setting)> {
-    let mut defaults: Vec<(usize, Setting)> = Vec::new();
-    for (index, string) in strings.iter().enumerate() {
+) -> Vec<(StringId, Setting)> {
+    let mut defaults: Vec<(StringId, Setting)> = Vec::new();
+    for (index, string) in strings.iter_enumerated() {
         if !matches!(string.annotation, Annotation::Defaults(_)) {
             continue;
         }

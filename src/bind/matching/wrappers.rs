@@ -5,10 +5,11 @@
 
 use glam::DVec2;
 use rustc_hash::FxHashSet;
+use typed_index_collections::TiSlice;
 
 use super::strings::ReadString;
 use crate::anatomy::{self, Role};
-use crate::bind::bindings::Place;
+use crate::bind::bindings::{Place, StringId};
 use crate::bind::names::{self, written_by_a_person};
 use crate::geometry::{area, bounds};
 use crate::svg::{Drawing, Element, GroupKind, PaintKey, Shape};
@@ -57,7 +58,7 @@ pub(super) struct Wrappers {
 /// Finds them. `counts` is the number of strings in each group that want a part, `in_map` whether a group is in a tile layer.
 pub(super) fn find(
     drawing: &Drawing,
-    strings: &[ReadString],
+    strings: &TiSlice<StringId, ReadString>,
     counts: &[usize],
     in_map: impl Fn(usize) -> bool,
 ) -> Wrappers {
@@ -166,7 +167,7 @@ fn is_artboard(element: &Element) -> bool {
 
 fn backgrounds(
     drawing: &Drawing,
-    strings: &[ReadString],
+    strings: &TiSlice<StringId, ReadString>,
     counts: &[usize],
     in_map: impl Fn(usize) -> bool,
 ) -> Vec<bool> {

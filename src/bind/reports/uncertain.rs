@@ -12,7 +12,7 @@ use crate::threads::GRAIN;
 
 /// Reports the strings that may mean another part than the one that they are bound to.
 pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
-    let strings = matched.strings.par_iter().with_min_len(GRAIN);
+    let strings = matched.strings.raw.par_iter().with_min_len(GRAIN);
     let hints = strings.filter_map(|string| hint(drawing, matched, string));
     diagnostics.extend(hints.collect::<Vec<_>>());
 }

@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::colours;
 use super::raster::{Code, paint_of, pixel_of};
-use crate::bind::{Bindings, MaterialFactors};
+use crate::bind::{Bindings, MaterialFactors, StringId};
 use crate::source::Span;
 use crate::svg::PaintKey;
 use crate::terrain::Tile;
@@ -29,8 +29,8 @@ pub struct TileMaterial {
 pub struct TileTexture {
     /// The link to the image.
     pub link: String,
-    /// Index of the string that sets it.
-    pub string: usize,
+    /// The string that sets it.
+    pub string: StringId,
     /// The place of the setting.
     pub span: Span,
 }

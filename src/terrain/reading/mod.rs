@@ -23,7 +23,7 @@ pub use materials::{TileMaterial, TileTexture};
 
 use super::landscape::{DEFAULT_ROOF, Landscape};
 use super::map::{MAX_CELLS, Map};
-use crate::bind::{Attribute, Bindings};
+use crate::bind::{Attribute, Bindings, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::svg::{Drawing, PaintKey};
 use classify::{Classification, classify};
@@ -38,7 +38,7 @@ pub struct Layer {
     /// Its name.
     pub name: String,
     /// Index of its string.
-    pub string: usize,
+    pub string: StringId,
     /// Index of its group in the drawing.
     pub group: usize,
     /// The cells. Their indices of materials are those of [`materials`](Self::materials).
