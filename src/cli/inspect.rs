@@ -17,8 +17,7 @@ use crate::bind::{self, NamedBy, PartKind, SetBy};
 use crate::disk::is_standard_stream;
 use crate::lang::keyword::Keyword;
 use crate::report::{
-    self, Billboard, Clip, Part, Reader, Terrain, billboards, describe_character, own_name, parts,
-    terrain,
+    self, Billboard, Clip, Part, Terrain, billboards, describe_character, own_name, parts, terrain,
 };
 use crate::terrain::Layer;
 
@@ -109,7 +108,7 @@ fn json(loaded: &Loaded) -> String {
         parts: parts(&loaded.compiled, &loaded.text),
         terrain: terrain(&loaded.compiled),
         billboards: billboards(&loaded.compiled),
-        clips: report::clips(&loaded.compiled, Reader::Inspect),
+        clips: report::clips(&loaded.compiled),
     })
 }
 

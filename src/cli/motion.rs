@@ -17,7 +17,7 @@ use crate::motion::prepare::{self, LeadInPolicy};
 use crate::motion::resample::rate;
 use crate::motion::skeleton::Clip;
 use crate::motion::skeleton_model::{add_camera, skeleton_model};
-use crate::report::ranges;
+use crate::report::frame_ranges;
 
 mod performance;
 
@@ -262,11 +262,11 @@ fn report(edited: &EditedClip, arguments: &Motion) -> String {
         return out;
     };
     if let Some(cut) = &edited.cut {
-        let mut omitted: Vec<u32> = cut.omitted.iter().map(|frame| frame + 1).collect();
+        let mut omitted: Vec<u32> = cut.omitted.clone();
         omitted.sort_unstable();
         let which = match omitted.is_empty() {
             true => String::new(),
-            false => format!(" ({})", ranges(&omitted, usize::MAX)),
+            false => format!(" ({})", frame_ranges(&omitted, usize::MAX)),
         };
         let _ = writeln!(
             out,

@@ -13,7 +13,7 @@ use super::message::{Build, Listed, PartOrKept, ToPage, findings};
 use crate::compile::Compiled;
 use crate::export::{self, GLB};
 use crate::render::{self, Options, PosedModel, write_png};
-use crate::report::{Reader, characters, clips, landscapes, parts};
+use crate::report::{characters, clips, landscapes, parts};
 use crate::resolver::MemoryResolver;
 use crate::watch::BuildTimes;
 
@@ -192,7 +192,7 @@ impl Hub {
         parts.extend(landscapes(shown.compiled, shown.text));
         parts.extend(characters(shown.compiled));
         let parts = parts.iter().flat_map(to_raw_value).collect::<Vec<_>>();
-        let clips = to_raw_value(&clips(shown.compiled, Reader::Page)).unwrap_or_default();
+        let clips = to_raw_value(&clips(shown.compiled)).unwrap_or_default();
         let originals = shown.model.and_then(|_| originals(shown.compiled));
         self.change(|state, now| {
             let number = state.models + 1;

@@ -101,7 +101,7 @@ browse("the chart shows frames, omitted frames and drawings; its playhead moves,
   assert.equal(await marks(page, "gone"), OMITTED.length);
   const held = EXPOSURE.filter(([, frames]) => frames > 1).length;
   assert.deepEqual([await marks(page, "held"), await marks(page, "single")], [held, DRAWINGS - held]);
-  assert.equal(await page.locator(".chart .chart-summary").innerText(), `60 frames, ${DRAWINGS} drawings, 4 in-betweens omitted, ${FACTS.held} held`);
+  assert.equal(await page.locator(".chart .chart-summary").innerText(), `60 frames, ${DRAWINGS} drawings, 4 in-betweens omitted, ${FACTS.held.length} held`);
   const said = (await page.locator(".chart .chart-picture").getAttribute("aria-label"))!;
   const most = SSD.indexOf(Math.max(...SSD));
   assert.match(said, new RegExp(`^How much the joints of kick move .* 4 in-betweens omitted.* The fastest is frame ${most + 1}, with an SSD of [\\d.]+\\.$`));
@@ -340,7 +340,7 @@ browse("the view goes along with a figure that travels, and stays where it is af
 });
 
 browse("the drawings of one of several figures are counted; without facts keys are counted", (host) => {
-  const other = { ...FACTS, figure: "Twin", limited: true, exposure: [[0, 30], [30, 30]], drawings: 2, omitted: [], held: 58 };
+  const other = { ...FACTS, figure: "Twin", limited: true, exposure: [[0, 30], [30, 30]], drawings: 2, omitted: [], held: FACTS.held };
   kicking(kick([FACTS, other]))(host);
 }, async (page, host) => {
   await shown(page);
