@@ -38,7 +38,7 @@ export class PerformanceChart extends ClipChart {
   }
 
   protected get sheet(): ExposureSheet | null {
-    return this.viewer.performed;
+    return this.viewer.playback.exposures.performed;
   }
 
   /** Whether the clip is performed. */
@@ -105,7 +105,7 @@ export class PerformanceChart extends ClipChart {
 
   /** The frame of the performance that is shown. */
   private get frame(): number {
-    return this.drawn?.sourceAt(this.viewer.player.time) ?? 0;
+    return this.drawn?.sourceAt(this.viewer.playback.player.time) ?? 0;
   }
 
   protected move(): void {
@@ -113,7 +113,7 @@ export class PerformanceChart extends ClipChart {
     if (!times) return;
     const motion = times.motionAt(frame);
     // Above it is where the slider is.
-    this.head.setAttribute("d", this.through(this.viewer.player.time * (this.drawn?.fps ?? 0), motion));
+    this.head.setAttribute("d", this.through(this.viewer.playback.player.time * (this.drawn?.fps ?? 0), motion));
     this.picture.dataset["frame"] = String(frame + 1);
     this.picture.dataset["motion"] = String(round(motion + 1));
   }
