@@ -91,7 +91,7 @@ browse("the chart of a performance shows marks, joints, and which frame stands i
   // A curve for each mark in both rows, in the mark's colour; the one of the emphasised mark reaches the top at its key.
   assert.equal(await page.locator(".performance-picture .performance-curve").count(), 4);
   for (const [row, frame] of [["performance", KEY], ["motion", MOTION_KEY]] as const) {
-    const curve = await numbers(page, `.performance-picture .emphasised[data-row=${row}]`);
+    const curve = await numbers(page, `.performance-picture .emphasized[data-row=${row}]`);
     const points = curve.flatMap((x, place) => (place % 2 === 0 ? [{ x, y: curve[place + 1]! }] : []));
     assert.equal(points.length, FRAMES);
     const top = points.reduce((a, b) => (b.y < a.y ? b : a));

@@ -22,7 +22,7 @@ const MOST_MESHES = 2_000;
 const NEAR = 1e-4;
 
 /** The times of the drawings, or of the keys, before and after the one at a time; null where the clip ends. */
-export function neighbours({ keys, time }: Pick<Player, "keys" | "time">, exposure: Pick<ExposureSheet, "runs" | "frames" | "fps" | "frameAt" | "drawingIn"> | null): readonly [before: number | null, after: number | null] {
+export function neighbors({ keys, time }: Pick<Player, "keys" | "time">, exposure: Pick<ExposureSheet, "runs" | "frames" | "fps" | "frameAt" | "drawingIn"> | null): readonly [before: number | null, after: number | null] {
   if (exposure && exposure.runs.length > 0) {
     const at = exposure.drawingIn(exposure.frameAt(time));
     const begin = (drawing: number): number | null => {
@@ -69,7 +69,7 @@ export class OnionSkin {
     const { model, player, pose, exposures } = this.shown;
     const { clip, time } = player;
     if (!model || !clip || !this.wanted || player.playing || model.meshes.length > MOST_MESHES) return this.clear();
-    const times = neighbours(player, exposures.current);
+    const times = neighbors(player, exposures.current);
     const made = JSON.stringify([clip.name, times, [...hidden]]);
     if (model === this.model && made === this.made) return false;
     this.clear();
