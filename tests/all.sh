@@ -86,8 +86,9 @@ formatting() { cargo fmt --check; }
 lints() { cargo clippy --locked --all-targets -- -D warnings; }
 # With the tests, for what is built alone has other features of some libraries, and all would be built once more.
 program() { cargo build --locked --bins --tests; }
-# Of the output of tests that pass, what they skip is shown.
+# The tests of videos need ffmpeg. Of the output of tests that pass, what they skip is shown.
 tests() {
+  if [ $quick = no ] && ! command -v ffmpeg > /dev/null; then (install ffmpeg ffmpeg) || [ $? = 77 ] || exit 1; fi
   cargo test --locked --no-fail-fast -- --show-output | awk '
     /^(failures:|test result:)/ { passes = 0 }
     /^successes:$/ { passes = 1 }
@@ -153,15 +154,6 @@ install() { # WHAT PACKAGES…
   fi
   $sudo apt-get update -q
   $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends "$@"
-}
-
-# The tests of videos run with all others too, but say there only that they skip what needs ffmpeg.
-videos() {
-  if ! command -v ffmpeg > /dev/null; then
-    [ $quick = no ] || skip "--quick, and ffmpeg is not installed"
-    install ffmpeg ffmpeg
-  fi
-  cargo test --locked --test videos
 }
 
 # Models of clip art by others, beside the drawings.
@@ -274,7 +266,6 @@ inkscape_extension() {
 step format formatting
 step clippy lints
 step test tests
-step videos videos
 step doc manual
 step licences licences
 step examples examples
