@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 import { PNG } from "pngjs";
 import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
-import { PATIENCE, type Close } from "./closing";
+import { LAUNCH_LIMIT, PATIENCE, type Close } from "./closing";
 
 const executable = (path: string): boolean => {
   try {
@@ -25,7 +25,7 @@ export async function launch(more: readonly string[] = []): Promise<Browser> {
   if (!CHROMIUM || !existsSync(CHROMIUM)) throw new Error("there is no Chromium");
   return chromium.launch({
     executablePath: CHROMIUM,
-    timeout: PATIENCE,
+    timeout: LAUNCH_LIMIT,
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", ...more],
   });
 }
