@@ -93,11 +93,11 @@ export interface PerformanceFacts {
   readonly marks: readonly {
     readonly name: string;
     /** As `#rrggbb`; empty if unknown. */
-    readonly colour: string;
+    readonly color: string;
     readonly parts: readonly string[];
     /** Its largest movement over that of the emphasised mark, 0 to 1. */
     readonly ratio: number;
-    readonly emphasised: boolean;
+    readonly emphasized: boolean;
     readonly damped: boolean;
   }[];
   /** The frames of the largest movements. */
@@ -257,13 +257,13 @@ function readPerformance(raw: Raw): PerformanceFacts {
     track: text(raw["track"]),
     marks: list(raw["marks"]).map((value) => {
       const mark = object(value);
-      const colour = text(mark["color"]);
+      const color = text(mark["color"]);
       return {
         name: text(mark["name"]),
-        colour: /^#[0-9a-f]{6}$/i.test(colour) ? colour : "",
+        color: /^#[0-9a-f]{6}$/i.test(color) ? color : "",
         parts: list(mark["performs"]).map(text),
         ratio: number(mark["ratio"]),
-        emphasised: mark["emphasized"] === true,
+        emphasized: mark["emphasized"] === true,
         damped: mark["damped"] === true,
       };
     }),
