@@ -275,6 +275,9 @@ const USES: &[(&str, &[&str])] = &[
     ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 
+/// Steps inside of modules, in their order: each may use those before it.
+const STEPS: &[(&str, &[&str])] = &[("bind", &["matching", "attributes", "hierarchy", "reports"])];
+
 /// What only some modules may use: a path or a macro, those modules, and why.
 const ONLY_IN: &[(&str, &[&str], &str)] = &[
     ("std::fs", &["disk"], "only `disk` touches files"),
@@ -708,6 +711,36 @@ fn only_the_rim_touches_the_world() {
                 "{path} uses `{}`: {why}",
                 only.join("::")
             );
+        }
+    }
+}
+
+#[test]
+fn steps_use_only_those_before_them() {
+    let sources = sources();
+    for (module, steps) in STEPS {
+        for (place, step) in steps.iter().enumerate() {
+            let folder = Path::new(module).join(step);
+            let own = sources
+                .iter()
+                .filter(|source| source.path.starts_with(&folder));
+            assert!(own.clone().next().is_some(), "`{module}` lacks `{step}`");
+            for source in own {
+                let later = source.paths.iter().find(|path| {
+                    let [root, first, second, ..] = path.as_slice() else {
+                        return false;
+                    };
+                    root == "crate"
+                        && first == module
+                        && steps[place + 1..].contains(&second.as_str())
+                });
+                let path = source.path.display();
+                assert!(
+                    later.is_none(),
+                    "{path} uses `{}`, a later step",
+                    later.map(|path| path.join("::")).unwrap_or_default()
+                );
+            }
         }
     }
 }

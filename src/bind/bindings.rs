@@ -5,16 +5,12 @@ use std::sync::Arc;
 use crate::geometry::{Measure, Outline};
 use crate::lang::Variables;
 use crate::lang::ast::Annotation;
-use crate::lang::keyword::Keyword;
 use crate::lang::value::Setting;
 use crate::source::Text;
 use crate::svg::{Drawing, Element, Paint};
 
-use super::layers::{Layer, LayerKind};
-use super::leaders::Leaders;
-use super::legends::Legend;
-use super::node_groups::PartSource;
-use super::settings::DrawingSettings;
+use super::attributes::Legend;
+use super::matching::{DrawingSettings, Layers, Leaders};
 
 /// The strings and parts of a drawing, and which belong together.
 #[derive(Debug, Default)]
@@ -34,11 +30,11 @@ pub struct Bindings {
     /// The settings of the whole drawing.
     pub settings: DrawingSettings,
     /// The layers, in the order of their strings.
-    pub layers: Vec<Layer>,
+    pub layers: Layers,
     /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.
     pub hierarchy_by_contact: bool,
-    /// Per group the innermost tile layer or view that it is, or is in; empty if there are no layers.
-    pub(super) layer_of_group: Vec<Option<usize>>,
+    /// Per layer the main part that is its parent; `None` for a child of the root.
+    pub(super) parent_of_layer: Vec<Option<usize>>,
     /// The lines that lead from strings to what they mean.
     pub(super) leaders: Leaders,
 }
@@ -138,27 +134,6 @@ pub struct DrawingString {
     pub(super) scope: Option<usize>,
 }
 
-impl DrawingString {
-    /// Whether the string says something about a place in the drawing, to which a leader may lead from it.
-    pub(super) fn means_a_place(&self) -> bool {
-        self.wants_part() || matches!(self.annotation, Annotation::Feature(_))
-    }
-
-    /// Whether the string belongs to a part, rather than to a group or to the whole drawing.
-    pub fn wants_part(&self) -> bool {
-        match &self.annotation {
-            Annotation::Unused | Annotation::Legend(_) => true,
-            Annotation::Part(part) => {
-                let mut attributes = part.attributes.iter();
-                // A string with `Walk` belongs to a line, the path.
-                LayerKind::of(&self.annotation).is_none()
-                    && !attributes.any(|attribute| attribute.keyword == Keyword::Walk)
-            }
-            _ => false,
-        }
-    }
-}
-
 /// The kind of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PartKind {
@@ -219,35 +194,10 @@ pub struct Part {
     pub main: usize,
     /// The joint, drawing units.
     pub origin: glam::DVec2,
-    /// The group whose content shares its node.
-    pub(super) node_group: Option<usize>,
-    /// Index of its source.
-    pub(super) source: usize,
-    index: usize,
+    pub(super) index: usize,
 }
 
 impl Part {
-    pub(super) fn new(source: &PartSource, outline: Arc<Outline>, measure: Measure) -> Self {
-        Self {
-            name: String::new(),
-            named_by: NamedBy::String,
-            kind: PartKind::Sub,
-            shape: source.shape,
-            is_stroke: source.is_stroke,
-            host: None,
-            outline,
-            origin: measure.center,
-            measure,
-            string: None,
-            legend: None,
-            parent: None,
-            main: usize::MAX,
-            node_group: None,
-            source: source.index,
-            index: usize::MAX,
-        }
-    }
-
     /// Whether it is the main part candidate of its node.
     pub fn is_candidate(&self) -> bool {
         self.main == self.index
@@ -260,20 +210,25 @@ impl Part {
 
     /// Its paint: that of the fill or of the stroke.
     pub fn paint<'a>(&self, drawing: &'a Drawing) -> &'a Paint {
-        let shape = &drawing.shapes[self.shape];
-        match &shape.stroke {
-            Some(stroke) if self.is_stroke => &stroke.paint,
-            _ => &shape.paint,
-        }
+        paint(drawing, self.shape, self.is_stroke)
     }
+}
 
-    pub(super) fn join_node(&mut self, index: usize, main: usize) {
-        self.index = index;
-        self.main = main;
+/// The paint of a shape's fill, or of its stroke.
+pub(super) fn paint(drawing: &Drawing, shape: usize, is_stroke: bool) -> &Paint {
+    let shape = &drawing.shapes[shape];
+    match &shape.stroke {
+        Some(stroke) if is_stroke => &stroke.paint,
+        _ => &shape.paint,
     }
 }
 
 impl Bindings {
+    /// The main part that is the parent of a layer; `None` for a child of the root.
+    pub fn parent_of_layer(&self, layer: usize) -> Option<usize> {
+        self.parent_of_layer[layer]
+    }
+
     /// The element that names a part, if no string does: its shape's, or its group's.
     pub fn naming_element<'a>(&self, drawing: &'a Drawing, part: usize) -> Option<&'a Element> {
         let part = &self.parts[part];

@@ -48,11 +48,16 @@ impl Bindings {
     /// A part for people: its name, or its shape.
     pub fn describe(&self, drawing: &Drawing, part: usize) -> String {
         let part = &self.parts[part];
-        if part.name.is_empty() {
-            drawing.describe(part.shape)
-        } else {
-            format!("`{}`", part.name)
-        }
+        describe(drawing, &part.name, part.shape)
+    }
+}
+
+/// A part with this name and shape for people.
+pub(super) fn describe(drawing: &Drawing, name: &str, shape: usize) -> String {
+    if name.is_empty() {
+        drawing.describe(shape)
+    } else {
+        format!("`{name}`")
     }
 }
 

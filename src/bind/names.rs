@@ -2,11 +2,9 @@
 
 use std::borrow::Cow;
 
-use rustc_hash::FxHashMap;
-
-use super::bindings::{Bindings, NamedBy, PartKind};
+use super::bindings::NamedBy;
 use super::words::{PROGRAM_WORDS, PROGRAM_WORDS_WITH_NUMBERS};
-use crate::svg::{Drawing, Element};
+use crate::svg::Element;
 
 /// Longer labels are texts, not names; in characters.
 const MAX_NAME: usize = 64;
@@ -135,57 +133,6 @@ pub(super) fn of_element(element: &Element, group: Option<usize>) -> Option<OwnN
         Some((id, NamedBy::Id { group }))
     })?;
     Some(OwnName { name, by })
-}
-
-/// The name that a part has without a string: that of its node's group if it is the group's main part, else that of its shape.
-pub(super) fn of_part(drawing: &Drawing, bindings: &Bindings, part: usize) -> Option<OwnName> {
-    let part = &bindings.parts[part];
-    let of_group = part.node_group.filter(|_| part.is_candidate());
-    of_group
-        .and_then(|group| of_element(&drawing.groups[group].element, Some(group)))
-        .or_else(|| of_element(&drawing.shapes[part.shape].element, None))
-}
-
-/// Names the main parts that have no name yet by what a person called them. A name that is taken gets a number.
-pub(super) fn give(
-    drawing: &Drawing,
-    bindings: &mut Bindings,
-    names: &mut FxHashMap<String, usize>,
-) {
-    let of_layers: Vec<String> = bindings
-        .tile_layers()
-        .map(|(_, layer)| layer.name.clone())
-        .collect();
-    // Per name that was taken, the number tried last.
-    let mut numbers: FxHashMap<String, usize> = FxHashMap::default();
-    for index in 0..bindings.parts.len() {
-        let part = &bindings.parts[index];
-        if part.kind != PartKind::Main || !part.name.is_empty() {
-            continue;
-        }
-        let Some(own) = of_part(drawing, bindings, index) else {
-            continue;
-        };
-        let is_free = |name: &String| {
-            !names.contains_key(name) && !of_layers.contains(name) && name != "Root"
-        };
-        let name = if is_free(&own.name) {
-            own.name
-        } else {
-            let number = numbers.entry(own.name.clone()).or_insert(1);
-            loop {
-                *number += 1;
-                let name = format!("{}-{number}", own.name);
-                if is_free(&name) {
-                    break name;
-                }
-            }
-        };
-        names.insert(name.clone(), index);
-        let part = &mut bindings.parts[index];
-        part.name = name;
-        part.named_by = own.by;
-    }
 }
 
 #[cfg(test)]

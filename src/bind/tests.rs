@@ -275,7 +275,7 @@ fn group_strings_make_layers_of_tiles_and_regions() {
     assert_eq!(kinds, [PartKind::Tile, PartKind::Region, main, main]);
     assert!(bindings.layers.iter().all(|layer| {
         let string = &bindings.strings[layer.string];
-        string.binding.is_none() && !string.wants_part()
+        string.binding.is_none() && !matching::wants_part(&string.annotation)
     }));
     let group_of = |shape: usize| compiled.drawing.shapes[shape].group;
     let in_layers = in_layers_of_pixels(&compiled.drawing);
@@ -283,7 +283,7 @@ fn group_strings_make_layers_of_tiles_and_regions() {
     assert_eq!(bindings.tile_layer_of_group(group_of(0)), Some(0));
     assert_eq!(bindings.tile_layer_of_group(group_of(1)), None);
     assert_eq!(bindings.view_of_group(group_of(1)), Some(1));
-    assert_eq!(bindings.layer_of_group(group_of(2)), None);
+    assert_eq!(bindings.layers.of_group(group_of(2)), None);
     assert_eq!(
         bindings.layer_attributes(0).tile_size().unwrap().value,
         20.0

@@ -135,7 +135,7 @@ pub fn read(
     if all_read && shapes.any(|shape| bindings.is_picture_of_layer(drawing, shape)) {
         for (legend, _) in bindings.legends.iter().zip(used).filter(|(_, used)| !used) {
             if matches!(legend.paint, PaintKey::Solid(_)) {
-                diagnostics.push(legend.unused(drawing, bindings));
+                diagnostics.push(legend.unused(drawing, &bindings.strings));
             }
         }
     }
@@ -232,7 +232,7 @@ impl Reading<'_> {
             size: grid.size,
             roof: attributes.roof().unwrap_or(DEFAULT_ROOF),
             bevel: attributes.bevel(),
-            parent: of_layer.parent,
+            parent: bindings.parent_of_layer(index),
             sources,
         };
         diagnostics::unclear(drawing, &layer, &paints, &unclear, diagnostics);

@@ -1,0 +1,562 @@
+//! The attributes of parts and tile layers as typed values, each with its source: own string, legend of the paint, `%`,
+//! built-in default (figure.md, Attributes of a part).
+//!
+//! This is the one place where an attribute's keyword is matched with the type of its value.
+
+mod given_depths;
+mod legends;
+mod marks;
+mod motions;
+
+pub use given_depths::GivenDepth;
+pub use legends::Legend;
+pub use marks::{FollowedName, PartMark};
+pub use motions::{
+    Camerawork, ClipLimits, ClipRequest, MotionSource, PerformanceEffects, PerformanceRequest,
+    SignedAxis,
+};
+
+use super::bindings::{Bindings, DrawingString};
+use super::matching::Matched;
+use crate::diagnostic::Diagnostic;
+use crate::lang::keyword::{AttributeString, Keyword};
+use crate::lang::value::{KindArguments, Mark, Origin, Setting, Shape, Value};
+use crate::solid::Profile;
+use crate::source::Span;
+use crate::svg::{Drawing, PaintKey};
+
+/// How far a plate whose depths are not given reaches to either side, as a share of the page's diagonal.
+const PLATE_DEPTH: f64 = 0.025;
+
+/// The attributes that ink takes from the part on which it lies.
+const OF_FORM: [Keyword; 7] = [
+    Keyword::Shape,
+    Keyword::Offset,
+    Keyword::Stack,
+    Keyword::Segments,
+    Keyword::Smooth,
+    Keyword::Axis,
+    Keyword::Origin,
+];
+
+/// Who sets an attribute; the first of them wins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SetBy {
+    /// The part's own string, or that of the tile layer.
+    Own,
+    /// The legend of its paint.
+    Legend,
+    /// A `%` string.
+    Default,
+    /// The program's default.
+    Builtin,
+}
+
+impl SetBy {
+    /// The word for `inspect`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Own => "own",
+            Self::Legend => "legend",
+            Self::Default => "default",
+            Self::Builtin => "builtin",
+        }
+    }
+}
+
+/// A setting and where it comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Source<'a> {
+    /// The setting.
+    pub setting: &'a Setting,
+    /// Who sets it.
+    pub from: SetBy,
+    /// Index of the string that sets it.
+    pub string: usize,
+}
+
+/// The value of an attribute that a string sets, and its source.
+#[derive(Debug, Clone, Copy)]
+pub struct Attribute<'a, T> {
+    /// The value.
+    pub value: T,
+    /// Where it comes from.
+    pub source: Source<'a>,
+}
+
+/// The word of `Carry`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carry {
+    /// The limb points where the actor's does.
+    Direction,
+    /// It turns by as much as the actor's does, from the pose in which it is drawn.
+    Change,
+}
+
+/// An attribute of a part, for people.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Resolved {
+    /// The attribute.
+    pub keyword: Keyword,
+    /// Its value as words.
+    pub value: String,
+    /// Who sets it.
+    pub from: SetBy,
+    /// Index of the string that sets it.
+    pub string: Option<usize>,
+}
+
+/// The colour that `Color` sets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SetColor {
+    /// sRGB, each 0 to 1.
+    pub rgb: [f64; 3],
+    /// Opacity, if given.
+    pub alpha: Option<f64>,
+}
+
+/// The factors of a material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaterialFactors {
+    /// sRGB and opacity, each 0 to 1.
+    pub color: [f64; 4],
+    /// glTF's metallic factor.
+    pub metallic: f64,
+    /// glTF's roughness factor.
+    pub roughness: f64,
+    /// sRGB, each 0 to 1.
+    pub emissive: [f64; 3],
+}
+
+/// The attributes of a part, of a tile layer or of its tiles. A view that resolves a value when it is asked for it: a drawing
+/// has a hundred thousand parts, most of them without attributes.
+#[derive(Debug, Clone, Copy)]
+pub struct Attributes<'a> {
+    /// The settings of the part's own string, with its index.
+    own: Option<(usize, &'a [Setting])>,
+    /// The settings of the legend of the paint, each with the index of its string.
+    legend: &'a [(usize, Setting)],
+    /// For tiles, the settings of their layer's string, with its index.
+    layer: Option<(usize, &'a [Setting])>,
+    /// The settings of the `%` strings, each with the index of its string.
+    defaults: &'a [(usize, Setting)],
+}
+
+/// Who can set attributes.
+#[derive(Clone, Copy)]
+struct Setters<'a> {
+    strings: &'a [DrawingString],
+    legends: &'a [Legend],
+    defaults: &'a [(usize, Setting)],
+}
+
+impl<'a> Setters<'a> {
+    /// The attributes of something with this string, in a paint with this legend.
+    fn attributes(self, string: Option<usize>, legend: Option<usize>) -> Attributes<'a> {
+        Attributes {
+            own: string.map(|string| self.settings_of(string)),
+            legend: legend.map_or(&[], |legend| &self.legends[legend].settings),
+            layer: None,
+            defaults: self.defaults,
+        }
+    }
+
+    fn settings_of(self, string: usize) -> (usize, &'a [Setting]) {
+        (string, &self.strings[string].settings)
+    }
+}
+
+/// The legends, and the parts whose attributes they set.
+pub(in crate::bind) struct PartAttributes {
+    /// The legends, merged by paint.
+    pub(in crate::bind) legends: Vec<Legend>,
+    /// Per part the legend of its paint.
+    pub(in crate::bind) legend_of_part: Vec<Option<usize>>,
+}
+
+/// Finds out who sets the attributes of each part.
+pub(in crate::bind) fn resolve(
+    drawing: &Drawing,
+    matched: &Matched,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> PartAttributes {
+    legends::merge(drawing, matched, diagnostics)
+}
+
+impl PartAttributes {
+    /// The attributes of a part.
+    pub(in crate::bind) fn attributes<'a>(
+        &'a self,
+        matched: &'a Matched,
+        part: usize,
+    ) -> Attributes<'a> {
+        let setters = Setters {
+            strings: &matched.strings,
+            legends: &self.legends,
+            defaults: &matched.defaults,
+        };
+        setters.attributes(matched.parts[part].string, self.legend_of_part[part])
+    }
+}
+
+impl Source<'_> {
+    /// The place of the setting in one of these strings.
+    pub(in crate::bind) fn span(&self, strings: &[DrawingString]) -> Span {
+        let text = &strings[self.string].text;
+        text.span(self.setting.range.clone())
+    }
+}
+
+impl Bindings {
+    fn setters(&self) -> Setters<'_> {
+        Setters {
+            strings: &self.strings,
+            legends: &self.legends,
+            defaults: &self.defaults,
+        }
+    }
+
+    /// The attributes of a part.
+    pub fn attributes(&self, part: usize) -> Attributes<'_> {
+        let part = &self.parts[part];
+        self.setters().attributes(part.string, part.legend)
+    }
+
+    /// The attributes of a layer.
+    pub fn layer_attributes(&self, layer: usize) -> Attributes<'_> {
+        let string = self.layers[layer].string;
+        self.setters().attributes(Some(string), None)
+    }
+
+    /// The attributes of the tiles of a layer whose paint has this legend.
+    pub fn tile_attributes(&self, layer: usize, legend: Option<usize>) -> Attributes<'_> {
+        let setters = self.setters();
+        Attributes {
+            layer: Some(setters.settings_of(self.layers[layer].string)),
+            ..setters.attributes(None, legend)
+        }
+    }
+
+    /// The place of a setting.
+    pub fn span_of(&self, source: &Source<'_>) -> Span {
+        source.span(&self.strings)
+    }
+
+    /// The source of a part's attribute; `None` leaves the built-in default.
+    pub fn setting(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
+        self.attributes(part).source(keyword)
+    }
+
+    /// The source that a part's attribute would have without the part's own string.
+    pub fn inherited(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
+        let attributes = self.setters().attributes(None, self.parts[part].legend);
+        attributes.source(keyword)
+    }
+
+    /// The part whose attributes give a part its form: for ink the part on which it lies, unless the legend of its paint has a
+    /// `Shape`.
+    pub fn form(&self, part: usize) -> usize {
+        let host = self.parts[part].host;
+        let host = host.filter(|_| !self.attributes(part).have_own_form());
+        host.unwrap_or(part)
+    }
+
+    /// How a part's outline gets its thickness; `None` for `Shape none`, and for ink on a model, which takes the place of all
+    /// that is drawn there.
+    pub fn profile(&self, drawing: &Drawing, part: usize) -> Option<Profile> {
+        let form = self.form(part);
+        let profile = self.attributes(form).profile(drawing);
+        profile.filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
+    }
+
+    /// The factors of a part's material.
+    pub fn material_factors(&self, drawing: &Drawing, part: usize) -> MaterialFactors {
+        let attributes = self.attributes(part);
+        let paint = self.parts[part].paint(drawing);
+        let [r, g, b] = paint.color.map(|channel| f64::from(channel) / 255.0);
+        let opacity = drawing.shapes[self.parts[part].shape].opacity;
+        // `Color` takes the place of a fill; a picture stays as it is.
+        let is_picture = matches!(paint.key, PaintKey::Picture(_));
+        let color = attributes.color().filter(|_| !is_picture);
+        attributes.material_factors([r, g, b, opacity], color)
+    }
+
+    /// Every attribute of a part that is set, and the ones that every solid has, in the order of the reference.
+    pub fn resolved(&self, drawing: &Drawing, part: usize) -> Vec<Resolved> {
+        let builtin = |keyword| match keyword {
+            Keyword::Color => {
+                let [r, g, b, _] = self
+                    .material_factors(drawing, part)
+                    .color
+                    .map(|channel| (channel * 1000.0).round() / 1000.0);
+                Some(format!("{r} {g} {b}"))
+            }
+            Keyword::Shape => Some("default".to_owned()),
+            _ => None,
+        };
+        let keywords = Keyword::ALL.iter().copied();
+        let has_form = self.form(part) == part;
+        let of_parts = keywords.filter(|keyword| {
+            keyword.row().allowed.permits(AttributeString::Part)
+                && (has_form || !OF_FORM.contains(keyword))
+        });
+        of_parts
+            .filter_map(|keyword| match self.setting(part, keyword) {
+                Some(source) => Some(Resolved {
+                    keyword,
+                    value: source.setting.text.clone(),
+                    from: source.from,
+                    string: Some(source.string),
+                }),
+                None => Some(Resolved {
+                    keyword,
+                    value: builtin(keyword)?,
+                    from: SetBy::Builtin,
+                    string: None,
+                }),
+            })
+            .collect()
+    }
+}
+
+/// The value of an attribute where it has the form of the pattern.
+macro_rules! typed {
+    ($attributes:ident, $keyword:expr, $pattern:pat => $value:expr) => {
+        $attributes.get($keyword, |value| match value {
+            $pattern => Some($value),
+            _ => None,
+        })
+    };
+}
+
+impl<'a> Attributes<'a> {
+    /// Where an attribute is set.
+    pub fn source(&self, keyword: Keyword) -> Option<Source<'a>> {
+        let in_string = |(string, settings): (usize, &'a [Setting])| {
+            let mut settings = settings.iter();
+            let setting = settings.find(|setting| setting.keyword == keyword)?;
+            Some((string, setting))
+        };
+        let in_list = |settings: &'a [(usize, Setting)]| {
+            let mut settings = settings.iter();
+            let (string, setting) = settings.find(|(_, setting)| setting.keyword == keyword)?;
+            Some((*string, setting))
+        };
+        let found = |from, found: Option<(usize, &'a Setting)>| {
+            found.map(|(string, setting)| Source {
+                setting,
+                from,
+                string,
+            })
+        };
+        found(SetBy::Own, self.own.and_then(in_string))
+            .or_else(|| found(SetBy::Legend, in_list(self.legend)))
+            .or_else(|| found(SetBy::Own, self.layer.and_then(in_string)))
+            .or_else(|| found(SetBy::Default, in_list(self.defaults)))
+    }
+
+    fn get<T>(
+        &self,
+        keyword: Keyword,
+        typed: impl Fn(&'a Value) -> Option<T>,
+    ) -> Option<Attribute<'a, T>> {
+        let source = self.source(keyword)?;
+        let value = typed(&source.setting.value)?;
+        Some(Attribute { value, source })
+    }
+
+    fn number(&self, keyword: Keyword) -> Option<Attribute<'a, f64>> {
+        typed!(self, keyword, Value::Number(number) => *number)
+    }
+
+    fn word(&self, keyword: Keyword) -> Option<Attribute<'a, &'a str>> {
+        typed!(self, keyword, Value::Word(word) => word.as_str())
+    }
+
+    fn value_or(&self, keyword: Keyword, default: f64) -> f64 {
+        self.number(keyword).map_or(default, |number| number.value)
+    }
+
+    /// `Shape`, if it is set.
+    pub fn shape_if_set(&self) -> Option<Attribute<'a, &'a Shape>> {
+        typed!(self, Keyword::Shape, Value::Shape(shape) => shape)
+    }
+
+    /// `Shape`.
+    pub fn shape(&self) -> &'a Shape {
+        self.shape_if_set()
+            .map_or(&DEFAULT_SHAPE, |shape| shape.value)
+    }
+
+    /// Whether ink with these attributes has a form of its own rather than that of the part on which it lies.
+    pub(in crate::bind) fn have_own_form(&self) -> bool {
+        let shape = self.source(Keyword::Shape);
+        shape.is_some_and(|shape| shape.from < SetBy::Default)
+    }
+
+    /// How an outline with these attributes gets its thickness; `None` for `Shape none`.
+    pub(in crate::bind) fn profile(&self, drawing: &Drawing) -> Option<Profile> {
+        let shape = self.shape();
+        Profile::new(shape.kind, shape.numbers(), plate_depth(drawing))
+    }
+
+    /// `Offset`: towards the viewer, drawing units.
+    pub fn offset(&self) -> Option<Attribute<'a, f64>> {
+        self.number(Keyword::Offset)
+    }
+
+    /// `Stack`: how far drawing order spreads parts in depth.
+    pub fn stack(&self) -> f64 {
+        self.value_or(Keyword::Stack, 1.0)
+    }
+
+    /// `Origin`, if it or `Shape -c` is set.
+    pub fn origin(&self) -> Option<Origin> {
+        let origin = typed!(self, Keyword::Origin, Value::Origin(origin) => *origin);
+        let centered = || self.shape().centered.then_some(Origin::Center);
+        origin.map(|origin| origin.value).or_else(centered)
+    }
+
+    /// `Axis`: degrees, counter-clockwise from the drawing's right.
+    pub fn axis(&self) -> Option<f64> {
+        self.number(Keyword::Axis).map(|axis| axis.value)
+    }
+
+    /// `Segments`, if it is set: layers per half turn.
+    pub fn segments(&self) -> Option<u32> {
+        let segments = self.number(Keyword::Segments)?;
+        Some(segments.value as u32)
+    }
+
+    /// `Smooth`: the angle between faces from which on an edge is sharp, degrees.
+    pub fn crease(&self) -> f64 {
+        self.value_or(Keyword::Smooth, 30.0)
+    }
+
+    /// `Color`.
+    pub fn color(&self) -> Option<SetColor> {
+        let color = typed!(self, Keyword::Color, Value::Color { rgb, alpha } => SetColor {
+            rgb: *rgb,
+            alpha: *alpha,
+        });
+        color.map(|color| color.value)
+    }
+
+    /// The factors of the material of a surface that is painted with this sRGB colour and opacity; `color` replaces it.
+    pub fn material_factors(&self, painted: [f64; 4], color: Option<SetColor>) -> MaterialFactors {
+        let [r, g, b, opacity] = painted;
+        let color = color.unwrap_or(SetColor {
+            rgb: [r, g, b],
+            alpha: None,
+        });
+        let [r, g, b] = color.rgb;
+        let opacity = color.alpha.unwrap_or(opacity);
+        let emissive = typed!(self, Keyword::Emissive, Value::Triple(rgb) => *rgb);
+        MaterialFactors {
+            color: [r, g, b, self.value_or(Keyword::Alpha, opacity)],
+            metallic: self.value_or(Keyword::Metallic, 0.0),
+            roughness: self.value_or(Keyword::Roughness, 0.9),
+            emissive: emissive.map_or([0.0; 3], |emissive| emissive.value),
+        }
+    }
+
+    /// `Texture`: the link to an image.
+    pub fn texture(&self) -> Option<Attribute<'a, &'a str>> {
+        self.word(Keyword::Texture)
+    }
+
+    /// `Bone`: the names of the joints that drive the part.
+    pub fn bones(&self) -> Option<Attribute<'a, &'a [String]>> {
+        typed!(self, Keyword::Bone, Value::Names(names) => names.as_slice())
+    }
+
+    /// `Mark`: the colour mark that performs the part.
+    pub fn mark(&self) -> Option<Attribute<'a, &'a Mark>> {
+        typed!(self, Keyword::Mark, Value::Mark(mark) => mark)
+    }
+
+    /// `Follow`: the names of the parts or joints that are edited together with the part.
+    pub fn follows(&self) -> Option<Attribute<'a, &'a [String]>> {
+        typed!(self, Keyword::Follow, Value::Names(names) => names.as_slice())
+    }
+
+    /// `Swing`: how stiff a part is that swings, `None` for one that does not.
+    pub fn swing(&self) -> Option<f64> {
+        let stiffness = self.get(Keyword::Swing, |value| match value {
+            Value::Number(stiffness) => Some(*stiffness),
+            _ => Some(1.0),
+        });
+        stiffness.map(|stiffness| stiffness.value)
+    }
+
+    /// `Carry`: what a limb takes over from the joint that drives it.
+    pub fn carry(&self) -> Option<Carry> {
+        match self.word(Keyword::Carry)?.value {
+            "direction" => Some(Carry::Direction),
+            "change" => Some(Carry::Change),
+            _ => None,
+        }
+    }
+
+    /// `Tile`: the word for what tiles of the paint are, from the legend.
+    pub fn tile(&self) -> Option<&'a str> {
+        let word = self.word(Keyword::Tile);
+        let word = word.filter(|word| word.source.from == SetBy::Legend);
+        word.map(|word| word.value)
+    }
+
+    /// `Tiles`: the side of a tile, drawing units. A layer has it in its own string.
+    pub fn tile_size(&self) -> Option<Attribute<'a, f64>> {
+        let size = self.number(Keyword::Tiles);
+        size.filter(|size| size.source.from == SetBy::Own)
+    }
+
+    /// `Roof`: the height of roofs over their depth.
+    pub fn roof(&self) -> Option<f64> {
+        self.number(Keyword::Roof).map(|roof| roof.value)
+    }
+
+    /// `Bevel`: the radius of the ground's bevel, tiles.
+    pub fn bevel(&self) -> f64 {
+        self.value_or(Keyword::Bevel, 0.0)
+    }
+}
+
+/// How far a plate whose depths are not given reaches to the front and to the back, drawing units.
+pub fn plate_depth(drawing: &Drawing) -> f64 {
+    drawing.page.1.length() * PLATE_DEPTH
+}
+
+/// The `Shape` of a part that sets none.
+static DEFAULT_SHAPE: Shape = Shape {
+    kind: "default",
+    arguments: KindArguments::Numbers(Vec::new()),
+    has_depths: false,
+    mirrored: false,
+    doubled: false,
+    centered: false,
+};
+
+#[cfg(test)]
+mod tests {
+    use crate::lang::keyword::kinds::KINDS;
+    use crate::lang::keyword::signature::Takes;
+    use crate::solid::Profile;
+
+    #[test]
+    fn every_kind_of_the_table_is_built() {
+        for kind in &KINDS {
+            let is_number = |index: usize| {
+                let parameter = &kind.form.parameters[index];
+                matches!(parameter.takes, Takes::Number(_))
+            };
+            for count in kind.form.counts {
+                let given = (0..*count).filter(|index| is_number(*index)).map(|_| 1.0);
+                let defaults = kind.numbers.iter().skip(*count).copied();
+                let numbers: Vec<f64> = given.chain(defaults).collect();
+                let profile = Profile::new(kind.name, &numbers, 1.0);
+                assert_eq!(profile.is_none(), kind.name == "none", "{}", kind.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! The motions that strings ask for with `Motion`.
+
+use std::ops::Range;
+
+use super::SetBy;
+use crate::bind::bindings::{Bindings, DrawingString};
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{Setting, Value};
+use crate::source::{Span, Text};
+
+pub use crate::lang::value::{Camerawork, MotionSource, PerformanceEffects, SignedAxis};
+
+/// A clip that a string asks for with `Motion`.
+#[derive(Debug, Clone)]
+pub struct ClipRequest<'a> {
+    /// Index of the main part of the string; `None` for a string that applies to all figures.
+    pub part: Option<usize>,
+    /// The link to a motion file, or the word for a clip that comes along.
+    pub source: &'a MotionSource,
+    /// Where the file or the word is written.
+    written: Written<'a>,
+    /// The name of the clip, if the string gives one.
+    pub name: Option<&'a str>,
+    /// The axis that points up in the file, if the string says so.
+    pub up: Option<SignedAxis>,
+    /// Whether the figure stays in place.
+    pub is_in_place: bool,
+    /// Whether it is made a loop.
+    pub is_loop: bool,
+    /// The `Limited` of this clip.
+    pub limits: Option<ClipLimits>,
+    /// The `Perform` of this clip.
+    pub performance: Option<PerformanceRequest<'a>>,
+    /// The place of the setting.
+    pub span: Span,
+}
+
+/// Limited animation, as a string asks for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ClipLimits {
+    /// How many drawings to omit.
+    pub omit: usize,
+    /// How many frames to hold.
+    pub hold: usize,
+    /// The place of the setting.
+    pub span: Span,
+}
+
+/// A performed track, as a string asks for it with `Perform`.
+#[derive(Debug, Clone)]
+pub struct PerformanceRequest<'a> {
+    /// The link to the file of the track.
+    pub file: &'a str,
+    /// Where the file is written.
+    written: Written<'a>,
+    /// What the performance does to the clip.
+    pub effects: PerformanceEffects,
+    /// The name of the mark that is emphasised, if the string gives one.
+    pub emphasised: Option<&'a str>,
+    /// The key frames of the track and of the motion, if the string gives them, counted from 1 at 24 frames a second.
+    pub keys: Option<[usize; 2]>,
+    /// The place of the setting.
+    pub span: Span,
+}
+
+/// An argument of a string that names a file.
+#[derive(Debug, Clone)]
+struct Written<'a> {
+    text: &'a Text,
+    range: Range<usize>,
+}
+
+impl<'a> Written<'a> {
+    /// The first argument of a setting.
+    fn first_of(string: &'a DrawingString, setting: &Setting) -> Self {
+        let attribute = string.annotation.attribute_at(&setting.range);
+        let first = attribute.and_then(|attribute| attribute.arguments.first());
+        Self {
+            text: &string.text,
+            range: first.map_or(setting.range.clone(), |first| first.range.clone()),
+        }
+    }
+
+    fn span(&self) -> Span {
+        self.text.span(self.range.clone())
+    }
+
+    /// The name of a file as it is written in the place of this one, in quotes and escaped for XML.
+    fn replaced_by(&self, file: &str) -> String {
+        let quoted = format!("\"{file}\"");
+        self.text.escape_at(self.range.start, &quoted)
+    }
+}
+
+impl ClipRequest<'_> {
+    /// The place of the file or the word.
+    pub fn source_span(&self) -> Span {
+        self.written.span()
+    }
+
+    /// The name of a file as it is written in the place of this one, in quotes and escaped for XML.
+    pub fn written(&self, file: &str) -> String {
+        self.written.replaced_by(file)
+    }
+}
+
+impl<'a> PerformanceRequest<'a> {
+    /// The value of a `Perform` in a string.
+    fn of(setting: &'a Setting, string: &'a DrawingString) -> Option<Self> {
+        match &setting.value {
+            Value::Performance(performance) => Some(Self {
+                file: &performance.file,
+                written: Written::first_of(string, setting),
+                effects: performance.effects,
+                emphasised: performance.emphasised.as_deref(),
+                keys: performance.keys,
+                span: string.text.span(setting.range.clone()),
+            }),
+            _ => None,
+        }
+    }
+
+    /// The place of the file.
+    pub fn file_span(&self) -> Span {
+        self.written.span()
+    }
+
+    /// The name of a file as it is written in the place of this one, in quotes and escaped for XML.
+    pub fn written(&self, file: &str) -> String {
+        self.written.replaced_by(file)
+    }
+}
+
+impl ClipLimits {
+    /// The value of a `Limited`, which the table allows whole numbers only.
+    fn of(limited: &Setting, span: Span) -> Option<Self> {
+        match limited.value {
+            Value::Pair([omit, hold]) => Some(Self {
+                omit: omit as usize,
+                hold: hold as usize,
+                span,
+            }),
+            _ => None,
+        }
+    }
+}
+
+impl Bindings {
+    /// The clips that strings ask for, in the order of the strings.
+    pub fn clip_requests(&self) -> Vec<ClipRequest<'_>> {
+        let requests = self.strings.iter().flat_map(|string| {
+            let part = match string.annotation {
+                Annotation::Defaults(_) => Some(None),
+                _ => string
+                    .binding
+                    .map(|binding| Some(self.parts[binding.part].main)),
+            };
+            let settings = string.settings.iter();
+            settings.filter_map(move |setting| match &setting.value {
+                Value::Motion(motion) => Some(ClipRequest {
+                    part: part?,
+                    source: &motion.source,
+                    written: Written::first_of(string, setting),
+                    name: motion.clip.as_deref(),
+                    up: motion.up,
+                    is_in_place: motion.is_in_place,
+                    is_loop: motion.is_loop,
+                    limits: setting.limited.as_ref().and_then(|limited| {
+                        ClipLimits::of(limited, string.text.span(limited.range.clone()))
+                    }),
+                    performance: setting
+                        .performance
+                        .as_ref()
+                        .and_then(|performance| PerformanceRequest::of(performance, string)),
+                    span: string.text.span(setting.range.clone()),
+                }),
+                _ => None,
+            })
+        });
+        requests.collect()
+    }
+
+    /// The `Limited` that applies to all clips of a part's figure, from the part's own string, the legend of its paint or a `%`
+    /// string, and which of these it is.
+    pub fn limits_of_clips(&self, part: usize) -> Option<(SetBy, ClipLimits)> {
+        let source = self.setting(part, Keyword::Limited)?;
+        let limits = ClipLimits::of(source.setting, self.span_of(&source))?;
+        Some((source.from, limits))
+    }
+
+    /// The `Perform` that applies to all clips of a part's figure, likewise.
+    pub fn performance_of_clips(&self, part: usize) -> Option<(SetBy, PerformanceRequest<'_>)> {
+        let source = self.setting(part, Keyword::Perform)?;
+        let performance = PerformanceRequest::of(source.setting, &self.strings[source.string])?;
+        Some((source.from, performance))
+    }
+}

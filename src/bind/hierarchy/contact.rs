@@ -1,0 +1,348 @@
+//! The hierarchy of a drawing in which no string names a part, but labels or ids do: parts that touch hang on each other
+//! (figure.md, Hierarchy).
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::Context;
+use super::names::{self, Names};
+use crate::anatomy::{self, Role, Term, sides};
+use crate::bind::bindings::{NamedBy, PartKind};
+use crate::bind::matching::Matched;
+use crate::bind::names::OwnName;
+use crate::geometry::{self, Body, Outline, area, intersect};
+use crate::lang::ast::Annotation;
+use crate::svg::Drawing;
+use crate::threads::GRAIN;
+
+/// Parts of one figure may be this far apart, as a share of the height of all named parts.
+const GAP: f64 = 0.02;
+/// How many points the outlines may have whose overlaps are computed. After that, bounding boxes decide.
+const MAX_OVERLAP_POINTS: usize = 1 << 19;
+/// What a way through a part without a name costs, in parts.
+const UNNAMED: u32 = 1000;
+
+/// Whether the hierarchy comes from contact: no string names a part, but people named at least two otherwise.
+pub(super) fn decides(drawing: &Drawing, matched: &Matched, names: &[OwnName]) -> bool {
+    let parts = 0..matched.parts.len();
+    let mains = parts.filter(|part| matched.kinds[*part] == PartKind::Main);
+    let by_string = |part: usize| names[part].by == NamedBy::String && !names[part].name.is_empty();
+    let otherwise = |part: &usize| {
+        !names[*part].name.is_empty() || names::of_main_part(drawing, matched, *part).is_some()
+    };
+    !mains.clone().any(by_string) && mains.filter(otherwise).nth(1).is_some()
+}
+
+fn is_named(name: &OwnName) -> bool {
+    name.by != NamedBy::Automatic && !name.name.is_empty()
+}
+
+/// Finds the parents of all parts that touch others, apart from those that a string attaches.
+///
+/// In each connected group the root is the trunk by its name, else the largest named part. From there the others are attached
+/// in the order of their distance: to the part that carries them by anatomy if they touch it, else to the one that
+/// they overlap most of those nearest to the root. A part without a name hangs on the named part that it overlaps most.
+pub(super) fn parents(context: Context<'_>, names: &Names) -> Vec<(usize, Option<usize>)> {
+    let bodies = NamedBodies::read(context, names);
+    let part = |place: usize| bodies.parts[place];
+    let found = bodies.parents().into_iter();
+    found
+        .map(|(place, parent)| (part(place), parent.map(part)))
+        .collect()
+}
+
+/// A part, as far as its place in the hierarchy depends on it.
+struct NamedBody {
+    named: bool,
+    role: Option<Role>,
+    /// Whether its name says left, right.
+    sides: [bool; 2],
+    area: f64,
+    /// If its string attaches it, the place of the part that it names; `None` for the root.
+    attached: Option<Option<usize>>,
+}
+
+impl NamedBody {
+    fn read(
+        matched: &Matched,
+        names: &Names,
+        part: usize,
+        places: &FxHashMap<&str, usize>,
+    ) -> Self {
+        let annotation = matched.string_of(part).map(|string| &string.annotation);
+        Self {
+            named: is_named(&names.of_part[part]),
+            role: None,
+            sides: [false; 2],
+            area: area(&matched.parts[part].outline),
+            attached: match annotation {
+                Some(Annotation::Part(part)) => part
+                    .parent
+                    .as_ref()
+                    .map(|parent| places.get(parent.text.as_str()).copied()),
+                _ => None,
+            },
+        }
+    }
+
+    /// How well another part carries this one by their names, 0 the best; `None` if names do not tell.
+    fn carried_by(&self, other: &Self) -> Option<usize> {
+        let (role, carrier) = (self.role?, other.role?);
+        let opposite = self.sides != other.sides
+            && self.sides[0] != self.sides[1]
+            && other.sides[0] != other.sides[1];
+        let carriers = role.carriers();
+        carriers
+            .iter()
+            .position(|role| *role == carrier)
+            .filter(|_| !opposite)
+    }
+}
+
+/// The main parts of a drawing, with those that they touch. Places are indices into `parts`.
+struct NamedBodies {
+    parts: Vec<usize>,
+    bodies: Vec<NamedBody>,
+    /// Per part those that their strings attach to it.
+    followers: Vec<Vec<usize>>,
+    touching: Vec<Vec<usize>>,
+    /// Per pair that touches, lower place first, the area that both share.
+    shared: FxHashMap<(usize, usize), f64>,
+}
+
+impl NamedBodies {
+    fn read(context: Context<'_>, names: &Names) -> Self {
+        let Context { matched, nodes, .. } = context;
+        let parts: Vec<usize> = context.mains().collect();
+        let called = parts.iter().map(|part| names.of(*part));
+        let places: FxHashMap<&str, usize> = called.zip(0..).collect();
+        let mut bodies: Vec<NamedBody> = parts
+            .iter()
+            .map(|part| NamedBody::read(matched, names, *part, &places))
+            .collect();
+        let mut followers = vec![vec![]; parts.len()];
+        for (place, body) in bodies.iter().enumerate() {
+            if let Some(Some(parent)) = body.attached {
+                followers[parent].push(place);
+            }
+        }
+        let named = parts.iter().zip(&bodies).filter(|(_, body)| body.named);
+        let (top, bottom) =
+            named.fold((f64::INFINITY, f64::NEG_INFINITY), |(top, bottom), part| {
+                let (low, high) = matched.parts[*part.0].measure.bounds;
+                (top.min(low.y), bottom.max(high.y))
+            });
+        let place: FxHashMap<usize, usize> = parts.iter().copied().zip(0..).collect();
+        let mut outlines: Vec<Vec<&Outline>> = vec![vec![]; parts.len()];
+        let mut bounds: Vec<_> = parts
+            .iter()
+            .map(|part| matched.parts[*part].measure.bounds)
+            .collect();
+        for (part, main) in matched.parts.iter().zip(&nodes.main) {
+            // A group touches with all of its shapes.
+            if let Some(&place) = place.get(main) {
+                outlines[place].push(&part.outline);
+                let (low, high) = part.measure.bounds;
+                bounds[place] = (bounds[place].0.min(low), bounds[place].1.max(high));
+            }
+        }
+        let slack = GAP * (bottom - top).max(0.0);
+        let areas: Vec<Body<'_>> = outlines
+            .iter()
+            .zip(bounds)
+            .map(|(outlines, bounds)| Body {
+                outlines: outlines.clone(),
+                bounds,
+                slack,
+            })
+            .collect();
+        let touching = geometry::touching(&areas);
+        for figure in geometry::connected(&touching) {
+            read_names(names, &parts, figure, &mut bodies);
+        }
+        let shared = shared(&areas, &touching);
+        Self {
+            parts,
+            bodies,
+            followers,
+            touching,
+            shared,
+        }
+    }
+
+    fn shared(&self, one: usize, other: usize) -> f64 {
+        let pair = (one.min(other), one.max(other));
+        self.shared.get(&pair).copied().unwrap_or(0.0)
+    }
+
+    /// The part that carries another by anatomy, or for a part without a name the named part that it overlaps most.
+    fn carrier(&self, place: usize) -> Option<usize> {
+        let own = &self.bodies[place];
+        let rank = |other: &usize| match own.named {
+            true => own.carried_by(&self.bodies[*other]),
+            false => self.bodies[*other].named.then_some(0),
+        };
+        let ranked = self.touching[place]
+            .iter()
+            .filter_map(|other| Some((rank(other)?, *other)));
+        let best = ranked.min_by(|(a, one), (b, other)| {
+            let shared = [*other, *one].map(|of| self.shared(place, of));
+            a.cmp(b).then(shared[0].total_cmp(&shared[1]))
+        });
+        best.map(|(_, other)| other)
+    }
+
+    /// The root of a connected group; `None` if nothing in it has a name.
+    fn root(&self, members: &[usize]) -> Option<usize> {
+        let named = members.iter().filter(|place| self.bodies[**place].named);
+        let rank = |place: usize| {
+            let trunk = self.bodies[place].role.and_then(Role::trunk);
+            trunk.unwrap_or(u8::MAX)
+        };
+        named.copied().min_by(|one, other| {
+            let sizes = [*other, *one].map(|place| self.bodies[place].area);
+            rank(*one)
+                .cmp(&rank(*other))
+                .then(sizes[0].total_cmp(&sizes[1]))
+        })
+    }
+
+    /// The places with their parents, for all parts in groups with a name that no string attaches.
+    fn parents(&self) -> Vec<(usize, Option<usize>)> {
+        let carriers: Vec<Option<usize>> = (0..self.parts.len())
+            .map(|place| self.carrier(place))
+            .collect();
+        let mut search = Search {
+            found: Vec::new(),
+            reached: vec![false; self.parts.len()],
+            queue: BinaryHeap::new(),
+        };
+        for members in geometry::connected(&self.touching) {
+            let root = self.root(&members);
+            if let Some(root) = root.filter(|root| self.bodies[*root].attached.is_none()) {
+                search.found.push((root, None));
+                self.reach(root, 0, &carriers, &mut search);
+            }
+        }
+        for place in 0..self.parts.len() {
+            if self.bodies[place].attached == Some(None) {
+                self.reach(place, 0, &carriers, &mut search);
+            }
+        }
+        while let Some(Reverse(way)) = search.queue.pop() {
+            if !search.reached[way.to] {
+                search.found.push((way.to, Some(way.from)));
+                self.reach(way.to, way.steps, &carriers, &mut search);
+            }
+        }
+        search.found
+    }
+
+    /// Reaches a part, and with it the parts that strings attach to it: those lead on only from here, so that nothing hangs on itself.
+    fn reach(&self, place: usize, steps: u32, carriers: &[Option<usize>], search: &mut Search) {
+        let mut waiting = vec![place];
+        while let Some(place) = waiting.pop() {
+            if std::mem::replace(&mut search.reached[place], true) {
+                continue;
+            }
+            self.extend(place, steps, carriers, search);
+            waiting.extend_from_slice(&self.followers[place]);
+        }
+    }
+
+    /// Queues the ways from a part that was reached to those that it touches.
+    fn extend(&self, from: usize, steps: u32, carriers: &[Option<usize>], search: &mut Search) {
+        let through = if self.bodies[from].named { 1 } else { UNNAMED };
+        for to in self.touching[from].iter().copied() {
+            if search.reached[to] || self.bodies[to].attached.is_some() {
+                continue;
+            }
+            let doubt = match carriers[to] {
+                Some(carrier) if carrier == from => 0,
+                // A leg hangs on what has no name of the body rather than on a wing.
+                None if self.bodies[from].role.is_none() || self.bodies[to].role.is_none() => 1,
+                _ => 2,
+            };
+            search.queue.push(Reverse(Way {
+                doubt,
+                steps: steps.saturating_add(through),
+                // Areas are not negative, so their bits are in their order.
+                shared: Reverse(self.shared(from, to).max(0.0).to_bits()),
+                to,
+                from,
+            }));
+        }
+    }
+}
+
+/// Reads what the names of one figure's parts say. Clothes name what wears them if nothing else does.
+fn read_names(names: &Names, parts: &[usize], mut figure: Vec<usize>, bodies: &mut [NamedBody]) {
+    figure.retain(|place| bodies[*place].named);
+    let terms = |place: &usize| anatomy::terms(names.of(parts[*place]));
+    let mut said: Vec<Vec<Term>> = figure.iter().map(terms).collect();
+    anatomy::dress(&mut said);
+    for (place, terms) in figure.into_iter().zip(said) {
+        bodies[place].role = Role::of(&terms);
+        bodies[place].sides = sides(&terms);
+    }
+}
+
+/// The state of the search for parents.
+struct Search {
+    found: Vec<(usize, Option<usize>)>,
+    reached: Vec<bool>,
+    queue: BinaryHeap<Reverse<Way>>,
+}
+
+/// A way to attach a part; the least is taken first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Way {
+    /// 0 if names tell it, 1 if they tell nothing, 2 if they tell otherwise.
+    doubt: u8,
+    /// How many parts lie between the root and it.
+    steps: u32,
+    shared: Reverse<u64>,
+    to: usize,
+    from: usize,
+}
+
+/// The areas that touching bodies share.
+fn shared(areas: &[Body<'_>], touching: &[Vec<usize>]) -> FxHashMap<(usize, usize), f64> {
+    let points = |body: &Body<'_>| -> usize {
+        let outlines = body.outlines.iter();
+        let polygons = outlines.flat_map(|outline| &outline.polygons);
+        polygons
+            .flat_map(|polygon| &polygon.rings)
+            .map(Vec::len)
+            .sum()
+    };
+    let mut left = MAX_OVERLAP_POINTS;
+    let mut pairs = Vec::new();
+    for (one, others) in touching.iter().enumerate() {
+        for &other in others.iter().filter(|other| **other > one) {
+            let (a, b) = (&areas[one], &areas[other]);
+            let cost = points(a) * b.outlines.len() + points(b) * a.outlines.len();
+            let rest = left.checked_sub(cost);
+            left = rest.unwrap_or(left);
+            pairs.push((one, other, rest.is_some()));
+        }
+    }
+    let pairs = pairs.into_par_iter().with_min_len(GRAIN);
+    let shared = pairs.map(|(one, other, exact)| {
+        let (a, b) = (&areas[one], &areas[other]);
+        let both = if exact {
+            let outlines = a.outlines.iter();
+            let pairs = outlines.flat_map(|one| b.outlines.iter().map(move |other| (one, other)));
+            pairs.map(|(one, other)| area(&intersect(one, other))).sum()
+        } else {
+            let low = a.bounds.0.max(b.bounds.0);
+            let high = a.bounds.1.min(b.bounds.1);
+            (high - low).max(glam::DVec2::ZERO).element_product()
+        };
+        ((one, other), both)
+    });
+    shared.collect()
+}

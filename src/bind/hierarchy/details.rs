@@ -1,0 +1,83 @@
+//! Details: parts without a string stay with the part that they lie on (figure.md, Binding, rule 5).
+
+use rustc_hash::FxHashSet;
+
+use super::{Nodes, names};
+use crate::bind::bindings::PartKind;
+use crate::bind::matching::{Matched, Stacking, of_ink};
+use crate::lang::ast::Annotation;
+use crate::svg::Drawing;
+
+/// What share of a part lies on another for it to stay with that one.
+const STAYS: f64 = 0.75;
+
+/// The nodes, after main parts without a string became sub-parts of the parts that they lie on. In drawings in which only labels
+/// and ids name parts (`by_contact`), those names count as well, and so does a name that a string refers to.
+pub(super) fn join(
+    drawing: &Drawing,
+    matched: &Matched,
+    mut nodes: Nodes,
+    by_contact: bool,
+    stacking: &Stacking,
+) -> Nodes {
+    let mentioned: FxHashSet<&str> = matched
+        .strings
+        .iter()
+        .filter_map(|string| match &string.annotation {
+            Annotation::Part(part) => Some(part.parent.as_ref()?.text.as_str()),
+            _ => None,
+        })
+        .collect();
+    let counts = |part: usize| {
+        let own = names::of_main_part(drawing, matched, part);
+        own.is_some_and(|own| by_contact || mentioned.contains(own.name.as_str()))
+    };
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); matched.parts.len()];
+    for (index, part) in matched.parts.iter().enumerate() {
+        if stacking.has(index) {
+            members[part.main].push(index);
+        }
+    }
+    // In paint order, so that what a part lies on has found its own owner.
+    for (main, members) in members.iter().enumerate() {
+        let is_free = nodes.kind[main] == PartKind::Main && matched.parts[main].string.is_none();
+        if members.is_empty() || !is_free || stacking.is_ground(main) || counts(main) {
+            continue;
+        }
+        let Some(owner) = owner(&nodes, stacking, members) else {
+            continue;
+        };
+        for &part in members {
+            nodes.main[part] = owner;
+            if nodes.kind[part] == PartKind::Main {
+                nodes.kind[part] = PartKind::Sub;
+            }
+        }
+    }
+    for (index, part) in matched.parts.iter().enumerate() {
+        if let Some(host) = part.host {
+            nodes.main[index] = nodes.main[host];
+            nodes.kind[index] = of_ink(nodes.kind[host]);
+        }
+    }
+    nodes
+}
+
+/// The main part on which most of a unit lies.
+fn owner(nodes: &Nodes, stacking: &Stacking, members: &[usize]) -> Option<usize> {
+    let facts = stacking.of_unit(members);
+    let mut shares: Vec<(usize, f64)> = Vec::new();
+    for &(part, share) in &facts.under {
+        let main = nodes.main[part];
+        let takes_children = nodes.kind[main] == PartKind::Main;
+        if !takes_children || stacking.is_ground(main) {
+            continue;
+        }
+        match shares.iter_mut().find(|(other, _)| *other == main) {
+            Some((_, sum)) => *sum += share,
+            None => shares.push((main, share)),
+        }
+    }
+    let most = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (most.1 >= STAYS).then_some(most.0)
+}

@@ -1,0 +1,164 @@
+//! The joints of parts: where they turn (figure.md, Hierarchy and local frames).
+
+use glam::DVec2;
+
+use super::Axes;
+use super::names::Names;
+use crate::anatomy::{self, Term};
+use crate::bind::attributes::PartAttributes;
+use crate::bind::matching::Matched;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::{Measure, distance_squared};
+use crate::lang::ast::Annotation;
+use crate::lang::value::Origin;
+use crate::svg::Drawing;
+
+/// The least ratio of length to width for the hint that a part turns about its middle.
+const LONG: f64 = 2.0;
+/// Ends of a limb whose distances from the parent differ by no more than this share of its length are equally near.
+const EQUALLY_NEAR: f64 = 0.02;
+
+/// What joints depend on.
+pub(super) struct Joints<'a> {
+    pub(super) drawing: &'a Drawing,
+    pub(super) matched: &'a Matched,
+    pub(super) attributes: &'a PartAttributes,
+    pub(super) names: &'a Names,
+    pub(super) parents: &'a [Option<usize>],
+    pub(super) axes: &'a Axes,
+}
+
+impl Joints<'_> {
+    fn measure(&self, part: usize) -> &Measure {
+        self.axes.measure(self.matched, part)
+    }
+
+    fn chosen(&self, part: usize) -> Option<Origin> {
+        self.attributes.attributes(self.matched, part).origin()
+    }
+
+    /// The joint of a main part (paper, section 3.5).
+    pub(super) fn origin(&self, index: usize) -> DVec2 {
+        let measure = self.measure(index);
+        let center = |parent: usize| self.measure(parent).center;
+        let parent = self.parents[index];
+        let [start, end] = sorted_ends(measure, parent.map(center));
+        match self.chosen(index) {
+            Some(Origin::Center) => measure.center,
+            Some(Origin::Start) => start,
+            Some(Origin::End) => end,
+            Some(Origin::Point([x, y])) => DVec2::new(x, y),
+            None => match parent {
+                None => measure.center,
+                Some(parent) if self.is_hinged(index) => self.hinge(index, parent, [start, end]),
+                Some(parent) => {
+                    let candidates = [start, end, measure.center];
+                    // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.
+                    let near = |p: &DVec2| p.distance_squared(center(parent));
+                    candidates
+                        .into_iter()
+                        .min_by(|a, b| near(a).total_cmp(&near(b)))
+                        .unwrap_or(measure.center)
+                }
+            },
+        }
+    }
+
+    /// Whether a part is by its name a limb, which never turns about its middle.
+    fn is_hinged(&self, index: usize) -> bool {
+        let terms = anatomy::terms(self.names.of(index));
+        // 足 is a leg, or a foot if it is attached to a leg.
+        let is_foot = terms.contains(&Term::LegOrFoot)
+            && self.parents[index].is_some_and(|parent| {
+                let above = anatomy::terms(self.names.of(parent));
+                let says = |wanted| above.contains(&wanted);
+                (says(Term::Leg) || says(Term::Shin)) && !says(Term::LegOrFoot)
+            });
+        anatomy::is_hinged(&terms) && !is_foot
+    }
+
+    /// The end at which a limb is attached: the one that lies on its parent or nearer to its outline. Of ends that are equally near it
+    /// is the upper one of what hangs, such as arms and legs, else the one nearer to the parent's centre, which is given first.
+    fn hinge(&self, part: usize, parent: usize, [start, far]: [DVec2; 2]) -> DVec2 {
+        let outline = &self.matched.parts[parent].outline;
+        let gap = |end: DVec2| distance_squared(outline, end).sqrt();
+        let (near, other) = (gap(start), gap(far));
+        let way = far - start;
+        if (near - other).abs() > EQUALLY_NEAR * way.length() {
+            return if near < other { start } else { far };
+        }
+        let upright = way.y.abs() > way.x.abs();
+        if upright && way.y < 0.0 && anatomy::hangs(&anatomy::terms(self.names.of(part))) {
+            return far;
+        }
+        start
+    }
+
+    /// Reports a long part beside its parent that turns about its middle, which is seldom meant.
+    pub(super) fn turns_about_middle(&self, index: usize, origin: DVec2) -> Option<Diagnostic> {
+        let Self {
+            drawing,
+            matched,
+            names,
+            ..
+        } = self;
+        let measure = self.measure(index);
+        let long = measure.half_along > LONG * measure.half_across;
+        let (parent, string) = (self.parents[index]?, matched.string_of(index)?);
+        let chosen = || self.chosen(index).is_some();
+        let beside = self.measure(parent);
+        // A hat or a foot lies across the end of its parent, and is meant to turn about its middle.
+        let alike = !beside.certain
+            || beside.axis.dot(measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
+        if !long || !alike || origin != measure.center || chosen() {
+            return None;
+        }
+        let text = &string.text;
+        let has_attributes = match &string.annotation {
+            Annotation::Part(annotation) => {
+                !annotation.attributes.is_empty() || text.as_str().trim_end().ends_with(['$', '＄'])
+            }
+            _ => return None,
+        };
+        let end = text.as_str().trim_end().len();
+        let place = text.span(end..end);
+        let [start, far] = sorted_ends(measure, Some(beside.center));
+        let way = far - start;
+        let side = match (way.y.abs() >= way.x.abs(), way.x >= 0.0, way.y >= 0.0) {
+            (true, _, true) => "upper",
+            (true, _, false) => "lower",
+            (false, true, _) => "left",
+            (false, false, _) => "right",
+        };
+        let lead = if has_attributes { " " } else { "$" };
+        let message = format!(
+            "both ends of `{}` are about equally far from `{}`, so it turns about its middle",
+            names.of(index),
+            names.of(parent)
+        );
+        let mut diagnostic = Diagnostic::new(Code::TurnsAboutMiddle, text.whole(), message)
+    .related(drawing.shapes[matched.parts[index].shape].element.span, "the part")
+    .help(format!(
+        "for an arm or a leg write `Origin start` (the end nearer to the centre of `{}`, here the {side} one) or `Origin end`",
+        names.of(parent)
+    ));
+        for word in ["start", "end"] {
+            diagnostic = diagnostic.fix(
+                format!("Turn about its {word}"),
+                place,
+                format!("{lead}Origin {word}"),
+            );
+        }
+        Some(diagnostic)
+    }
+}
+
+/// The ends of the axis: the one nearer to the parent's centre first; without a parent, the upper one first.
+fn sorted_ends(measure: &Measure, parent: Option<DVec2>) -> [DVec2; 2] {
+    let [a, b] = measure.ends;
+    let swapped = match parent {
+        Some(parent) => b.distance_squared(parent) < a.distance_squared(parent),
+        None => b.y < a.y,
+    };
+    if swapped { [b, a] } else { [a, b] }
+}

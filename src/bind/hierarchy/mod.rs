@@ -1,0 +1,356 @@
+//! Names, parents and joints (figure.md, Hierarchy and local frames).
+
+mod contact;
+mod details;
+mod joints;
+mod names;
+mod parents;
+mod unnamed;
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+use rstar::primitives::GeomWithData;
+use rstar::{PointDistance, RTree};
+use rustc_hash::FxHashMap;
+
+use super::attributes::PartAttributes;
+use super::bindings::{NamedBy, PartKind};
+use super::describe::describe;
+use super::matching::Matched;
+use super::names::OwnName;
+use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
+use crate::geometry::{Measure, measure_along};
+use crate::memo::{Bits, Long, Memo};
+use crate::svg::Drawing;
+use crate::threads::GRAIN;
+use joints::Joints;
+use names::Names;
+
+/// The name of the virtual node that is the parent of parts without one.
+const ROOT: &str = "Root";
+
+/// The parts as nodes of the hierarchy.
+pub(in crate::bind) struct Tree {
+    /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.
+    pub(in crate::bind) by_contact: bool,
+    /// The parts that share nodes.
+    pub(in crate::bind) nodes: Nodes,
+    /// Per part its name; empty for sub-parts, legends and unused parts without one.
+    pub(in crate::bind) names: Vec<OwnName>,
+    /// Per part its parent, for a main part; `None` for a child of the root.
+    pub(in crate::bind) parents: Vec<Option<usize>>,
+    /// Per layer its parent, likewise.
+    pub(in crate::bind) parent_of_layer: Vec<Option<usize>>,
+    /// The axes of the parts.
+    pub(in crate::bind) axes: Axes,
+    /// Per part its joint, drawing units.
+    pub(in crate::bind) origins: Vec<DVec2>,
+}
+
+/// Which parts share a node.
+pub(in crate::bind) struct Nodes {
+    /// Per part the main part candidate of its node.
+    pub(in crate::bind) main: Vec<usize>,
+    /// Per part its kind.
+    pub(in crate::bind) kind: Vec<PartKind>,
+}
+
+/// The axes that `Axis` turns.
+pub(in crate::bind) struct Axes(FxHashMap<usize, Measure>);
+
+impl Axes {
+    /// The axis, center and ends of a part that `Axis` turns.
+    pub(in crate::bind) fn turned(&self, part: usize) -> Option<Measure> {
+        self.0.get(&part).copied()
+    }
+
+    /// The axis, center and ends of a part.
+    pub(in crate::bind) fn measure<'a>(&'a self, matched: &'a Matched, part: usize) -> &'a Measure {
+        self.0.get(&part).unwrap_or(&matched.parts[part].measure)
+    }
+}
+
+/// What every step knows, once details are with the parts that they lie on.
+#[derive(Clone, Copy)]
+struct Context<'a> {
+    drawing: &'a Drawing,
+    matched: &'a Matched,
+    nodes: &'a Nodes,
+}
+
+impl<'a> Context<'a> {
+    fn mains(self) -> impl Iterator<Item = usize> + use<'a> {
+        let kinds = self.nodes.kind.iter().enumerate();
+        kinds.filter_map(|(part, kind)| (*kind == PartKind::Main).then_some(part))
+    }
+}
+
+/// Names every main part, and finds its parent, axis and joint.
+pub(in crate::bind) fn build(
+    drawing: &Drawing,
+    matched: &Matched,
+    attributes: &PartAttributes,
+    memo: &Memo,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Tree {
+    let said = names::of_strings(drawing, matched);
+    let by_contact = contact::decides(drawing, matched, &said);
+    let mut nodes = Nodes {
+        main: matched.parts.iter().map(|part| part.main).collect(),
+        kind: matched.kinds.clone(),
+    };
+    if matched.annotated || by_contact {
+        let stacking = matched.stacking(drawing, memo);
+        nodes = details::join(drawing, matched, nodes, by_contact, &stacking);
+    }
+    let context = Context {
+        drawing,
+        matched,
+        nodes: &nodes,
+    };
+    let mut names = Names::new(context, said, diagnostics);
+    names.give_own(context);
+    let mut parents = automatic(context, &mut names, memo, diagnostics);
+    if by_contact {
+        set(&mut parents, contact::parents(context, &names));
+    }
+    parents::other_signs(matched, &names, diagnostics);
+    set(
+        &mut parents,
+        parents::of_strings(context, &names, diagnostics),
+    );
+    let parent_of_layer = parents::of_layers(context, &names, diagnostics);
+    let parents = parents::without_cycles(context, &names, parents, diagnostics);
+    let axes = axes(context, attributes, &names, diagnostics);
+    let joints = Joints {
+        drawing,
+        matched,
+        attributes,
+        names: &names,
+        parents: &parents,
+        axes: &axes,
+    };
+    let mains: Vec<usize> = context.mains().collect();
+    let found: Vec<(usize, DVec2, Option<Diagnostic>)> = mains
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .map(|part| {
+            let origin = joints.origin(part);
+            (part, origin, joints.turns_about_middle(part, origin))
+        })
+        .collect();
+    let centers = matched.parts.iter().map(|part| part.measure.center);
+    let mut origins: Vec<DVec2> = centers.collect();
+    for (part, origin, finding) in found {
+        origins[part] = origin;
+        diagnostics.extend(finding);
+    }
+    Tree {
+        by_contact,
+        nodes,
+        names: names.of_part,
+        parents,
+        parent_of_layer,
+        axes,
+        origins,
+    }
+}
+
+/// Replaces the parents of some parts.
+fn set(parents: &mut [Option<usize>], found: Vec<(usize, Option<usize>)>) {
+    for (part, parent) in found {
+        parents[part] = parent;
+    }
+}
+
+/// Names the parts without a name. Returns the parents of them and of the other parts without a string: the nearest named main
+/// parts (rule 5).
+fn automatic(
+    context: Context<'_>,
+    names: &mut Names,
+    memo: &Memo,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Option<usize>> {
+    let Context {
+        drawing, matched, ..
+    } = context;
+    let (named, waiting): (Vec<usize>, Vec<usize>) = context
+        .mains()
+        .partition(|part| !names.of(*part).is_empty());
+    // What has a string carries what labels and ids name, and both carry what nothing names. Without strings two names are needed:
+    // one says nothing about what hangs on what.
+    let (by_string, mut by_element): (Vec<usize>, Vec<usize>) = named
+        .iter()
+        .partition(|part| matched.parts[**part].string.is_some());
+    let carriers = match by_string.is_empty() && by_element.len() < 2 {
+        true => vec![],
+        false => named,
+    };
+    if by_string.is_empty() {
+        by_element.clear();
+    }
+    let mut parents = vec![None; matched.parts.len()];
+    let found = nearest(matched, by_string, &by_element, memo);
+    let carrying = parents::carrying(matched, names);
+    for (part, parent) in by_element.iter().copied().zip(found.iter().copied()) {
+        // A part that others are attached to must not hang on one of those.
+        parents[part] = parent.filter(|parent| {
+            !carrying.contains(&part) || !parents::hangs_on(matched, names, &parents, *parent, part)
+        });
+    }
+    if matched.annotated {
+        unnamed::report(drawing, matched, names, &parents, &by_element, diagnostics);
+    }
+    let found = nearest(matched, carriers, &waiting, memo);
+    let mut counter = 0;
+    for (part, parent) in waiting.iter().copied().zip(found.iter().copied()) {
+        let name = loop {
+            counter += 1;
+            let name = format!("U-{counter}");
+            if names.is_free(&name) {
+                break name;
+            }
+        };
+        names.give(part, name, NamedBy::Automatic);
+        parents[part] = parent;
+    }
+    if matched.annotated {
+        unnamed::report(drawing, matched, names, &parents, &waiting, diagnostics);
+    }
+    parents
+}
+
+/// The nearest of some parts to each of others.
+fn nearest(
+    matched: &Matched,
+    named: Vec<usize>,
+    waiting: &[usize],
+    memo: &Memo,
+) -> Arc<[Option<usize>]> {
+    let center = |part: usize| Bits(matched.parts[part].measure.center.to_array());
+    let question = NearestNamed {
+        named: named.into_iter().map(|part| (center(part), part)).collect(),
+        centers: waiting.iter().map(|part| center(*part)).collect(),
+    };
+    memo.get(question, NearestNamed::answer)
+}
+
+/// Which named part is nearest to each part without a string?
+#[derive(PartialEq, Eq, Hash)]
+struct NearestNamed {
+    /// The centres of the named parts, with their indices.
+    named: Long<(Bits<[f64; 2]>, usize)>,
+    /// The centres of the parts without a string.
+    centers: Long<Bits<[f64; 2]>>,
+}
+
+impl NearestNamed {
+    /// The nearest named part of each; of several at the same distance, the back-most.
+    fn answer(&self) -> Arc<[Option<usize>]> {
+        let named = self.named.0.iter();
+        let named = named.map(|(center, part)| GeomWithData::new(center.0, *part));
+        let tree = RTree::bulk_load(named.collect());
+        let nearest = |Bits(center): &Bits<[f64; 2]>| {
+            let distance = tree.nearest_neighbor(*center)?.distance_2(center);
+            let as_near = tree.locate_within_distance(*center, distance);
+            as_near.map(|found| found.data).min()
+        };
+        let centers = self.centers.0.par_iter().with_min_len(GRAIN);
+        centers.map(nearest).collect::<Vec<_>>().into()
+    }
+}
+
+/// Turns the axes of parts with `Axis`.
+fn axes(
+    context: Context<'_>,
+    attributes: &PartAttributes,
+    names: &Names,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Axes {
+    let found: Vec<(usize, Axis)> = (0..context.matched.parts.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .filter_map(|part| Some((part, axis(context, attributes, names, part)?)))
+        .collect();
+    let mut turned = FxHashMap::default();
+    let mut guessed = Vec::new();
+    for (part, axis) in found {
+        match axis {
+            Axis::Turned(measure) => {
+                turned.insert(part, measure);
+            }
+            Axis::Guessed(finding) => guessed.push((part, finding)),
+        }
+    }
+    let (parts, findings): (Vec<usize>, Vec<Diagnostic>) = guessed.into_iter().unzip();
+    let described = || listed(parts.iter().map(|part| context.describe(names, *part)));
+    few_or_one(
+        findings,
+        |count| {
+            let names = described();
+            format!(
+                "{count} parts are as wide as they are long, so their axes are assumed to be upright: {names}"
+            )
+        },
+        diagnostics,
+    );
+    Axes(turned)
+}
+
+/// A change to a part's axis, or a doubt about it.
+enum Axis {
+    /// `Axis` turns it.
+    Turned(Measure),
+    /// The solid depends on the axis, which the outline does not determine.
+    Guessed(Diagnostic),
+}
+
+fn axis(
+    context: Context<'_>,
+    attributes: &PartAttributes,
+    names: &Names,
+    index: usize,
+) -> Option<Axis> {
+    let Context {
+        drawing,
+        matched,
+        nodes,
+    } = context;
+    let part = &matched.parts[index];
+    let attributes = attributes.attributes(matched, index);
+    let is_built = matches!(nodes.kind[index], PartKind::Main | PartKind::Sub);
+    if !is_built || (part.host.is_some() && !attributes.have_own_form()) {
+        return None;
+    }
+    if let Some(degrees) = attributes.axis() {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let measure = measure_along(&part.outline, DVec2::new(cos, -sin))?;
+        return Some(Axis::Turned(Measure {
+            certain: true,
+            ..measure
+        }));
+    }
+    let profile = || attributes.profile(drawing);
+    let turns = !part.measure.certain && profile().is_some_and(|profile| profile.depends_on_axis());
+    turns.then(|| {
+        let name = context.describe(names, index);
+        let shape = &drawing.shapes[part.shape].element;
+        let string = matched.string_of(index);
+        let place = string.map_or(shape.span, |string| string.text.whole());
+        let message =
+            format!("{name} is as wide as it is long, so its axis is assumed to be upright");
+        Axis::Guessed(
+            Diagnostic::new(Code::AxisGuess, place, message)
+                .help("write `Axis 90` for an upright axis, `Axis 0` for a horizontal one"),
+        )
+    })
+}
+
+impl Context<'_> {
+    /// A part for people.
+    fn describe(self, names: &Names, part: usize) -> String {
+        describe(self.drawing, names.of(part), self.matched.parts[part].shape)
+    }
+}

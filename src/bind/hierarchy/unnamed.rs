@@ -1,0 +1,57 @@
+//! Reports parts that have their name and their parent without a string.
+
+use super::names::Names;
+use crate::bind::bindings::NamedBy;
+use crate::bind::matching::Matched;
+use crate::diagnostic::{Code, Diagnostic, FEW, listed};
+use crate::svg::Drawing;
+
+/// Reports parts without a string: all those with automatic names, or all those that labels and ids name.
+pub(super) fn report(
+    drawing: &Drawing,
+    matched: &Matched,
+    names: &Names,
+    parents: &[Option<usize>],
+    parts: &[usize],
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let described = |part: &usize| drawing.describe(matched.parts[*part].shape);
+    let report = |part: usize, message: String| {
+        let element = &drawing.shapes[matched.parts[part].shape].element;
+        Diagnostic::new(Code::AutomaticName, element.span, message)
+    };
+    if parts.len() <= FEW {
+        diagnostics.extend(parts.iter().map(|part| {
+            let on = parents[*part].map_or(String::new(), |parent| {
+                format!(" and is attached to `{}`", names.of(parent))
+            });
+            let name = names.of(*part);
+            let by = match names.of_part[*part].by {
+                NamedBy::Label { .. } => " by its label",
+                NamedBy::Id { .. } => " by its id",
+                NamedBy::String | NamedBy::Automatic => "",
+            };
+            let message = format!(
+                "{} has no string: it is named `{name}`{by}{on}",
+                described(part)
+            );
+            report(*part, message).help("write a name beside it, or `*` to leave it out")
+        }));
+        return;
+    }
+    let ends = [parts[0], parts[parts.len() - 1]];
+    let [from, to] = ends.map(|part| names.of(part));
+    let named = if names.of_part[parts[0]].by == NamedBy::Automatic {
+        format!("named `{from}` to `{to}`")
+    } else {
+        "named by their labels or ids".to_owned()
+    };
+    let message = format!(
+        "{} shapes have no string: they are {named}, and each is attached to the nearest named part: {}",
+        parts.len(),
+        listed(parts.iter().map(described))
+    );
+    diagnostics.push(report(parts[0], message).help(
+        "write a name beside each, or `*` to leave it out; `okoshi inspect` lists them all, each with its parent",
+    ));
+}

@@ -1,0 +1,86 @@
+//! Texts that are names and nothing more: `Head`, without any sign of the language (figure.md, Names).
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+use rustc_hash::FxHashSet;
+
+use super::fills::Fills;
+use super::wrappers::is_filled;
+use crate::bind::bindings::Place;
+use crate::lang::is_name_char;
+use crate::source::Text;
+use crate::svg::{Drawing, Label};
+
+/// The fewest names that make a drawing annotated: a single word is a title or a signature.
+const FEWEST: usize = 2;
+/// The most single letters that are taken for names: people who name parts `A`, `B`, `C` have few of them.
+const LETTERS: usize = 3;
+/// How far a name's points may be from its shape, in font sizes: one from its letters.
+const REACH: f64 = 1.3;
+
+/// Whether all words are single letters of the alphabet: lettering along a curve is often one text per letter.
+fn is_lettering(words: &FxHashSet<&str>) -> bool {
+    let is_letter =
+        |word: &&str| word.len() == 1 && word.starts_with(|c: char| c.is_ascii_alphabetic());
+    words.len() > LETTERS && words.iter().all(is_letter)
+}
+
+/// Whether a text is a single word that can name a part: it has letters, and no sign of the language.
+pub(super) fn is_bare_name(text: &str) -> bool {
+    let text = text.trim();
+    !text.starts_with(['#', '^', '%', '*'])
+        && text.chars().all(is_name_char)
+        && text.chars().any(char::is_alphabetic)
+}
+
+/// Whether the names in the descriptions of a drawing without any sign of the language are names of parts: distinct words, each of a
+/// filled shape, or of a group that directly holds one.
+pub(super) fn descriptions_name_parts(drawing: &Drawing, names: &[(Place, Arc<Text>)]) -> bool {
+    let holding = drawing.shapes.iter().filter(|shape| is_filled(shape));
+    let holding: FxHashSet<usize> = holding.map(|shape| shape.group).collect();
+    let mut seen = FxHashSet::default();
+    names.iter().all(|(place, text)| {
+        let has_part = match place {
+            Place::Shape(shape) => is_filled(&drawing.shapes[*shape]),
+            Place::Group(group) => holding.contains(group),
+            Place::Label(_) => false,
+        };
+        has_part && seen.insert(text.as_str().trim())
+    })
+}
+
+/// Whether the texts of a drawing without any sign of the language but `*` are names of parts: distinct words, two or more with the
+/// `*`s, each on a filled shape, beside one, or joined to one by a line.
+pub(super) fn name_parts(drawing: &Drawing) -> bool {
+    let labels = drawing.labels.iter().map(|(label, _)| label);
+    let labels: Vec<&Label> = labels
+        .filter(|label| !label.text.as_str().trim().is_empty())
+        .collect();
+    let mut seen = FxHashSet::default();
+    let words = labels.iter().map(|label| label.text.as_str().trim());
+    // A `*` leaves a shape out: beside a name it says that the texts are about the shapes.
+    let mut names = words.filter(|word| !word.starts_with('*'));
+    let distinct = names.all(|word| is_bare_name(word) && seen.insert(word));
+    if !distinct || seen.is_empty() || labels.len() < FEWEST || is_lettering(&seen) {
+        return false;
+    }
+    let fills = Fills::from(drawing, 0);
+    let lines = drawing
+        .shapes
+        .iter()
+        .filter_map(|shape| shape.line.as_ref());
+    let ends: Vec<[DVec2; 2]> = lines.map(|line| line.ends).collect();
+    labels.par_iter().all(|label| {
+        let reach = REACH * label.font_size;
+        let (low, high) = label.position.bounds;
+        let begins_at = |end: DVec2| end.distance(end.clamp(low, high)) <= reach;
+        let leads_to_shape = |[from, to]: &[DVec2; 2]| {
+            begins_at(*from) && fills.is_near(*to, reach)
+                || begins_at(*to) && fills.is_near(*from, reach)
+        };
+        let mut points = label.position.points.into_iter();
+        points.any(|point| fills.is_near(point, reach)) || ends.iter().any(leads_to_shape)
+    })
+}

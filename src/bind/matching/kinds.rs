@@ -1,0 +1,62 @@
+//! The kinds of parts, now that the strings are bound.
+
+use super::layers::{LayerKind, Layers};
+use super::parts::MatchedPart;
+use crate::bind::bindings::{DrawingString, PartKind};
+use crate::lang::ast::Annotation;
+use crate::svg::Drawing;
+
+/// The kind of every part. `backgrounds` says of each shape whether it is a background, unless a string names it.
+pub(super) fn classify(
+    drawing: &Drawing,
+    strings: &[DrawingString],
+    parts: &[MatchedPart],
+    layers: &Layers,
+    backgrounds: &[bool],
+) -> Vec<PartKind> {
+    let kind = |(index, part): (usize, &MatchedPart)| {
+        let is_main = part.main == index;
+        match part.string.map(|string| &strings[string].annotation) {
+            None if backgrounds[part.shape] => PartKind::Unused,
+            Some(Annotation::Unused) => PartKind::Unused,
+            Some(Annotation::Legend(_)) if is_main => PartKind::Legend,
+            _ if is_main => PartKind::Main,
+            _ => PartKind::Sub,
+        }
+    };
+    let mut kinds: Vec<PartKind> = parts.iter().enumerate().map(kind).collect();
+    // Sub-parts are left out together with their main part.
+    for (index, part) in parts.iter().enumerate() {
+        let of_main = kinds[part.main];
+        if part.main != index && matches!(of_main, PartKind::Unused | PartKind::Legend) {
+            kinds[index] = of_main;
+        }
+    }
+    if !layers.is_empty() {
+        // Parts in views are regions of their characters, and those without a string in tile layers are tiles.
+        for (part, kind) in parts.iter().zip(&mut kinds) {
+            let group = drawing.shapes[part.shape].group;
+            let in_layer = |kind| layers.of_group_and_kind(group, kind).is_some();
+            let unbound = part.string.is_none() && parts[part.main].string.is_none();
+            if in_layer(LayerKind::View) && *kind != PartKind::Unused {
+                *kind = PartKind::Region;
+            } else if unbound && in_layer(LayerKind::Tiles) {
+                *kind = PartKind::Tile;
+            }
+        }
+    }
+    for (index, part) in parts.iter().enumerate() {
+        if let Some(host) = part.host {
+            kinds[index] = of_ink(kinds[host]);
+        }
+    }
+    kinds
+}
+
+/// The kind of ink on a part of this kind: it is in the same node, or is left out too.
+pub(in crate::bind) fn of_ink(host: PartKind) -> PartKind {
+    match host {
+        PartKind::Main => PartKind::Sub,
+        other => other,
+    }
+}

@@ -1,0 +1,286 @@
+//! Layers: groups with a string of their own, such as a map of tiles (terrain.md, Input).
+
+use rayon::prelude::*;
+
+use super::strings::ReadString;
+use crate::bind::bindings::{Bindings, DrawingString, Place};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang;
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::svg::{Drawing, PaintKey};
+use crate::threads::GRAIN;
+
+/// What a string makes of its group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LayerKind {
+    /// A map of tiles: shapes in the group are tiles, not parts.
+    Tiles,
+    /// A character as seen from one side: shapes in the group are its regions, not parts.
+    View,
+    /// A key pose of a figure. No effect yet.
+    Pose,
+}
+
+/// The attributes that make a string a group string, each with the kind of its layer. Of several the first in this list counts.
+const KINDS: [(Keyword, LayerKind); 3] = [
+    (Keyword::Tiles, LayerKind::Tiles),
+    (Keyword::View, LayerKind::View),
+    (Keyword::Pose, LayerKind::Pose),
+];
+
+/// The name of a layer whose string has no name and whose group has neither label nor id.
+const NAMELESS: &str = "Tiles";
+
+/// A layer: a group and its string.
+#[derive(Debug, Clone)]
+pub struct Layer {
+    /// What the string makes of the group.
+    pub kind: LayerKind,
+    /// Its name. No part and no other tile layer has the name of a tile layer.
+    pub name: String,
+    /// Index of its string.
+    pub string: usize,
+    /// Index of its group.
+    pub group: usize,
+}
+
+/// The layers of a drawing, in the order of their strings.
+#[derive(Debug, Default)]
+pub struct Layers {
+    all: Vec<Layer>,
+    /// Per group the innermost tile layer or view that it is, or is in; empty if there are no layers.
+    of_group: Vec<Option<usize>>,
+}
+
+impl LayerKind {
+    /// Whether shapes in the group belong to the layer: they are no parts of figures.
+    fn holds_content(self) -> bool {
+        matches!(self, Self::Tiles | Self::View)
+    }
+
+    /// The kind of layer that a string makes of its group, if it does.
+    pub(in crate::bind) fn of(annotation: &Annotation) -> Option<Self> {
+        let Annotation::Part(part) = annotation else {
+            return None;
+        };
+        let is_set = |keyword| {
+            let mut attributes = part.attributes.iter();
+            attributes.any(|attribute| attribute.keyword == keyword)
+        };
+        let kind = KINDS.iter().find(|(keyword, _)| is_set(*keyword));
+        kind.map(|(_, kind)| *kind)
+    }
+}
+
+/// Whether each group is a layer whose pictures are read pixel by pixel, or in one.
+pub fn in_layers_of_pixels(drawing: &Drawing) -> Vec<bool> {
+    let is_layer = |text, place| {
+        let (annotation, _) = lang::parse(text, place);
+        LayerKind::of(&annotation).is_some_and(LayerKind::holds_content)
+    };
+    let labels = drawing.labels.par_iter().with_min_len(GRAIN);
+    let of_labels = labels.filter_map(|(label, group)| {
+        is_layer(&label.text, lang::Container::Text).then_some(*group)
+    });
+    let mut layer_groups: Vec<usize> = of_labels.collect();
+    let groups = drawing.groups.iter().enumerate();
+    let groups = groups.map(|(index, group)| (&group.element, index));
+    let shapes = drawing.shapes.iter();
+    let shapes = shapes.map(|shape| (&shape.element, shape.group));
+    for (element, group) in groups.chain(shapes) {
+        let desc = element.desc.as_deref();
+        if let Some(text) = desc.filter(|text| lang::describes(text.as_str())) {
+            layer_groups.extend(is_layer(text, lang::Container::Desc).then_some(group));
+        }
+    }
+    let mut layer = vec![None; drawing.groups.len()];
+    for group in layer_groups {
+        layer[group] = Some(0);
+    }
+    spread(drawing, &mut layer);
+    layer.iter().map(Option::is_some).collect()
+}
+
+/// Gives every group without a layer of its own the layer of the group around it.
+fn spread(drawing: &Drawing, layer: &mut [Option<usize>]) {
+    for (index, group) in drawing.groups.iter().enumerate() {
+        layer[index] = layer[index].or(layer[group.parent]);
+    }
+}
+
+/// Index of the group that holds a string.
+pub(in crate::bind) fn group_of(drawing: &Drawing, place: Place) -> usize {
+    match place {
+        Place::Label(label) => drawing.labels[label].1,
+        Place::Shape(shape) => drawing.shapes[shape].group,
+        Place::Group(group) => group,
+    }
+}
+
+/// Finds the layers, before anything is bound.
+pub(super) fn find(
+    drawing: &Drawing,
+    strings: &[ReadString],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Layers {
+    let mut layer: Vec<Option<usize>> = vec![None; drawing.groups.len()];
+    let mut layers: Vec<Layer> = Vec::new();
+    for (index, string) in strings.iter().enumerate() {
+        let Annotation::Part(annotation) = &string.annotation else {
+            continue;
+        };
+        let Some(kind) = LayerKind::of(&string.annotation) else {
+            continue;
+        };
+        let group = group_of(drawing, string.place);
+        if let Some(first) = layer[group].filter(|_| kind.holds_content()) {
+            let other: &Layer = &layers[first];
+            let element = &drawing.groups[group].element;
+            let message = format!(
+                "this string and another one make the same group a layer, {}",
+                drawing.describe_group(group)
+            );
+            diagnostics.push(
+                Diagnostic::new(Code::TwoStrings, string.text.whole(), message)
+                .related(
+                    strings[other.string].text.whole(),
+                    "the other string, which counts",
+                )
+                .related(element.span, "the group")
+                .help(
+                    "delete one of them, or put each into the group or layer that contains its shapes",
+                ),
+            );
+            continue;
+        }
+        if kind.holds_content() {
+            layer[group] = Some(layers.len());
+        }
+        let name = annotation.name.as_ref().map(|name| name.text.clone());
+        let named_by = match string.place {
+            Place::Shape(shape) => &drawing.shapes[shape].element,
+            _ => &drawing.groups[group].element,
+        };
+        let name = name.unwrap_or_else(|| match named_by.own_name() {
+            "" => NAMELESS.to_owned(),
+            own => own.to_owned(),
+        });
+        layers.push(Layer {
+            kind,
+            name,
+            string: index,
+            group,
+        });
+    }
+    if layers.is_empty() {
+        return Layers::default();
+    }
+    spread(drawing, &mut layer);
+    Layers {
+        all: layers,
+        of_group: layer,
+    }
+}
+
+impl std::ops::Index<usize> for Layers {
+    type Output = Layer;
+
+    fn index(&self, layer: usize) -> &Layer {
+        &self.all[layer]
+    }
+}
+
+impl Layers {
+    /// All layers.
+    pub fn iter(&self) -> std::slice::Iter<'_, Layer> {
+        self.all.iter()
+    }
+
+    /// How many layers there are.
+    pub fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    /// Whether there is no layer.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// The layers of a kind, each with its index.
+    fn of_kind(&self, kind: LayerKind) -> impl Iterator<Item = (usize, &Layer)> {
+        let layers = self.all.iter().enumerate();
+        layers.filter(move |(_, layer)| layer.kind == kind)
+    }
+
+    /// The tile layers, each with its index.
+    pub(in crate::bind) fn tile_layers(&self) -> impl Iterator<Item = (usize, &Layer)> {
+        self.of_kind(LayerKind::Tiles)
+    }
+
+    /// Index of the innermost tile layer or view that a group is, or is in.
+    pub(in crate::bind) fn of_group(&self, group: usize) -> Option<usize> {
+        self.of_group.get(group).copied().flatten()
+    }
+
+    /// The same, if that is of a kind.
+    pub(in crate::bind) fn of_group_and_kind(
+        &self,
+        group: usize,
+        kind: LayerKind,
+    ) -> Option<usize> {
+        let layer = self.of_group(group);
+        layer.filter(|layer| self.all[*layer].kind == kind)
+    }
+
+    /// Whether a shape is a picture in a tile layer or a view, and so no part.
+    pub(in crate::bind) fn hold_picture(&self, drawing: &Drawing, shape: usize) -> bool {
+        let shape = &drawing.shapes[shape];
+        let is_picture = matches!(shape.paint.key, PaintKey::Picture(_));
+        is_picture && self.of_group(shape.group).is_some()
+    }
+
+    /// Whether a string excludes a picture from its tile layer. It cannot be bound, because such pictures are no parts.
+    pub(in crate::bind) fn leave_picture_out(
+        &self,
+        drawing: &Drawing,
+        string: &DrawingString,
+    ) -> bool {
+        let Place::Shape(shape) = string.place else {
+            return false;
+        };
+        string.annotation == Annotation::Unused && self.hold_picture(drawing, shape)
+    }
+}
+
+impl Bindings {
+    /// The tile layers, each with its index among all [`layers`](Self::layers).
+    pub fn tile_layers(&self) -> impl Iterator<Item = (usize, &Layer)> {
+        self.layers.tile_layers()
+    }
+
+    /// The views of characters, each with its index among all [`layers`](Self::layers).
+    pub fn views(&self) -> impl Iterator<Item = (usize, &Layer)> {
+        self.layers.of_kind(LayerKind::View)
+    }
+
+    /// Index of the tile layer that a group is, or is in.
+    pub fn tile_layer_of_group(&self, group: usize) -> Option<usize> {
+        self.layers.of_group_and_kind(group, LayerKind::Tiles)
+    }
+
+    /// Index of the view of a character that a group is, or is in.
+    pub fn view_of_group(&self, group: usize) -> Option<usize> {
+        self.layers.of_group_and_kind(group, LayerKind::View)
+    }
+
+    /// Index of the view that a string is in.
+    pub fn view_of_string(&self, drawing: &Drawing, string: usize) -> Option<usize> {
+        self.view_of_group(group_of(drawing, self.strings[string].place))
+    }
+
+    /// Whether a shape is a picture in a tile layer or a view, and so no part.
+    pub fn is_picture_of_layer(&self, drawing: &Drawing, shape: usize) -> bool {
+        self.layers.hold_picture(drawing, shape)
+    }
+}

@@ -1,0 +1,179 @@
+//! Which shape a text means: the one that its beginning, middle or end lies on or is nearest to, all texts together
+//! (figure.md, Binding, rule 4).
+
+mod assignment;
+mod units;
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+
+use super::nearest::{AssignmentProblem, DistanceMode, Target};
+use super::parts::MatchedPart;
+use super::stacking::Stacking;
+use crate::memo::{Bits, Memo};
+use assignment::{Assignment, assign};
+use units::{Candidate, Candidates, Units};
+pub(in crate::bind::matching) use units::{Scope, TextPlace};
+
+/// How many of the nearest units a text can have at first.
+const NEAREST: usize = 8;
+/// How much cheaper, in font sizes, a group of another text must be for it to be opened.
+const OPENS: f64 = 2.0;
+/// How many candidates all texts have at most; where more texts compete for the units in one place, the rest get the nearest free ones.
+const MAX_CANDIDATES: usize = 1 << 17;
+/// A binding is uncertain if all texts together would cost less than this more without it, font sizes.
+const UNCERTAIN: f64 = 0.53;
+/// How much more certain a binding is for each point of the text at which the unit shows.
+const SHOWS: f64 = 0.5;
+
+/// The units of some texts.
+#[derive(Debug, Default)]
+pub(super) struct Meant {
+    /// Per text the main part of what it means, and of what it means if it does not mean that.
+    pub(super) found: Vec<Option<(usize, Option<usize>)>>,
+    /// Main parts of groups that several texts mean, each text something in them.
+    pub(super) opened: Vec<usize>,
+}
+
+/// Finds what texts mean. `scope` tells for a main part which texts may mean its unit.
+pub(super) fn find(
+    texts: &[TextPlace],
+    stacking: &Arc<Stacking>,
+    parts: &[MatchedPart],
+    scope: impl Fn(usize) -> Option<Scope>,
+    memo: &Memo,
+) -> Meant {
+    let units = Units::read(stacking, parts, scope, memo);
+    let counts = units.count_by_scope();
+    let count = |text: usize| counts.get(&texts[text].scope).copied().unwrap_or(0);
+    let mut wanted = vec![NEAREST; texts.len()];
+    let (candidates, assignment) = loop {
+        let each = texts.iter().copied().zip(wanted.iter().copied());
+        let candidates = units.candidates(each, memo);
+        let assignment = assign(&candidates, units.units.len());
+        let mut sum: usize = wanted.iter().sum();
+        let mut widened = false;
+        for (text, unit) in assignment.unit_of.iter().enumerate() {
+            if unit.is_none() && wanted[text] < count(text) && sum < MAX_CANDIDATES {
+                sum += wanted[text];
+                wanted[text] *= 2;
+                widened = true;
+            }
+        }
+        if !widened {
+            break (candidates, assignment);
+        }
+    };
+    let mut assignment = assignment;
+    share_out_rest(texts, &units, parts, &mut assignment);
+    let main = |unit: usize| units.units[unit].members[0];
+    let found = assignment.unit_of.iter().enumerate();
+    let found = found.map(|(text, unit)| {
+        let rival = rival(&candidates, &assignment, text);
+        unit.map(|unit| (main(unit), rival.map(main)))
+    });
+    let opened = opened(&candidates, &assignment, &units);
+    Meant {
+        found: found.collect(),
+        opened: opened.into_iter().map(main).collect(),
+    }
+}
+
+/// Gives texts without a unit the nearest free ones, nearest pairs first.
+fn share_out_rest(
+    texts: &[TextPlace],
+    units: &Units,
+    parts: &[MatchedPart],
+    assignment: &mut Assignment,
+) {
+    // In the order of their first texts.
+    let mut rest: Vec<(Scope, Vec<usize>)> = Vec::new();
+    let mut places: FxHashMap<Scope, usize> = FxHashMap::default();
+    for (text, unit) in assignment.unit_of.iter().enumerate() {
+        if unit.is_none() {
+            let scope = texts[text].scope;
+            let place = *places.entry(scope).or_insert(rest.len());
+            if place == rest.len() {
+                rest.push((scope, Vec::new()));
+            }
+            rest[place].1.push(text);
+        }
+    }
+    for (scope, rest) in rest {
+        let is_free = |unit: &usize| {
+            units.units[*unit].scope == Some(scope) && assignment.text_of[*unit].is_none()
+        };
+        let free: Vec<usize> = (0..units.units.len()).filter(is_free).collect();
+        let target = |unit: &usize| Target::of(&parts[units.units[*unit].members[0]]);
+        let middle = |text: &usize| Bits(DVec2::from(texts[*text].points.0[1]));
+        let problem = AssignmentProblem {
+            corners: rest.iter().map(middle).collect(),
+            targets: free.iter().map(target).collect(),
+            mode: DistanceMode::Center,
+        };
+        for (text, found) in rest.iter().zip(problem.solve()) {
+            if let Some(unit) = found.target.map(|target| free[target]) {
+                assignment.unit_of[*text] = Some(unit);
+                assignment.text_of[unit] = Some(*text);
+            }
+        }
+    }
+}
+
+/// A unit among those that a text can have.
+fn candidate(candidates: &Candidates, unit: usize) -> Option<&Candidate> {
+    candidates.iter().find(|candidate| candidate.unit == unit)
+}
+
+fn cheapest<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Option<&'a Candidate> {
+    candidates.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
+/// The unit that a text would have if it could not have its own, if all texts together would hardly cost more: the text that
+/// has that one may take any other, but none beyond that is displaced.
+fn rival(candidates: &[Candidates], assignment: &Assignment, text: usize) -> Option<usize> {
+    let own = candidate(&candidates[text], assignment.unit_of[text]?)?;
+    let increase = |rival: &Candidate| {
+        let displaced = assignment.text_of[rival.unit].map_or(0.0, |other| {
+            let costs = &candidates[other];
+            let can_have = |candidate: &&Candidate| {
+                candidate.unit == own.unit || assignment.text_of[candidate.unit].is_none()
+            };
+            let next = cheapest(costs.iter().filter(can_have));
+            let now = candidate(costs, rival.unit);
+            let [next, now] =
+                [next, now].map(|found| found.map_or(f64::INFINITY, |found| found.cost));
+            next - now
+        });
+        rival.cost - own.cost + displaced
+    };
+    let others = candidates[text].iter();
+    let others = others.filter(|candidate| candidate.unit != own.unit);
+    let (unit, least) = others
+        .map(|rival| (rival.unit, increase(rival)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (least + SHOWS * f64::from(own.shows_at) < UNCERTAIN).then_some(unit)
+}
+
+/// The groups that texts want which other texts have, and want so much more than what they got that they mean something in
+/// the group.
+fn opened(candidates: &[Candidates], assignment: &Assignment, units: &Units) -> Vec<usize> {
+    let mut opened = Vec::new();
+    for (text, candidates) in candidates.iter().enumerate() {
+        let Some(best) = cheapest(candidates.iter()) else {
+            continue;
+        };
+        let has = assignment.unit_of[text].and_then(|unit| candidate(candidates, unit));
+        let has = has.map_or(f64::INFINITY, |has| has.cost);
+        let is_taken = assignment.text_of[best.unit].is_some_and(|other| other != text);
+        let is_group = units.units[best.unit].members.len() > 1;
+        if is_group && is_taken && has >= best.cost + OPENS {
+            opened.push(best.unit);
+        }
+    }
+    opened.sort_unstable();
+    opened.dedup();
+    opened
+}

@@ -1,0 +1,385 @@
+//! Units, which texts name, and what each would cost a text (figure.md, Binding, rule 4).
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rustc_hash::FxHashMap;
+
+use crate::bind::matching::parts::MatchedPart;
+use crate::bind::matching::stacking::{Facts, Stacking};
+use crate::geometry::{Outline, distance_squared};
+use crate::memo::{Bits, Long, Memo, Same};
+use crate::threads::GRAIN;
+
+// The costs, in font sizes. They were fitted to 1,682 texts laid on thirteen drawings, natural and beside, above, below,
+// inside; see docs/figures.md for the rule in words.
+
+/// Up to here a distance costs as much as it is long.
+const NEAR: f64 = 3.0;
+/// A unit that is covered where the text lies on it.
+const COVERED: f64 = 0.5;
+/// A unit that only the end of the text lies on or is near to: a text begins at what it means, or is centred on it.
+const END: f64 = 0.4;
+/// A detail, unless the whole text lies on it.
+const DETAIL: f64 = 0.33;
+/// A unit of which less than [`HARDLY_SHOWS`] shows, unless the text lies on what shows.
+const HIDDEN: f64 = 1.5;
+/// The share of its area below which a unit hardly shows.
+const HARDLY_SHOWS: f64 = 0.25;
+/// The ground.
+const GROUND: f64 = 5.0;
+/// A text beside a unit: each font size that it is off the unit's middle, up to [`MAX_OFF`].
+const OFF: f64 = 0.2;
+/// From here on a text is as far off the middle as it can be, font sizes.
+const MAX_OFF: f64 = 4.0;
+/// A text that is neither level with the unit nor above or below it.
+const DIAGONAL: f64 = 1.0;
+/// A unit smaller than [`LARGE`], times the logarithm of how much smaller: people name large parts rather than small ones.
+const SMALL: f64 = 0.1;
+/// A unit about as large as a word, square font sizes.
+const LARGE: f64 = 15.0;
+/// Each font size between the middles of text and unit: it decides between what costs the same otherwise.
+const MIDDLES: f64 = 0.002;
+/// Half the height of a line of text, font sizes.
+const HALF_LINE: f64 = 0.35;
+
+/// How many leaves of the index are visited for each unit that is wanted: a group may have many members.
+const VISITS: usize = 32;
+
+/// What a text can name: a shape, or a group. Its members share a node.
+#[derive(Debug)]
+pub(super) struct Unit {
+    /// Indices of its parts, in paint order.
+    pub(super) members: Vec<usize>,
+    /// Its bounding box.
+    bounds: (DVec2, DVec2),
+    /// Its area, square units.
+    area: f64,
+    /// The unit on which it lies, if it is a detail.
+    host: Option<usize>,
+    /// Whether so little of it shows that it was hardly meant.
+    hidden: bool,
+    ground: bool,
+    /// Which texts may name it; `None` if none may.
+    pub(super) scope: Option<Scope>,
+}
+
+/// The container whose texts may name a unit; `None` for texts outside of containers.
+pub(in crate::bind) type Scope = Option<usize>;
+
+/// The units of a drawing.
+#[derive(Debug)]
+pub(super) struct Units {
+    stacking: Arc<Stacking>,
+    pub(super) units: Vec<Unit>,
+    /// Per part its unit.
+    of_part: Vec<usize>,
+    /// Per scope the members of its units.
+    trees: FxHashMap<Scope, RTree<Member>>,
+}
+
+/// What units are computed from.
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct UnitsKey {
+    stacking: Same<Stacking>,
+    /// Per part the main part candidate of its node, and for such a candidate the scope, if texts may name it.
+    parts: Long<(usize, Option<Scope>)>,
+}
+
+/// Where a text lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(in crate::bind) struct TextPlace {
+    /// Its beginning, middle and end; or three times the end of its leader.
+    pub(in crate::bind) points: Bits<[[f64; 2]; 3]>,
+    /// Its font size.
+    pub(in crate::bind) em: Bits<f64>,
+    /// Whether a leader points to what it names.
+    pub(in crate::bind) has_leader: bool,
+    pub(in crate::bind) scope: Scope,
+}
+
+/// Which units would a text name at the least cost?
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct CandidatesKey {
+    units: Same<Units>,
+    text: TextPlace,
+    count: usize,
+}
+
+/// A unit that a text can have.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Candidate {
+    pub(super) unit: usize,
+    /// What it costs, font sizes.
+    pub(super) cost: f64,
+    /// At how many of the text's points it shows.
+    pub(super) shows_at: u8,
+}
+
+/// The units that a text can have.
+pub(super) type Candidates = Arc<[Candidate]>;
+
+impl Units {
+    /// The units of `parts`; `scope` tells for a main part candidate which texts may name its unit.
+    pub(super) fn read(
+        stacking: &Arc<Stacking>,
+        parts: &[MatchedPart],
+        scope: impl Fn(usize) -> Option<Scope>,
+        memo: &Memo,
+    ) -> Arc<Self> {
+        let part = |(index, part): (usize, &MatchedPart)| {
+            let scope = (part.main == index).then(|| scope(index)).flatten();
+            (part.main, scope)
+        };
+        let key = UnitsKey {
+            stacking: Same(Arc::clone(stacking)),
+            parts: parts.iter().enumerate().map(part).collect(),
+        };
+        memo.get(key, |key| Arc::new(Self::new(key, parts)))
+    }
+
+    fn new(key: &UnitsKey, parts: &[MatchedPart]) -> Self {
+        let stacking = &key.stacking.0;
+        let mut of_part = vec![usize::MAX; parts.len()];
+        let mut members: Vec<Vec<usize>> = Vec::new();
+        for (index, (main, _)) in key.parts.0.iter().enumerate() {
+            // The main part is the back-most of its node.
+            if *main == index {
+                of_part[index] = members.len();
+                members.push(vec![index]);
+            } else {
+                of_part[index] = of_part[*main];
+                if stacking.has(index) {
+                    members[of_part[*main]].push(index);
+                }
+            }
+        }
+        let units = members.into_par_iter().with_min_len(GRAIN);
+        let units: Vec<Unit> = units
+            .map(|members| {
+                let bounds = members.iter().map(|part| parts[*part].measure.bounds);
+                let (low, high) = bounds
+                    .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+                    .unwrap_or_default();
+                let facts = stacking.of_unit(&members);
+                let host = host(stacking, &facts);
+                Unit {
+                    bounds: (low, high),
+                    area: facts.area,
+                    host: host.map(|part| of_part[part]),
+                    hidden: facts.shown < HARDLY_SHOWS * facts.area,
+                    ground: members.iter().all(|part| stacking.is_ground(*part)),
+                    scope: key.parts.0[members[0]].1,
+                    members,
+                }
+            })
+            .collect();
+        let mut leaves: FxHashMap<Scope, Vec<Member>> = FxHashMap::default();
+        for (index, unit) in units.iter().enumerate() {
+            let Some(scope) = unit.scope else { continue };
+            let members = unit.members.iter().map(|part| {
+                let (low, high) = parts[*part].measure.bounds;
+                Member {
+                    unit: index,
+                    envelope: AABB::from_corners(low.to_array(), high.to_array()),
+                    outline: Arc::clone(&parts[*part].outline),
+                }
+            });
+            leaves.entry(scope).or_default().extend(members);
+        }
+        let trees = leaves
+            .into_iter()
+            .map(|(scope, leaves)| (scope, RTree::bulk_load(leaves)));
+        Self {
+            stacking: Arc::clone(stacking),
+            trees: trees.collect(),
+            units,
+            of_part,
+        }
+    }
+
+    /// The units under each text and the `count` nearest ones.
+    pub(super) fn candidates(
+        self: &Arc<Self>,
+        texts: impl Iterator<Item = (TextPlace, usize)>,
+        memo: &Memo,
+    ) -> Vec<Candidates> {
+        let key = |(text, count)| CandidatesKey {
+            units: Same(Arc::clone(self)),
+            text,
+            count,
+        };
+        memo.get_each(texts.map(key).collect(), |key| {
+            key.units.0.candidates_of(&key.text, key.count).into()
+        })
+    }
+
+    fn candidates_of(&self, text: &TextPlace, count: usize) -> Vec<Candidate> {
+        let points = text.points.0.map(DVec2::from);
+        let em = text.em.0;
+        let mut found: Vec<Candidate> = Vec::new();
+        let mut offer = |unit: usize, cost: f64, shows: bool| {
+            let shows_at = u8::from(shows);
+            match found.iter_mut().find(|found| found.unit == unit) {
+                Some(found) => {
+                    found.cost = found.cost.min(cost);
+                    found.shows_at += shows_at;
+                }
+                None => found.push(Candidate {
+                    unit,
+                    cost,
+                    shows_at,
+                }),
+            }
+        };
+        let distinct = if text.has_leader { 1 } else { points.len() };
+        for (index, point) in points[..distinct].iter().enumerate() {
+            let place = if index == 2 { END } else { 0.0 };
+            let stack = self.stacking.at(*point);
+            let mut seen = stack.first().map(|part| self.of_part[*part]);
+            let mut shows = true;
+            while let Some(unit) = seen {
+                offer(unit, place, shows);
+                seen = self.units[unit].host;
+                shows = false;
+            }
+            // As many as of those beside it: each is looked for among those found so far.
+            for part in stack.into_iter().take(count) {
+                offer(self.of_part[part], place + COVERED, false);
+            }
+            let Some(tree) = self.trees.get(&text.scope) else {
+                continue;
+            };
+            for (unit, distance) in nearest(tree, *point, count) {
+                // What contains the point is in the stack.
+                if distance > 0.0 {
+                    offer(unit, place + cost_of(distance.sqrt() / em), false);
+                }
+            }
+        }
+        found.retain(|found| self.units[found.unit].scope == Some(text.scope));
+        for candidate in &mut found {
+            candidate.cost += self.penalties(candidate, text, &points);
+        }
+        found
+    }
+
+    /// What a unit costs besides its distance.
+    fn penalties(&self, candidate: &Candidate, text: &TextPlace, points: &[DVec2; 3]) -> f64 {
+        let unit = &self.units[candidate.unit];
+        let em = text.em.0;
+        let mut cost = 0.0;
+        let lies_on = |point: &DVec2| {
+            let mut members = unit.members.iter();
+            members.any(|part| self.stacking.is_on(*part, *point))
+        };
+        if unit.host.is_some() && (text.has_leader || !points.iter().all(lies_on)) {
+            cost += DETAIL;
+        }
+        if unit.hidden && candidate.shows_at == 0 {
+            cost += HIDDEN;
+        }
+        if unit.ground {
+            cost += GROUND;
+        }
+        let (low, high) = unit.bounds;
+        let middle = points[0].midpoint(points[2]);
+        let off = (low.midpoint(high) - middle).abs() / em;
+        if !text.has_leader {
+            let half_line = DVec2::new(0.0, HALF_LINE * em);
+            let first = points[0].min(points[2]) - half_line;
+            let last = points[0].max(points[2]) + half_line;
+            let beside = first.x > high.x || last.x < low.x;
+            let above_or_below = first.y > high.y || last.y < low.y;
+            cost += match (beside, above_or_below) {
+                (false, false) => 0.0,
+                (true, false) => OFF * off.y.min(MAX_OFF),
+                (false, true) => OFF * off.x.min(MAX_OFF),
+                (true, true) => DIAGONAL + OFF * off.min_element().min(MAX_OFF),
+            };
+        }
+        let smaller = LARGE * em * em / unit.area.max(f64::MIN_POSITIVE);
+        cost + SMALL * smaller.ln().max(0.0) + MIDDLES * off.length()
+    }
+
+    /// How many units the texts of each scope may name.
+    pub(super) fn count_by_scope(&self) -> FxHashMap<Scope, usize> {
+        let mut counts = FxHashMap::default();
+        for scope in self.units.iter().filter_map(|unit| unit.scope) {
+            *counts.entry(scope).or_insert(0) += 1;
+        }
+        counts
+    }
+}
+
+/// The units nearest to a point, each with the square of its distance.
+fn nearest(tree: &RTree<Member>, point: DVec2, count: usize) -> Vec<(usize, f64)> {
+    let mut nearest: Vec<(usize, f64)> = Vec::with_capacity(count + 1);
+    // By the distance of boxes, which is never more than that of outlines and much quicker to find.
+    let members = tree.nearest_neighbor_iter_with_distance_2(point.to_array());
+    for (member, least) in members.take(VISITS * count) {
+        let farthest = nearest
+            .last()
+            .map_or(f64::INFINITY, |(_, distance)| *distance);
+        if nearest.len() == count && least >= farthest {
+            break;
+        }
+        let distance = distance_squared(&member.outline, point);
+        if nearest.len() == count && distance >= farthest {
+            continue;
+        }
+        if let Some(index) = nearest.iter().position(|(unit, _)| *unit == member.unit) {
+            if nearest[index].1 <= distance {
+                continue;
+            }
+            nearest.remove(index);
+        }
+        let place = nearest.partition_point(|(_, other)| *other <= distance);
+        nearest.insert(place, (member.unit, distance));
+        nearest.truncate(count);
+    }
+    nearest
+}
+
+/// The cost of a distance in font sizes: the distance itself, but what is far is about equally far, so that a text far from
+/// everything does not displace one that lies on what it means.
+fn cost_of(distance: f64) -> f64 {
+    match distance > NEAR {
+        true => NEAR * (1.0 + (distance / NEAR).ln()),
+        false => distance,
+    }
+}
+
+/// The part on which a unit lies, if it is a detail: a larger, earlier one that is no ground and of which more shows.
+fn host(stacking: &Stacking, facts: &Facts) -> Option<usize> {
+    let is_host = |part: &usize| {
+        let other = stacking.of_part(*part);
+        !stacking.is_ground(*part) && other.area > facts.area && other.shown >= facts.area
+    };
+    facts.lies_on.iter().copied().find(is_host)
+}
+
+/// A member of a unit, found by its box.
+#[derive(Debug)]
+struct Member {
+    unit: usize,
+    envelope: AABB<[f64; 2]>,
+    outline: Arc<Outline>,
+}
+
+impl RTreeObject for Member {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        self.envelope
+    }
+}
+
+impl PointDistance for Member {
+    /// The distance of its box.
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        self.envelope.distance_2(point)
+    }
+}

@@ -1,0 +1,166 @@
+//! Matches the strings of a drawing with its parts (figure.md, Binding).
+
+mod areas;
+mod bare_names;
+mod binder;
+mod converted;
+mod fills;
+mod ink;
+mod kinds;
+mod layers;
+mod leaders;
+mod meant;
+mod nearest;
+mod node_groups;
+mod parts;
+mod settings;
+mod stacking;
+mod strings;
+mod wrappers;
+
+pub(in crate::bind) use kinds::of_ink;
+pub(in crate::bind) use layers::group_of;
+pub use layers::{Layer, LayerKind, Layers, in_layers_of_pixels};
+pub(in crate::bind) use leaders::Leaders;
+pub use nearest::DistanceMode;
+pub(in crate::bind) use parts::MatchedPart;
+pub use settings::{BindRule, DrawingSettings, Strokes};
+pub(in crate::bind) use stacking::Stacking;
+pub(in crate::bind) use strings::wants_part;
+
+use std::sync::Arc;
+
+use super::bindings::{DrawingString, PartKind};
+use crate::diagnostic::Diagnostic;
+use crate::lang::Variables;
+use crate::lang::value::Setting;
+use crate::memo::Memo;
+use crate::svg::Drawing;
+use areas::Area;
+use binder::{Binder, Bound, Rules};
+use node_groups::NodeGroups;
+
+/// The strings and parts of a drawing, matched with each other.
+pub(in crate::bind) struct Matched {
+    /// Whether the drawing is annotated at all (language.md, Where strings live).
+    pub(in crate::bind) annotated: bool,
+    /// The strings, in the order of the file.
+    pub(in crate::bind) strings: Vec<DrawingString>,
+    /// The parts, back-most first.
+    pub(in crate::bind) parts: Vec<MatchedPart>,
+    /// Per part its kind, before details join what they lie on.
+    pub(in crate::bind) kinds: Vec<PartKind>,
+    /// The layers.
+    pub(in crate::bind) layers: Layers,
+    /// The settings of all `%` strings, each with the index of its string; for each keyword the last one.
+    pub(in crate::bind) defaults: Vec<(usize, Setting)>,
+    /// The variables that the `%` strings define.
+    pub(in crate::bind) variables: Variables,
+    /// The settings of the whole drawing.
+    pub(in crate::bind) settings: DrawingSettings,
+    /// The lines that lead from strings to what they mean.
+    pub(in crate::bind) leaders: Leaders,
+    /// The groups that became nodes.
+    pub(in crate::bind) node_groups: NodeGroups,
+    /// How the parts cover each other, if binding had to find it out.
+    stacking: Option<Arc<Stacking>>,
+}
+
+/// Reads the strings of a drawing, finds its parts, and binds each string to the part that it means.
+pub(in crate::bind) fn find(
+    drawing: &Drawing,
+    memo: &Memo,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Matched {
+    let read = strings::read(drawing, diagnostics);
+    let settings = read.settings;
+    let layers = layers::find(drawing, &read.all, diagnostics);
+    let mut node_groups = NodeGroups::read(drawing, &read.all, &layers);
+    let leaders = Leaders::find(drawing, &read.all, &node_groups);
+    node_groups.find_sources(
+        drawing,
+        &read.all,
+        &layers,
+        &leaders,
+        settings.strokes,
+        memo,
+    );
+    let areas = areas::areas(drawing, &node_groups.sources, memo);
+    let drawn = node_groups.sources.iter().zip(areas);
+    let parts = ink::attach(drawn.filter_map(|(source, area)| {
+        let Area { outline, measure } = area?;
+        Some((*source, outline, measure))
+    }));
+    let binder = Binder::new(
+        drawing,
+        &read.all,
+        &leaders,
+        parts,
+        node_groups,
+        memo,
+        diagnostics,
+    );
+    let Rules {
+        bound,
+        parts,
+        node_groups,
+        stacking,
+    } = binder.apply_rules(settings.bind);
+    let strings = read.all.into_iter().zip(bound);
+    let strings: Vec<DrawingString> = strings.map(|(read, bound)| joined(read, bound)).collect();
+    let backgrounds = &node_groups.backgrounds;
+    let kinds = kinds::classify(drawing, &strings, &parts, &layers, backgrounds);
+    Matched {
+        annotated: read.annotated,
+        strings,
+        parts,
+        kinds,
+        layers,
+        defaults: read.defaults,
+        variables: read.variables,
+        settings,
+        leaders,
+        node_groups,
+        stacking,
+    }
+}
+
+/// A string with what it is bound to.
+fn joined(read: strings::ReadString, bound: Bound) -> DrawingString {
+    let strings::ReadString {
+        place,
+        text,
+        annotation,
+        settings,
+    } = read;
+    let Bound {
+        binding,
+        runner_up,
+        scope,
+    } = bound;
+    DrawingString {
+        place,
+        text,
+        annotation,
+        settings,
+        binding,
+        runner_up,
+        scope,
+    }
+}
+
+impl Matched {
+    /// How the parts cover each other.
+    pub(in crate::bind) fn stacking(&self, drawing: &Drawing, memo: &Memo) -> Arc<Stacking> {
+        let read = || {
+            let is_scoped = self.strings.iter().any(|string| string.scope.is_some());
+            binder::stacking(drawing, &self.parts, &self.node_groups, is_scoped, memo)
+        };
+        self.stacking.clone().unwrap_or_else(read)
+    }
+
+    /// The string of a part.
+    pub(in crate::bind) fn string_of(&self, part: usize) -> Option<&DrawingString> {
+        Some(&self.strings[self.parts[part].string?])
+    }
+}

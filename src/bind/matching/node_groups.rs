@@ -1,0 +1,330 @@
+//! Node groups: which shapes become one node of the hierarchy (figure.md, Groups).
+//!
+//! A part has a source: the fill of a shape, or its stroke if that is built. All sources in a node group share a node, but ink
+//! goes with what it lies on; the back-most of the others is the main part candidate.
+
+use rustc_hash::FxHashMap;
+
+use super::converted::ConvertedStrings;
+use super::ink;
+use super::layers::Layers;
+use super::leaders::Leaders;
+use super::parts::MatchedPart;
+use super::settings::Strokes;
+use super::strings::ReadString;
+use super::wrappers;
+use crate::bind::bindings::Place;
+use crate::memo::Memo;
+use crate::svg::{Drawing, GroupKind, Shape};
+
+/// The fill or the stroke of a shape, which becomes a part if it has area.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PartSource {
+    pub(super) index: usize,
+    pub(super) shape: usize,
+    /// Whether its area is the shape's stroke rather than its fill.
+    pub(super) is_stroke: bool,
+    /// For ink, the shape on which it lies.
+    pub(super) host: Option<usize>,
+}
+
+/// What a group means for the hierarchy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum GroupRole {
+    /// Layers, the outermost `<svg>`, wrappers: ignored.
+    Transparent,
+    /// Holds several strings: its children become nodes of their own.
+    Container,
+    /// Its content becomes one node.
+    Node,
+}
+
+/// The roles of a drawing's groups, and the sources of its parts.
+#[derive(Debug)]
+pub(in crate::bind) struct NodeGroups {
+    pub(super) sources: Vec<PartSource>,
+    /// Per group.
+    pub(super) roles: Vec<GroupRole>,
+    parents: Vec<usize>,
+    /// Per source: the group whose content shares its node.
+    node_group: Vec<Option<usize>>,
+    /// Per source: the nearest container around it.
+    pub(super) container: Vec<Option<usize>>,
+    /// Per group: the group of the tile layer or view that it is in.
+    layer: Vec<Option<usize>>,
+    /// Per source: whether it is in such a layer.
+    pub(super) in_layer: Vec<bool>,
+    /// Per shape: whether it is a background, unless a string names it.
+    pub(in crate::bind) backgrounds: Vec<bool>,
+    /// Per group: whether it is such a layer, with parts that strings can belong to.
+    holds_parts: Vec<bool>,
+}
+
+impl NodeGroups {
+    /// The groups of a drawing. What shares their nodes is found by [`find_sources`](Self::find_sources).
+    pub(super) fn read(drawing: &Drawing, strings: &[ReadString], layers: &Layers) -> Self {
+        let parents: Vec<usize> = drawing.groups.iter().map(|group| group.parent).collect();
+        let holds_shape = holding(drawing, |_| true);
+        let mut counts = vec![0_usize; drawing.groups.len()];
+        for string in strings.iter().filter(|string| string.wants_part()) {
+            if let Place::Label(label) = string.place {
+                let mut group = drawing.labels[label].1;
+                // Texts that are grouped by themselves are strings of what that group is in.
+                while !holds_shape[group] && drawing.groups[group].kind == GroupKind::Group {
+                    group = parents[group];
+                }
+                counts[group] += 1;
+            }
+        }
+        let groups = 0..drawing.groups.len();
+        let layer = groups.map(|group| Some(layers[layers.of_group(group)?].group));
+        let layer: Vec<Option<usize>> = layer.collect();
+        let in_map = |group: usize| layer[group].is_some();
+        let wrappers = wrappers::find(drawing, strings, &counts, in_map);
+        Self {
+            node_group: vec![],
+            container: vec![],
+            in_layer: vec![],
+            backgrounds: wrappers.backgrounds,
+            holds_parts: vec![false; drawing.groups.len()],
+            sources: vec![],
+            roles: roles(drawing, &counts, &layer, &wrappers.groups_nothing),
+            parents,
+            layer,
+        }
+    }
+
+    /// Finds the sources of parts, and the groups that each belongs to.
+    pub(super) fn find_sources(
+        &mut self,
+        drawing: &Drawing,
+        strings: &[ReadString],
+        layers: &Layers,
+        leaders: &Leaders,
+        strokes: Strokes,
+        memo: &Memo,
+    ) {
+        let described = described_lines(drawing, strings);
+        let backgrounds = &self.backgrounds;
+        self.sources = sources(
+            drawing,
+            layers,
+            &described,
+            backgrounds,
+            leaders,
+            strokes,
+            memo,
+        );
+        for index in 0..self.sources.len() {
+            let shape = self.sources[index].shape;
+            let group = drawing.shapes[shape].group;
+            let layer = self.layer[group];
+            if let Some(layer) = layer {
+                self.holds_parts[layer] = true;
+            }
+            let is_container = |group: &usize| self.roles[*group] == GroupRole::Container;
+            let container = self.chain(group).find(is_container);
+            let node_group = self.outermost(group).filter(|_| !self.backgrounds[shape]);
+            self.in_layer.push(layer.is_some());
+            self.container.push(container.or(layer));
+            self.node_group.push(node_group);
+        }
+    }
+
+    /// A group and the groups around it, innermost first, up to the layer that it is in.
+    pub(super) fn chain(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
+        let mut next = self.parents.get(group).map(|_| group);
+        std::iter::from_fn(move || {
+            let group = next?;
+            let last = group == 0 || self.layer[group] == Some(group);
+            next = (!last).then(|| self.parents[group]);
+            Some(group)
+        })
+    }
+
+    /// The group whose content shares a node with what is in `group`; `None` if its shapes are nodes of their own.
+    pub(in crate::bind) fn outermost(&self, group: usize) -> Option<usize> {
+        let mut outermost = None;
+        for group in self.chain(group) {
+            match self.roles[group] {
+                GroupRole::Transparent => {}
+                GroupRole::Node => outermost = Some(group),
+                GroupRole::Container => break,
+            }
+        }
+        outermost
+    }
+
+    /// Opens the group of a node: its children become nodes of their own. If one of them is a group that holds all
+    /// `members`, parts of the node by their sources and the groups of their shapes, it is opened too. Returns whether there
+    /// was a group to open.
+    pub(super) fn open(&mut self, members: &[(usize, usize)]) -> bool {
+        let Some((&(first, group), rest)) = members.split_first() else {
+            return false;
+        };
+        let Some(outermost) = self.node_group[first] else {
+            return false;
+        };
+        // The groups between the node's group and the first part, from outside in, as far as they hold all parts.
+        let inside = |group: usize| {
+            let mut chain: Vec<usize> = self.chain(group).collect();
+            let end = chain.iter().position(|group| *group == outermost);
+            chain.truncate(end.map_or(0, |end| end + 1));
+            chain.reverse();
+            chain
+        };
+        let mut common = inside(group);
+        for (_, group) in rest {
+            let chain = inside(*group);
+            let same = common.iter().zip(&chain).take_while(|(a, b)| a == b);
+            let same = same.count();
+            common.truncate(same);
+        }
+        for group in common {
+            if self.roles[group] == GroupRole::Node {
+                self.roles[group] = GroupRole::Transparent;
+            }
+        }
+        for (source, group) in members {
+            self.node_group[*source] = self.outermost(*group);
+        }
+        true
+    }
+
+    /// The group of the tile layer to whose shapes strings in a group are restricted; `None` for strings outside of tile layers.
+    pub(super) fn scope_of_layer(&self, group: usize) -> Option<usize> {
+        self.layer[group].filter(|layer| self.holds_parts[*layer])
+    }
+}
+
+fn sources(
+    drawing: &Drawing,
+    layers: &Layers,
+    described: &[bool],
+    backgrounds: &[bool],
+    leaders: &Leaders,
+    strokes: Strokes,
+    memo: &Memo,
+) -> Vec<PartSource> {
+    let (ink, lines, borders) = match strokes {
+        Strokes::None => (false, false, false),
+        Strokes::Ink => (true, false, false),
+        Strokes::Lines => (true, true, false),
+        Strokes::All => (true, true, true),
+    };
+    // Strokes in a tile layer are edges; those in a view belong to its regions.
+    let is_map = |shape: usize| {
+        let group = drawing.shapes[shape].group;
+        layers.of_group(group).is_some()
+    };
+    let is_leader = |shape: usize| leaders.shapes.binary_search(&shape).is_ok();
+    let is_free = |shape: usize| !described[shape] && !is_leader(shape) && !is_map(shape);
+    let is_ink = |shape: usize| ink && is_free(shape);
+    let is_host = |shape: usize| !is_map(shape) && !backgrounds[shape];
+    let hosts = ink::hosts(drawing, is_ink, is_host, memo);
+    let converted = ConvertedStrings::of(drawing);
+    let mut sources = Vec::with_capacity(drawing.shapes.len());
+    let mut add = |shape, is_stroke, host| {
+        sources.push(PartSource {
+            index: sources.len(),
+            shape,
+            is_stroke,
+            host,
+        })
+    };
+    for (index, shape) in drawing.shapes.iter().enumerate() {
+        let converted = converted.contains(shape.element.span.start);
+        if converted || layers.hold_picture(drawing, index) {
+            continue;
+        }
+        let has_stroke = shape.stroke.is_some();
+        if !shape.outline.polygons.is_empty() {
+            add(index, false, None);
+            if has_stroke && borders && !is_map(index) {
+                add(index, true, Some(index));
+            }
+        } else if has_stroke
+            && (described[index] || hosts[index].is_some() || (lines && is_free(index)))
+        {
+            add(index, true, hosts[index]);
+        }
+    }
+    sources
+}
+
+/// Per group, whether it or a group in it holds a shape of this kind.
+fn holding(drawing: &Drawing, is: impl Fn(&Shape) -> bool) -> Vec<bool> {
+    let mut holding = vec![false; drawing.groups.len()];
+    for shape in drawing.shapes.iter().filter(|shape| is(shape)) {
+        let mut group = shape.group;
+        // If a group is known, so are those around it.
+        while !holding[group] {
+            holding[group] = true;
+            group = drawing.groups[group].parent;
+        }
+    }
+    holding
+}
+
+/// Per shape, whether it is an unfilled line with a string of its own: a description, or a string in its group without filled
+/// shapes.
+fn described_lines(drawing: &Drawing, strings: &[ReadString]) -> Vec<bool> {
+    let mut described = vec![false; drawing.shapes.len()];
+    let filled = holding(drawing, wrappers::is_filled);
+    let mut has_string = vec![false; drawing.groups.len()];
+    for string in strings.iter().filter(|string| string.wants_part()) {
+        let group = match string.place {
+            Place::Shape(shape) => {
+                described[shape] = true;
+                continue;
+            }
+            Place::Group(group) => group,
+            Place::Label(label) => drawing.labels[label].1,
+        };
+        has_string[group] |= drawing.groups[group].kind == GroupKind::Group && !filled[group];
+    }
+    // A group comes after the one that contains it.
+    for (index, group) in drawing.groups.iter().enumerate() {
+        has_string[index] |= has_string[group.parent];
+    }
+    for (described, shape) in described.iter_mut().zip(&drawing.shapes) {
+        let is_line = shape.outline.polygons.is_empty() && shape.stroke.is_some();
+        *described |= is_line && has_string[shape.group];
+    }
+    described
+}
+
+fn roles(
+    drawing: &Drawing,
+    strings: &[usize],
+    layer: &[Option<usize>],
+    groups_nothing: &[bool],
+) -> Vec<GroupRole> {
+    let groups = drawing.groups.iter().enumerate();
+    groups
+        .map(|(index, group)| match group.kind {
+            GroupKind::Root | GroupKind::Layer => GroupRole::Transparent,
+            GroupKind::Group if layer[index] == Some(index) => GroupRole::Transparent,
+            GroupKind::Group if groups_nothing[index] => GroupRole::Transparent,
+            GroupKind::Group if strings[index] > 1 => GroupRole::Container,
+            GroupKind::Group => GroupRole::Node,
+        })
+        .collect()
+}
+
+/// Makes the back-most part of each node its main part candidate.
+pub(super) fn choose_mains(node_groups: &NodeGroups, parts: &mut [MatchedPart]) {
+    let mut mains: FxHashMap<(Option<usize>, usize), usize> = FxHashMap::default();
+    for index in 0..parts.len() {
+        let source = parts[index].source;
+        let main = match (parts[index].host, node_groups.node_group[source]) {
+            (Some(host), _) => parts[host].main,
+            (None, Some(group)) => *mains
+                .entry((node_groups.container[source], group))
+                .or_insert(index),
+            (None, None) => index,
+        };
+        parts[index].node_group = node_groups.node_group[source];
+        parts[index].main = main;
+    }
+}

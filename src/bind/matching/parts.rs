@@ -1,0 +1,58 @@
+//! Parts as they are drawn, with the strings that they are matched with.
+
+use std::sync::Arc;
+
+use super::node_groups::PartSource;
+use crate::bind::bindings;
+use crate::geometry::{Measure, Outline};
+use crate::svg::{Drawing, Paint};
+
+/// A part, before it has a name, attributes and a place in the hierarchy.
+#[derive(Debug)]
+pub(in crate::bind) struct MatchedPart {
+    /// Index of its shape in the drawing.
+    pub(in crate::bind) shape: usize,
+    /// Whether its area is the shape's stroke rather than its fill.
+    pub(in crate::bind) is_stroke: bool,
+    /// For ink, a stroke that lies on another part, the index of that part, which comes before it.
+    pub(in crate::bind) host: Option<usize>,
+    /// Its area, drawing units.
+    pub(in crate::bind) outline: Arc<Outline>,
+    /// Its axis, center and ends, as they are drawn.
+    pub(in crate::bind) measure: Measure,
+    /// Index of its string.
+    pub(in crate::bind) string: Option<usize>,
+    /// Index of the main part candidate of its node, which may be itself.
+    pub(in crate::bind) main: usize,
+    /// The group whose content shares its node.
+    pub(in crate::bind) node_group: Option<usize>,
+    /// Index of its source.
+    pub(super) source: usize,
+}
+
+impl MatchedPart {
+    /// A part without a string, alone in its node.
+    pub(super) fn new(
+        index: usize,
+        source: &PartSource,
+        outline: Arc<Outline>,
+        measure: Measure,
+    ) -> Self {
+        Self {
+            shape: source.shape,
+            is_stroke: source.is_stroke,
+            host: None,
+            outline,
+            measure,
+            string: None,
+            main: index,
+            node_group: None,
+            source: source.index,
+        }
+    }
+
+    /// Its paint: that of the fill or of the stroke.
+    pub(in crate::bind) fn paint<'a>(&self, drawing: &'a Drawing) -> &'a Paint {
+        bindings::paint(drawing, self.shape, self.is_stroke)
+    }
+}

@@ -1,0 +1,275 @@
+//! What parts cover of each other on the page: the order of drawing as people see it (figure.md, Binding, rules 4 and 5).
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::parts::MatchedPart;
+use crate::geometry::{
+    BoxTree, EdgeRanges, Intervals, Outline, Scanlines, area, area_around, contains, indexed_box,
+};
+use crate::memo::{Bits, Long, Memo, Same};
+use crate::threads::GRAIN;
+
+/// How far inside the page its corners are taken, as a share of the page: a rectangle as large as the page holds them.
+const CORNER: f64 = 0.005;
+/// How many page corners a part of the ground holds at least.
+const GROUND_CORNERS: usize = 2;
+/// What share of a part lies on another one that it is said to lie on.
+const LIES_ON: f64 = 0.9;
+/// How many parts are compared with a part at most: in a higher pile, the rest would hardly be seen.
+const MAX_NEIGHBOURS: usize = 512;
+/// How many parts that a part lies on are noted, once it is known what shows directly under it.
+const MAX_HOSTS: usize = 8;
+
+/// How the parts of a drawing cover each other. Indices are those of the parts, which are in paint order.
+#[derive(Debug)]
+pub(in crate::bind) struct Stacking {
+    parts: Vec<StackedPart>,
+    tree: BoxTree,
+    facts: Vec<Facts>,
+    /// How many of the back-most parts are ground.
+    ground: usize,
+}
+
+#[derive(Debug)]
+struct StackedPart {
+    outline: Arc<Outline>,
+    bounds: (DVec2, DVec2),
+    ranges: EdgeRanges,
+    /// Whether it covers anything.
+    takes_part: bool,
+}
+
+/// What is known about a part, or about several that are one unit.
+#[derive(Debug, Clone, Default)]
+pub(in crate::bind) struct Facts {
+    /// Its area, square units.
+    pub(super) area: f64,
+    /// What shows of it: the area that nothing covers.
+    pub(super) shown: f64,
+    /// The parts directly under it, each with the share of its area that lies on the part.
+    pub(in crate::bind) under: Box<[(usize, f64)]>,
+    /// The earlier parts on which nearly all of it lies, the topmost first.
+    pub(super) lies_on: Box<[usize]>,
+}
+
+/// What stacking is computed from.
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct StackingKey {
+    /// Per part its outline, and whether it takes part.
+    parts: Long<(Same<Outline>, bool)>,
+    page: Bits<[f64; 4]>,
+}
+
+/// Memory that is used again for the next part.
+#[derive(Default)]
+struct Scratch {
+    own: Intervals,
+    other: Intervals,
+    rest: Intervals,
+    near: Vec<usize>,
+}
+
+impl Stacking {
+    /// The stacking of the parts that `takes_part` names. `page`: minimum corner and size.
+    pub(super) fn read(
+        parts: &[MatchedPart],
+        page: (DVec2, DVec2),
+        takes_part: impl Fn(&MatchedPart) -> bool,
+        memo: &Memo,
+    ) -> Arc<Self> {
+        let part = |part: &MatchedPart| (Same(Arc::clone(&part.outline)), takes_part(part));
+        let key = StackingKey {
+            parts: parts.iter().map(part).collect(),
+            page: Bits([page.0.x, page.0.y, page.1.x, page.1.y]),
+        };
+        let bounds = |part: usize| parts[part].measure.bounds;
+        memo.get(key, |key| Arc::new(Self::new(&key.parts.0, page, bounds)))
+    }
+
+    fn new(
+        parts: &[(Same<Outline>, bool)],
+        page: (DVec2, DVec2),
+        bounds: impl Fn(usize) -> (DVec2, DVec2) + Sync,
+    ) -> Self {
+        let stacked = parts.par_iter().enumerate().with_min_len(GRAIN);
+        let parts: Vec<StackedPart> = stacked
+            .map(|(index, (outline, takes_part))| StackedPart {
+                outline: Arc::clone(&outline.0),
+                bounds: bounds(index),
+                ranges: EdgeRanges::new(&outline.0),
+                takes_part: *takes_part,
+            })
+            .collect();
+        let boxes = parts.iter().enumerate().filter(|(_, part)| part.takes_part);
+        let boxes = boxes.map(|(index, part)| indexed_box(part.bounds, index));
+        let tree = BoxTree::bulk_load(boxes.collect());
+        let nothing = Outline::default();
+        let outlines = parts.iter().map(|part| match part.takes_part {
+            true => &*part.outline,
+            false => &nothing,
+        });
+        let ground = ground_count(outlines, page);
+        let mut stacking = Self {
+            parts,
+            tree,
+            facts: vec![],
+            ground,
+        };
+        stacking.facts = (0..stacking.parts.len())
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map_init(Scratch::default, |scratch, part| {
+                let takes_part = stacking.parts[part].takes_part;
+                takes_part.then(|| stacking.measure(&[part], scratch))
+            })
+            .map(Option::unwrap_or_default)
+            .collect();
+        stacking
+    }
+
+    /// Whether a part is ground: one of the back-most parts, which fill the page.
+    pub(in crate::bind) fn is_ground(&self, part: usize) -> bool {
+        part < self.ground
+    }
+
+    /// Whether a part takes part: others cover nothing, and nothing is known about them.
+    pub(in crate::bind) fn has(&self, part: usize) -> bool {
+        self.parts[part].takes_part
+    }
+
+    /// What is known about a part.
+    pub(super) fn of_part(&self, part: usize) -> &Facts {
+        &self.facts[part]
+    }
+
+    /// What is known about parts that are one unit; at least one, in paint order.
+    pub(in crate::bind) fn of_unit(&self, members: &[usize]) -> Facts {
+        match members {
+            [part] => self.facts[*part].clone(),
+            _ => self.measure(members, &mut Scratch::default()),
+        }
+    }
+
+    /// The parts at a point, the topmost first.
+    pub(super) fn at(&self, point: DVec2) -> Vec<usize> {
+        let boxes = self.tree.locate_all_at_point([point.x, point.y]);
+        let found = boxes.map(|found| found.data);
+        let mut found: Vec<usize> = found
+            .filter(|part| contains(&self.parts[*part].outline, point))
+            .collect();
+        found.sort_unstable_by(|a, b| b.cmp(a));
+        found
+    }
+
+    /// Whether a point lies on a part.
+    pub(super) fn is_on(&self, part: usize, point: DVec2) -> bool {
+        let (low, high) = self.parts[part].bounds;
+        let in_box = point.cmpge(low).all() && point.cmple(high).all();
+        in_box && contains(&self.parts[part].outline, point)
+    }
+
+    fn measure(&self, members: &[usize], scratch: &mut Scratch) -> Facts {
+        let Scratch {
+            own,
+            other,
+            rest,
+            near,
+        } = scratch;
+        let bounds = members.iter().map(|part| self.parts[*part].bounds);
+        let bounds = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let Some((low, high)) = bounds else {
+            return Facts::default();
+        };
+        near.clear();
+        let around = area_around((low, high), 0.0);
+        let boxes = self.tree.locate_in_envelope_intersecting(around);
+        near.extend(boxes.take(MAX_NEIGHBOURS).map(|found| found.data));
+        if near.len() == MAX_NEIGHBOURS {
+            near.extend(members);
+        }
+        if let ([part], [near]) = (members, near.as_slice())
+            && part == near
+        {
+            // Nothing is near it: the usual case in a drawing of many parts.
+            let area = area(&self.parts[*part].outline);
+            return Facts {
+                area,
+                shown: area,
+                ..Facts::default()
+            };
+        }
+        let lines = Scanlines::across((low, high));
+        let cut = |part: usize, out: &mut Intervals| {
+            let part = &self.parts[part];
+            lines.cut(&part.outline, &part.ranges, out);
+        };
+        cut(members[0], own);
+        for part in &members[1..] {
+            cut(*part, other);
+            own.add(other);
+        }
+        let whole = own.length();
+        if whole <= 0.0 {
+            return Facts::default();
+        }
+        near.sort_unstable_by(|a, b| b.cmp(a));
+        near.dedup();
+        rest.copy_from(own);
+        let mut shown = 0.0;
+        let mut under = Vec::new();
+        let mut lies_on = Vec::new();
+        let below = near.partition_point(|part| *part >= members[0]);
+        for &part in &near[..below] {
+            if rest.is_empty() {
+                break;
+            }
+            cut(part, other);
+            let removed = rest.remove(other);
+            if members.binary_search(&part).is_ok() {
+                shown += removed;
+            }
+        }
+        // What lies under the unit lies under all of it, covered or not.
+        rest.copy_from(own);
+        for &part in &near[below..] {
+            if rest.is_empty() && lies_on.len() >= MAX_HOSTS {
+                break;
+            }
+            cut(part, other);
+            let share = own.common(other) / whole;
+            if share >= LIES_ON {
+                lies_on.push(part);
+            }
+            let seen = rest.remove(other) / whole;
+            if seen > 0.0 {
+                under.push((part, seen));
+            }
+        }
+        Facts {
+            area: whole * lines.weight(),
+            shown: shown * lines.weight(),
+            under: under.into(),
+            lies_on: lies_on.into(),
+        }
+    }
+}
+
+/// How many of the back-most outlines are ground: each of them holds two or more corners of the page, or has no area. `page`:
+/// minimum corner and size.
+pub(super) fn ground_count<'a>(
+    outlines: impl Iterator<Item = &'a Outline>,
+    (low, size): (DVec2, DVec2),
+) -> usize {
+    let corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].map(|(x, y)| {
+        let share = DVec2::new(x, y).clamp(DVec2::splat(CORNER), DVec2::splat(1.0 - CORNER));
+        low + size * share
+    });
+    let is_ground = |outline: &&Outline| {
+        let held = corners.iter().filter(|corner| contains(outline, **corner));
+        outline.polygons.is_empty() || held.count() >= GROUND_CORNERS
+    };
+    outlines.take_while(is_ground).count()
+}

@@ -1,0 +1,23 @@
+//! Backgrounds, which are left out.
+
+use crate::bind::matching::Matched;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::svg::Drawing;
+
+/// Reports the backgrounds that no string names.
+pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
+    for part in &matched.parts {
+        if !matched.node_groups.backgrounds[part.shape] || part.string.is_some() || part.is_stroke {
+            continue;
+        }
+        let element = &drawing.shapes[part.shape].element;
+        let message = format!(
+            "{} fills the page behind everything else, so it is taken for a background and left out",
+            drawing.describe(part.shape)
+        );
+        diagnostics.push(
+            Diagnostic::new(Code::Background, element.span, message)
+                .help("to build it too, write a name on it, such as `Wall`"),
+        );
+    }
+}

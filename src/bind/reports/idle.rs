@@ -1,0 +1,83 @@
+//! Attributes that have no effect without another one.
+
+use crate::bind::attributes::PartAttributes;
+use crate::bind::bindings::{DrawingString, PartKind};
+use crate::bind::hierarchy::Tree;
+use crate::bind::matching::Matched;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::lang::value::Value;
+use crate::source::Span;
+
+/// Reports `Limited`, `Bone`, `Carry`, `Swing` and `Perform`, each once, in a drawing without a motion.
+pub(super) fn without_motion(matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
+    // As `Bindings::clip_requests`.
+    let asks_for_motion = |string: &DrawingString| {
+        let applies = matches!(string.annotation, Annotation::Defaults(_));
+        let mut settings = string.settings.iter();
+        (applies || string.binding.is_some())
+            && settings.any(|setting| matches!(setting.value, Value::Motion(_)))
+    };
+    if matched.strings.iter().any(asks_for_motion) {
+        return;
+    }
+    for keyword in [
+        Keyword::Limited,
+        Keyword::Bone,
+        Keyword::Carry,
+        Keyword::Swing,
+        Keyword::Perform,
+    ] {
+        let found = matched.strings.iter().find_map(|string| {
+            let counts = !matches!(string.annotation, Annotation::Legend(_));
+            let mut settings = string.settings.iter().filter(|_| counts);
+            let setting = settings.find(|setting| setting.keyword == keyword)?;
+            Some(string.text.span(setting.range.clone()))
+        });
+        if let Some(span) = found {
+            let name = keyword.name();
+            let message = format!("`{name}` has no effect: the drawing has no motion");
+            let help = "write `Motion walk` or `Motion \"file.bvh\"` in a `%` string, or in the string of a figure's root part";
+            diagnostics.push(Diagnostic::new(Code::IdleMotion, span, message).help(help));
+        }
+    }
+}
+
+/// Reports each `Follow` of which no part has a `Mark`.
+pub(super) fn without_mark(
+    matched: &Matched,
+    attributes: &PartAttributes,
+    tree: &Tree,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let writes_follow = |string: &DrawingString| {
+        let mut settings = string.settings.iter();
+        settings.any(|setting| setting.keyword == Keyword::Follow)
+    };
+    if !matched.strings.iter().any(writes_follow) {
+        return;
+    }
+    let mut found: Vec<(Span, bool)> = Vec::new();
+    for (part, kind) in tree.nodes.kind.iter().enumerate() {
+        let attributes = attributes.attributes(matched, part);
+        let follow = attributes.source(Keyword::Follow);
+        let Some(source) = follow.filter(|_| *kind == PartKind::Main) else {
+            continue;
+        };
+        let span = source.span(&matched.strings);
+        let is_marked = attributes.mark().is_some();
+        match found.iter_mut().find(|(known, _)| *known == span) {
+            Some((_, any)) => *any |= is_marked,
+            None => found.push((span, is_marked)),
+        }
+    }
+    for (span, is_marked) in found {
+        if is_marked {
+            continue;
+        }
+        let message = "`Follow` has no effect: the part has no `Mark`";
+        let help = "write the colour of the mark that performs the part, `Mark red` for example";
+        diagnostics.push(Diagnostic::new(Code::NoMark, span, message).help(help));
+    }
+}

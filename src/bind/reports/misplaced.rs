@@ -1,0 +1,59 @@
+//! Attributes of layers and of regions in places where they have no effect.
+
+use crate::bind::matching::{LayerKind, Matched, group_of};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::svg::Drawing;
+
+/// Reports attributes of tile layers in strings that make none, and attributes of regions outside of views.
+pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
+    let has_tile_layers = matched.layers.tile_layers().next().is_some();
+    for string in &matched.strings {
+        let (attributes, what) = match &string.annotation {
+            Annotation::Part(part)
+                if LayerKind::of(&string.annotation) != Some(LayerKind::Tiles) =>
+            {
+                (&part.attributes, "a part's string")
+            }
+            Annotation::Legend(attributes) => (attributes, "a legend"),
+            // A `%` string sets them for all tile layers.
+            Annotation::Defaults(attributes) => (attributes, "a `%` string"),
+            _ => continue,
+        };
+        let group = group_of(drawing, string.place);
+        let view = matched.layers.of_group_and_kind(group, LayerKind::View);
+        let in_view = view.is_some();
+        let of_view = attributes.iter().filter(|attribute| {
+            !in_view && matches!(attribute.keyword, Keyword::Depth | Keyword::Hidden)
+        });
+        for attribute in of_view {
+            let name = attribute.keyword.name();
+            let message = format!(
+                "`{name}` has no effect in {what} outside of a view: it applies to regions of a character"
+            );
+            let span = string.text.span(attribute.range.clone());
+            diagnostics.push(
+                Diagnostic::new(Code::NoTileLayer, span, message)
+                    .help("put it into a layer with a string like `Boy$View 0 0`, or delete it"),
+            );
+        }
+        let for_all = matches!(string.annotation, Annotation::Defaults(_));
+        for attribute in attributes {
+            let misplaced = match attribute.keyword {
+                Keyword::Tiles => true,
+                Keyword::Bevel | Keyword::Roof => !for_all || !has_tile_layers,
+                _ => false,
+            };
+            if misplaced {
+                let name = attribute.keyword.name();
+                let message =
+                    format!("`{name}` has no effect in {what}: it applies to tile layers");
+                diagnostics.push(
+                    Diagnostic::new(Code::NoTileLayer, string.text.span(attribute.range.clone()), message)
+                    .help("write it into the string that makes a layer or group a map, as in `Island$Tiles 16 Bevel 0.2`"),
+                );
+            }
+        }
+    }
+}
