@@ -83,6 +83,7 @@ const USES: &[(&str, &[&str])] = &[
             "watch",
         ],
     ),
+    ("clips", &["labels", "mocap", "smoothing"]),
     (
         "compile",
         &[
@@ -141,8 +142,10 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("import", &["resolver", "scene"]),
     ("index", &[]),
+    ("labels", &["anatomy", "mocap"]),
     ("lang", &["diagnostic", "source"]),
     ("lib", &[]),
+    ("limited", &["scene"]),
     (
         "look",
         &[
@@ -182,8 +185,44 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("main", &["cli"]),
+    ("mark_tracks", &[]),
     ("memo", &["resolver", "threads"]),
-    ("motion", &["anatomy", "scene", "smoothing"]),
+    ("mocap", &[]),
+    (
+        "motion",
+        &[
+            "labels",
+            "limited",
+            "mark_tracks",
+            "mocap",
+            "performance",
+            "prepare",
+            "retarget",
+            "scene",
+        ],
+    ),
+    (
+        "performance",
+        &[
+            "labels",
+            "limited",
+            "mark_tracks",
+            "mocap",
+            "scene",
+            "smoothing",
+        ],
+    ),
+    (
+        "prepare",
+        &[
+            "clips",
+            "labels",
+            "limited",
+            "mocap",
+            "retarget",
+            "smoothing",
+        ],
+    ),
     (
         "preview",
         &[
@@ -226,6 +265,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("resolver", &[]),
+    ("retarget", &["labels", "mocap", "smoothing"]),
     (
         "rig",
         &[
@@ -271,7 +311,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("texture", &["scene"]),
     ("threads", &["crash"]),
-    ("tracking", &["motion"]),
+    ("tracking", &["mark_tracks"]),
     ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 

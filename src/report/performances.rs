@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::own_name;
 use crate::compile::Compiled;
-use crate::motion::performance::{Filming, Information};
+use crate::performance::{Filming, Information};
 use crate::rig::{FigureClip, Performed};
 
 /// The most values of a curve in a report: more cannot be told apart on a screen.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::motion::mark_tracks::{MarkTrack, MarkTracks, bridge};
+use crate::mark_tracks::{MarkTrack, MarkTracks, bridge};
 
 use super::colour::Hsv;
 use super::components::{Component, Run, components, push_pixel};
