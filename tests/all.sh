@@ -143,6 +143,24 @@ validator() {
   built_models | xargs node $tools/validate.mjs
 }
 
+# What is printed for programs follows the schemas in docs.
+schemas() {
+  need npm
+  built
+  with_tools
+  local drawing report
+  # The examples' reports are there; the cases add what no example has.
+  for drawing in tests/cases/*/drawing.svg; do
+    report=$models/cases/$(basename "$(dirname "$drawing")").json
+    mkdir -p "$(dirname "$report")"
+    "$okoshi" inspect -q "$drawing" --json > "$report" 2> /dev/null || true
+    [ -s "$report" ] || rm "$report"
+  done
+  find "$models" -name '*.json' -print0 | xargs -0 node $tools/schemas.mjs docs/okoshi-inspect.schema.json
+  "$okoshi" check --look --format json examples/*.svg tests/cases/*/drawing.svg > "$target/check.json" || true
+  node $tools/schemas.mjs docs/okoshi-check.schema.json "$target/check.json"
+}
+
 # Installs Debian packages that WHAT needs, or leaves the step.
 install() { # WHAT PACKAGES…
   local what=$1 sudo=
@@ -270,6 +288,7 @@ step doc manual
 step licences licences
 step examples examples
 step validator validator
+step schemas schemas
 step clip-art clip_art
 step blender blender_import
 step gallery gallery
