@@ -7,15 +7,25 @@
     test,
     allow(clippy::unwrap_used, reason = "a test that fails to unwrap has failed")
 )]
+#![cfg_attr(
+    not(feature = "cli"),
+    allow(
+        dead_code,
+        unused_imports,
+        reason = "what only the rim uses is unused without it"
+    )
+)]
 
 mod anatomy;
 pub mod assemble;
 pub mod billboard;
 pub mod bind;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod compile;
 pub mod crash;
 pub mod diagnostic;
+#[cfg(feature = "disk")]
 pub mod disk;
 pub mod export;
 pub mod figure;
@@ -24,12 +34,16 @@ pub mod ide;
 pub mod import;
 mod index;
 pub mod lang;
+#[cfg(feature = "render")]
 pub mod look;
+#[cfg(feature = "lsp")]
 pub mod lsp;
 pub mod memo;
 pub mod motion;
+#[cfg(feature = "preview")]
 pub mod preview;
 pub mod puppet;
+#[cfg(feature = "render")]
 pub mod render;
 pub mod report;
 pub mod resolver;
@@ -42,5 +56,7 @@ pub mod svg;
 pub mod terrain;
 pub mod texture;
 mod threads;
+#[cfg(feature = "tracking")]
 pub mod tracking;
+#[cfg(feature = "watch")]
 pub mod watch;
