@@ -7,16 +7,26 @@
     test,
     allow(clippy::unwrap_used, reason = "a test that fails to unwrap has failed")
 )]
+#![cfg_attr(
+    not(feature = "cli"),
+    allow(
+        dead_code,
+        unused_imports,
+        reason = "what only the rim uses is unused without it"
+    )
+)]
 
 mod anatomy;
 pub mod assemble;
 pub mod billboard;
 pub mod bind;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod clips;
 pub mod compile;
 pub mod crash;
 pub mod diagnostic;
+#[cfg(feature = "disk")]
 pub mod disk;
 pub mod export;
 pub mod figure;
@@ -27,7 +37,9 @@ mod index;
 pub mod labels;
 pub mod lang;
 pub mod limited;
+#[cfg(feature = "render")]
 pub mod look;
+#[cfg(feature = "lsp")]
 pub mod lsp;
 pub mod mark_tracks;
 pub mod memo;
@@ -35,8 +47,10 @@ pub mod mocap;
 pub mod motion;
 pub mod performance;
 pub mod prepare;
+#[cfg(feature = "preview")]
 pub mod preview;
 pub mod puppet;
+#[cfg(feature = "render")]
 pub mod render;
 pub mod report;
 pub mod resolver;
@@ -50,5 +64,7 @@ pub mod svg;
 pub mod terrain;
 pub mod texture;
 mod threads;
+#[cfg(feature = "tracking")]
 pub mod tracking;
+#[cfg(feature = "watch")]
 pub mod watch;

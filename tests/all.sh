@@ -97,6 +97,49 @@ tests() {
 }
 manual() { RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps; }
 
+# The core alone, with its tests; each feature alone, for all together are the default; and a program that embeds the core.
+features() {
+  local feature packages
+  cargo test --locked --no-default-features --lib --test layers --test models
+  for feature in disk watch render tracking preview lsp; do
+    OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features "$feature"
+  done
+  # The versions of the libraries are those of the program.
+  cp Cargo.lock tests/embedding/Cargo.lock
+  cargo run --offline --manifest-path tests/embedding/Cargo.toml --target-dir "$target"
+  packages=$(cargo tree --offline --manifest-path tests/embedding/Cargo.toml -e normal --prefix none --no-dedupe | sort -u | wc -l)
+  echo "$packages packages in the tree of a program that embeds the core"
+  [ "$packages" -lt 130 ]
+}
+
+# The core for a browser. rustup's toolchain, if it has that target; otherwise Debian's, whose standard library is compiled first.
+wasm() {
+  local target_triple=wasm32-unknown-unknown check
+  check=(check --locked --lib --no-default-features --target $target_triple)
+  if rustup target list --installed 2> /dev/null | grep -qx $target_triple; then
+    cargo "${check[@]}"
+    return
+  fi
+  if ! [ -d /usr/lib/rustlib/src/rust/library ]; then
+    [ $quick = no ] || skip "--quick, and there is no compiler for WebAssembly"
+    install "A compiler for WebAssembly" rustc-web cargo-web rust-web-src
+  fi
+  # Sources of the standard library are built by the compiler that they came with.
+  RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 /usr/bin/cargo "${check[@]}" -Z build-std=std,panic_abort --target-dir "$target/wasm"
+}
+
+# What a package holds is enough: installed from it without npm, the program serves the page.
+package() {
+  need npm
+  need curl
+  node -e 'import("./editors/web/scripts/install.mjs").then(({ install }) => install())'
+  npm run build --prefix editors/web
+  cargo package --locked --no-verify --allow-dirty
+  rm -rf "$target"/package/okoshi-*/
+  tar -xzf "$target"/package/okoshi-*.crate -C "$target/package"
+  bash $tools/installed.sh "$(realpath "$target"/package/okoshi-*/)" "$(realpath "$target")"
+}
+
 licences() {
   need node
   local host
@@ -285,6 +328,9 @@ step format formatting
 step clippy lints
 step test tests
 step doc manual
+step features features
+step wasm wasm
+step package package
 step licences licences
 step examples examples
 step validator validator

@@ -1,4 +1,5 @@
 //! `okoshi watch` with a real process and real files: saves of all kinds, and kills.
+#![cfg(feature = "cli")]
 
 mod common;
 

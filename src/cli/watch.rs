@@ -7,12 +7,12 @@ use std::time::Duration;
 use super::args::{Common, Noticing, Reading, Watch};
 use super::build::overwrites_drawing;
 use super::loading::{Detail, count, describe, tally};
-use super::{Findings, Outcome, counted, fail, style};
+use super::{Outcome, counted, fail, style};
 use crate::disk::{
     ChangeDetection, Inputs, Naming, ReadError, is_drawing, is_standard_stream, make_folder,
 };
 use crate::export::{self, Exporter, GLB, Model};
-use crate::report::part_count;
+use crate::report::{Findings, part_count};
 use crate::watch::{Build, Event, NoModel, Options, watch};
 
 /// Builds drawings on every save until it is interrupted.

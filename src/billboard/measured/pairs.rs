@@ -7,6 +7,7 @@ mod rewrite;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -17,8 +18,8 @@ use crate::billboard::matching::match_regions;
 use crate::billboard::place::frames;
 use crate::billboard::region::View;
 use crate::compile::{Compiled, Options, compile};
-use crate::disk::FolderResolver;
 use crate::geometry::contains;
+use crate::resolver::{LinkError, Resolver};
 
 /// How many generated characters are measured.
 const CHARACTERS: u64 = 200;
@@ -191,7 +192,17 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn compiled(text: &str, folder: &Path) -> Compiled {
-    compile(text, &Options::default(), &FolderResolver::new(folder))
+    compile(text, &Options::default(), &Files(folder))
+}
+
+/// The files of a folder.
+struct Files<'a>(&'a Path);
+
+impl Resolver for Files<'_> {
+    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
+        let bytes = fs::read(self.0.join(link));
+        bytes.map(Arc::from).map_err(|_| LinkError::Missing)
+    }
 }
 
 /// The region in front at a point of a view, drawing units.

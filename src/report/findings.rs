@@ -1,24 +1,46 @@
-//! Diagnostics for programs: `--format json`.
+//! Diagnostics for programs: `check --format json`.
 //!
 //! The schema is stable: members may be added, but none is renamed or removed. `version` counts breaking changes.
 
 use serde::Serialize;
 
-use super::Findings;
+use super::pretty;
 use crate::diagnostic::{Diagnostic, Edit, Fix, Related};
 use crate::source::LineIndex;
 use crate::source::Span;
+
+/// A drawing with its diagnostics, ready to be reported.
+#[derive(Debug, Clone, Copy)]
+pub struct Findings<'a> {
+    /// The path as the user wrote it.
+    pub path: &'a str,
+    /// Its text, which the spans refer to.
+    pub text: &'a str,
+    /// The diagnostics.
+    pub diagnostics: &'a [Diagnostic],
+    /// How the model looks from the front, if that was asked for.
+    pub look: Option<Likeness>,
+}
+
+/// How the model looks from the front, compared with the drawing.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Likeness {
+    /// The share of the pixels that show the right color, 0 to 1.
+    pub right: f64,
+    /// The number of pixels that were compared.
+    pub pixels: usize,
+}
 
 /// The findings as JSON, with a line feed at the end.
 ///
 /// Lines and columns count from 1, columns in characters; `start` and `end` are bytes of the drawing's
 /// text. Ends are exclusive.
-pub fn json(drawings: &[Findings]) -> String {
+pub fn findings_json(drawings: &[Findings]) -> String {
     let report = Report {
         version: 1,
         drawings: drawings.iter().map(drawing).collect(),
     };
-    super::pretty(&report)
+    pretty(&report)
 }
 
 #[derive(Serialize)]
@@ -33,16 +55,7 @@ struct Drawing<'a> {
     diagnostics: Vec<Finding<'a>>,
     /// With `--look`.
     #[serde(skip_serializing_if = "Option::is_none")]
-    look: Option<Looks>,
-}
-
-/// How the model looks from the front, compared with the drawing.
-#[derive(Serialize)]
-struct Looks {
-    /// The share of the pixels that show the right colour, 0 to 1.
-    right: f64,
-    /// The number of pixels that were compared.
-    pixels: usize,
+    look: Option<Likeness>,
 }
 
 #[derive(Serialize)]
@@ -97,9 +110,9 @@ fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
     Drawing {
         drawing: findings.path,
         diagnostics: diagnostics.map(|one| finding(one, &places)).collect(),
-        look: findings.look.map(|look| Looks {
+        look: findings.look.map(|look| Likeness {
             right: (look.right * 1e4).floor() / 1e4,
-            pixels: look.pixels,
+            ..look
         }),
     }
 }
@@ -163,7 +176,7 @@ mod tests {
             diagnostics: &[],
             look: None,
         };
-        insta::assert_snapshot!(json(&[one, none]), @r#"
+        insta::assert_snapshot!(findings_json(&[one, none]), @r#"
         {
           "version": 1,
           "drawings": [

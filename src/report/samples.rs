@@ -3,7 +3,7 @@
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
-pub(super) const DRAWING: &str = "<svg>
+pub(crate) const DRAWING: &str = "<svg>
   <text>Rarm@Ubody$\tShap roundv</text>
   <path/>
   <path/>
@@ -14,13 +14,13 @@ pub(super) const DRAWING: &str = "<svg>
 ";
 
 /// The span of the first `word`.
-pub(super) fn at(text: &str, word: &str) -> Span {
+pub(crate) fn at(text: &str, word: &str) -> Span {
     let start = text.find(word).unwrap();
     Span::new(start, start + word.len())
 }
 
 /// A finding with everything except related spans.
-pub(super) fn misspelt(text: &str) -> Diagnostic {
+pub(crate) fn misspelt(text: &str) -> Diagnostic {
     let span = at(text, "Shap");
     Diagnostic::new(Code::UnknownKeyword, span, "unknown keyword `Shap`")
         .label("not a keyword")
