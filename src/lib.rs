@@ -10,6 +10,7 @@
 
 mod anatomy;
 pub mod assemble;
+mod assignment;
 pub mod billboard;
 pub mod bind;
 pub mod cli;

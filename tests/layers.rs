@@ -31,9 +31,11 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
+    ("assignment", &[]),
     (
         "billboard",
         &[
+            "assignment",
             "bind",
             "diagnostic",
             "geometry",
@@ -48,6 +50,7 @@ const USES: &[(&str, &[&str])] = &[
         "bind",
         &[
             "anatomy",
+            "assignment",
             "diagnostic",
             "geometry",
             "lang",

@@ -5,7 +5,6 @@
 //!
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, chapter 4.
 
-mod assignment;
 mod backing;
 mod character;
 mod diagnostics;
