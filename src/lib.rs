@@ -31,6 +31,7 @@ pub mod memo;
 pub mod motion;
 pub mod preview;
 pub mod puppet;
+mod regions;
 pub mod render;
 pub mod report;
 pub mod resolver;

@@ -41,6 +41,7 @@ const USES: &[(&str, &[&str])] = &[
             "geometry",
             "lang",
             "memo",
+            "regions",
             "scene",
             "source",
             "svg",
@@ -125,7 +126,7 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
-    ("geometry", &[]),
+    ("geometry", &["regions"]),
     (
         "ide",
         &[
@@ -209,6 +210,7 @@ const USES: &[(&str, &[&str])] = &[
             "svg", "threads",
         ],
     ),
+    ("regions", &[]),
     (
         "render",
         &["crash", "import", "resolver", "smoothing", "threads"],
@@ -267,6 +269,7 @@ const USES: &[(&str, &[&str])] = &[
             "diagnostic",
             "geometry",
             "lang",
+            "regions",
             "scene",
             "source",
             "svg",
@@ -274,7 +277,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("texture", &["scene"]),
     ("threads", &["crash"]),
-    ("tracking", &["motion"]),
+    ("tracking", &["motion", "regions"]),
     ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 
