@@ -10,17 +10,15 @@ mod character;
 mod diagnostics;
 mod drawn;
 mod features;
-#[cfg(test)]
-mod generated;
 mod keys;
 mod matching;
-#[cfg(test)]
-mod measured;
 mod nodes;
 mod place;
 mod raster;
 mod region;
 mod shape;
+#[cfg(test)]
+mod tests;
 mod turn;
 
 pub use character::{Character, Fill, Piece, RegionModel, read};
