@@ -18,6 +18,7 @@
 
 mod anatomy;
 pub mod assemble;
+mod assignment;
 pub mod billboard;
 pub mod bind;
 #[cfg(feature = "cli")]
@@ -50,6 +51,7 @@ pub mod prepare;
 #[cfg(feature = "preview")]
 pub mod preview;
 pub mod puppet;
+mod regions;
 #[cfg(feature = "render")]
 pub mod render;
 pub mod report;

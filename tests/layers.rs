@@ -31,14 +31,17 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
+    ("assignment", &[]),
     (
         "billboard",
         &[
+            "assignment",
             "bind",
             "diagnostic",
             "geometry",
             "lang",
             "memo",
+            "regions",
             "scene",
             "source",
             "svg",
@@ -48,6 +51,7 @@ const USES: &[(&str, &[&str])] = &[
         "bind",
         &[
             "anatomy",
+            "assignment",
             "diagnostic",
             "geometry",
             "lang",
@@ -123,7 +127,7 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
-    ("geometry", &[]),
+    ("geometry", &["regions"]),
     (
         "ide",
         &[
@@ -245,6 +249,7 @@ const USES: &[(&str, &[&str])] = &[
             "svg", "threads",
         ],
     ),
+    ("regions", &[]),
     (
         "render",
         &["crash", "import", "resolver", "smoothing", "threads"],
@@ -304,6 +309,7 @@ const USES: &[(&str, &[&str])] = &[
             "diagnostic",
             "geometry",
             "lang",
+            "regions",
             "scene",
             "source",
             "svg",
@@ -311,7 +317,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("texture", &["scene"]),
     ("threads", &["crash"]),
-    ("tracking", &["mark_tracks"]),
+    ("tracking", &["mark_tracks", "regions"]),
     ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 

@@ -4,11 +4,11 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::labels::{Labels, Overlaps, Shape};
-use crate::billboard::generated::{Character, Drawn, character};
 use crate::billboard::matching::{Track, match_regions};
 use crate::billboard::place::{Frame, Placed, frames, place};
 use crate::billboard::region::{Direction, Region, View};
 use crate::billboard::shape::{Morph, morph};
+use crate::billboard::tests::generated::{Character, Drawn, character};
 use crate::billboard::turn::between;
 use crate::geometry::{Outline, Ring};
 

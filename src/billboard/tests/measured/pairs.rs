@@ -1,7 +1,7 @@
 //! Which regions of two drawings show the same thing: how often the thesis' method and ours are right. The answers for pictures were
 //! given by eye, those for other drawings by their ids.
 
-#[path = "../../../tests/common/rewrite.rs"]
+#[path = "../../../../tests/common/rewrite.rs"]
 mod rewrite;
 
 use std::fmt::Write as _;
@@ -12,11 +12,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use crate::billboard::character::Character;
-use crate::billboard::generated::{character, directions};
 use crate::billboard::matching::by_similarity::most_similar;
 use crate::billboard::matching::match_regions;
 use crate::billboard::place::frames;
 use crate::billboard::region::View;
+use crate::billboard::tests::generated::{character, directions};
 use crate::compile::{Compiled, Options, compile};
 use crate::geometry::contains;
 use crate::resolver::{LinkError, Resolver};

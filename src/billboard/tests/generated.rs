@@ -9,9 +9,9 @@ mod random;
 
 use glam::{DMat3, DVec2, DVec3};
 
-pub(super) use body::character;
+pub(in crate::billboard) use body::character;
 
-use super::region::{Direction, Region, View};
+use crate::billboard::region::{Direction, Region, View};
 use crate::geometry::{FillRule, Outline, Ring, area, bounds, intersect, resolve_overlaps, union};
 
 /// Points around an ellipse.
@@ -25,7 +25,7 @@ const CONTAINED: f64 = 0.98;
 
 /// A character in space.
 #[derive(Debug, Clone)]
-pub(super) struct Character {
+pub(in crate::billboard) struct Character {
     /// Drawing units per height.
     pub scale: f64,
     /// Its coloured surfaces. An index into them is a region's true identity.
@@ -35,7 +35,7 @@ pub(super) struct Character {
 
 /// A surface of one colour: a whole solid, or a detail upon it.
 #[derive(Debug, Clone)]
-pub(super) struct Item {
+pub(in crate::billboard) struct Item {
     /// What it stands for. The left and the right one of a pair share it.
     pub kind: &'static str,
     /// Its colour, sRGB with alpha, from 0 to 1.
@@ -61,7 +61,7 @@ enum Form {
 
 /// A drawing with its answers.
 #[derive(Debug, Clone)]
-pub(super) struct Drawn {
+pub(in crate::billboard) struct Drawn {
     /// The drawing.
     pub view: View,
     /// The item that each region shows.
@@ -72,7 +72,7 @@ pub(super) struct Drawn {
 }
 
 /// The two directions from which the character of a seed is drawn: 45° apart for about half of the seeds.
-pub(super) fn directions(seed: u64) -> [Direction; 2] {
+pub(in crate::billboard) fn directions(seed: u64) -> [Direction; 2] {
     let direction = |theta, phi| Direction { theta, phi };
     let front = direction(0.0, 0.0);
     match seed % 12 {
@@ -88,7 +88,7 @@ pub(super) fn directions(seed: u64) -> [Direction; 2] {
 
 impl Character {
     /// The place of an item: a solid's centre, or the middle of a detail's border. Heights.
-    pub(super) fn center(&self, item: usize) -> DVec3 {
+    pub(in crate::billboard) fn center(&self, item: usize) -> DVec3 {
         let item = &self.items[item];
         let solid = &self.solids[item.solid];
         item.detail.as_ref().map_or(solid.center, |ring| {
@@ -102,7 +102,7 @@ impl Character {
     }
 
     /// The drawing from a direction. Surfaces that are hidden are missing in it.
-    pub(super) fn true_view(&self, direction: Direction) -> Drawn {
+    pub(in crate::billboard) fn true_view(&self, direction: Direction) -> Drawn {
         let screen = Screen::new(direction, self.scale);
         let mut order: Vec<usize> = (0..self.solids.len()).collect();
         let depth = |i: usize| self.solids[i].center.dot(screen.axes[2]);
