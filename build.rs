@@ -1,25 +1,32 @@
-//! Embeds the preview page in the program. npm builds it from its lock file unless it is up to date; if npm is missing or
-//! fails, the program gets a plain page that says so.
+//! Embeds the preview page in the program. A package has it ready-made in `editors/web/dist`; in a clone, npm builds it from
+//! its lock file, in cargo's folder for such results. If npm is missing or fails, the program gets a plain page that says so.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::SystemTime;
-use std::{env, fs};
+use std::{env, fs, io};
 
 const FILES: [&str; 3] = ["page.html", "page.js", "page.css"];
 /// What the page is built from.
 const SOURCES: [&str; 4] = ["src", "scripts", "package.json", "package-lock.json"];
 
 fn main() {
-    let folder = Path::new("editors/web");
-    for watched in SOURCES {
-        println!("cargo::rerun-if-changed={}", folder.join(watched).display());
+    println!("cargo::rerun-if-changed=build.rs");
+    if env::var_os("CARGO_FEATURE_PREVIEW").is_none() {
+        return;
     }
     println!("cargo::rerun-if-env-changed=OKOSHI_NO_PAGE");
+    let folder = Path::new("editors/web");
+    // What is not there is not named: cargo would run this every time.
+    for watched in SOURCES.map(|name| folder.join(name)) {
+        if watched.exists() {
+            println!("cargo::rerun-if-changed={}", watched.display());
+        }
+    }
     let Some(out) = env::var_os("OUT_DIR").map(PathBuf::from) else {
         panic!("cargo tells where to build");
     };
-    match built(folder) {
+    match built(folder, &out.join("web")) {
         Ok(files) => {
             for (name, bytes) in FILES.iter().zip(files) {
                 write(&out.join(name), &bytes);
@@ -34,37 +41,37 @@ fn main() {
     }
 }
 
-/// The files of the page, or why there are none.
-fn built(folder: &Path) -> Result<Vec<Vec<u8>>, String> {
+/// The files of the page, ready-made or built in `room`, or why there are none.
+fn built(folder: &Path, room: &Path) -> Result<Vec<Vec<u8>>, String> {
     if env::var_os("OKOSHI_NO_PAGE").is_some() {
         return Err("OKOSHI_NO_PAGE is set".to_owned());
     }
-    if !folder.join("package.json").exists() {
-        return Err("the sources of the page are not here".to_owned());
-    }
-    if is_old(folder) {
-        if !folder.join("node_modules/.package-lock.json").exists() {
-            npm(folder, &["ci", "--no-audit", "--no-fund"])?;
-        }
-        npm(folder, &["run", "build"])?;
-    }
+    let dist = if is_current(folder) {
+        folder.join("dist")
+    } else if folder.join("package.json").exists() {
+        bundle(folder, room)?;
+        room.join("dist")
+    } else {
+        // Nobody is to notice this after a release.
+        panic!("the package has no page: run `npm run build` in editors/web before packaging");
+    };
     let read = |name: &&str| {
-        let path = folder.join("dist").join(name);
+        let path = dist.join(name);
         fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
     };
     FILES.iter().map(read).collect()
 }
 
-/// Whether the page is missing or older than its sources.
-fn is_old(folder: &Path) -> bool {
+/// Whether the page is there and no older than its sources.
+fn is_current(folder: &Path) -> bool {
     let time = |path: PathBuf| fs::metadata(path).and_then(|found| found.modified()).ok();
     let dist = FILES
         .iter()
         .map(|name| time(folder.join("dist").join(name)));
     let Some(oldest) = dist.min().flatten() else {
-        return true;
+        return false;
     };
-    SOURCES
+    !SOURCES
         .iter()
         .any(|name| newest(&folder.join(name)) > Some(oldest))
 }
@@ -77,6 +84,36 @@ fn newest(path: &Path) -> Option<SystemTime> {
     }
     let entries = fs::read_dir(path).ok()?.flatten();
     entries.filter_map(|entry| newest(&entry.path())).max()
+}
+
+/// Builds the page from a copy of its sources, as npm writes beside them.
+fn bundle(folder: &Path, room: &Path) -> Result<(), String> {
+    let lock = |folder: &Path| fs::read(folder.join("package-lock.json")).ok();
+    let is_installed = room.join("node_modules/.package-lock.json").exists();
+    let is_installed = is_installed && lock(room) == lock(folder);
+    for name in SOURCES {
+        let copy = room.join(name);
+        let _ = fs::remove_dir_all(&copy);
+        copied(&folder.join(name), &copy)
+            .map_err(|error| format!("{}: {error}", copy.display()))?;
+    }
+    if !is_installed {
+        npm(room, &["ci", "--omit=dev", "--no-audit", "--no-fund"])?;
+    }
+    npm(room, &["run", "build"])
+}
+
+/// Copies a file, or a folder with all that is in it.
+fn copied(from: &Path, to: &Path) -> io::Result<()> {
+    if !from.is_dir() {
+        return fs::copy(from, to).map(drop);
+    }
+    fs::create_dir_all(to)?;
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        copied(&entry.path(), &to.join(entry.file_name()))?;
+    }
+    Ok(())
 }
 
 fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {

@@ -16,12 +16,12 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
-use okoshi::motion::bvh;
+use okoshi::limited::{Length, Options, Poses, compare, drawings, limit};
+use okoshi::mocap::bvh;
+use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton};
+use okoshi::motion::PointChoice;
 use okoshi::motion::edit::{self, ExposureMethod, edit};
-use okoshi::motion::limited::{Length, Options, Poses, compare, drawings, limit};
-use okoshi::motion::measured::PointChoice;
-use okoshi::motion::prepare;
-use okoshi::motion::skeleton::{Axis, Channel, Clip, Joint, Skeleton};
+use okoshi::prepare;
 use plain_limited::{plain, repeats};
 
 /// Joints of the figure.

@@ -7,6 +7,7 @@
 // (event), until the file has settled, until the model is built, until the page is notified (push), until it has fetched and drawn the
 // model (frame). Bytes: those of the message, and of the model or what changed in it.
 // Turning: one frame of the same model from another direction, and its draw calls.
+// The list: folding and opening its root, which shows all rows anew, as a save does; and a click on a row, until the picture shows it.
 // The main thread's time is that of scripts, styles and layout. Chromium renders in software here; a graphics card is faster.
 
 import { spawn } from "node:child_process";
@@ -19,6 +20,8 @@ const root = new URL("..", import.meta.url).pathname;
 const { chromium } = createRequire(join(root, "editors/web/package.json"))("playwright-core");
 const okoshi = process.env.OKOSHI ?? join(root, "target/release/okoshi");
 const TURNS = 30;
+/** How often the list is folded and opened. */
+const FOLDS = 25;
 /** Kinds of solids, used in turn. */
 const KINDS = ["default -9 9", "roundv", "default -5 5", "round", "conev -8 8 0.5", "flat"];
 /** The part whose width changes, in the middle of its row. */
@@ -113,6 +116,21 @@ function observe() {
   }).observe(document, { subtree: true, childList: true, attributes: true });
 }
 
+/** Runs in the page: folds and opens the root of the list. Returns the times of the openings with their layout, in milliseconds. */
+function fold(count) {
+  const list = document.querySelector(".tree");
+  const times = [];
+  for (let number = 0; number < count; number++) {
+    for (const key of ["ArrowLeft", "ArrowRight"]) {
+      const begun = performance.now();
+      list.querySelector("[tabindex='0']").dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+      void list.offsetHeight;
+      if (key === "ArrowRight") times.push(performance.now() - begun);
+    }
+  }
+  return times;
+}
+
 /** Measures the main thread's time of an action, in milliseconds. */
 async function mainThread(cdp, action) {
   const time = async () => {
@@ -201,6 +219,14 @@ async function measurePage(page, cdp, { parts, path, opening }) {
     }
   });
   const count = (await frames()) - before;
+  await page.keyboard.press("t");
+  const times = await page.evaluate(fold, FOLDS);
+  const click = await mainThread(cdp, async () => {
+    await page.locator(".tree-item").nth(2).click();
+    await page.waitForFunction(() => document.querySelector("canvas").dataset.selected !== "");
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+  });
+  print("the list", { "opening, least": [Math.min(...times), "ms"], median: [median(times), "ms"], "a click, main thread": [click, "ms"] });
   print("turning, a frame", { "main thread": [turning / count, "ms"], "draw calls": [(await page.evaluate(() => window.seen.draws)) / count, ""] });
 }
 

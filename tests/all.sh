@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Runs everything that tells whether okoshi is in order: bash tests/all.sh [--quick]
 #
-# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Inkscape, Pillow, Neovim, Emacs, ffmpeg and clip art are installed if
-# they are missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
-# --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's work is done in one profile.
+# Works from a clean clone on Debian or Ubuntu with Rust and Node. Chromium, Blender, Inkscape, Pillow, Neovim, Emacs, ffmpeg and clip art are
+# installed if they are missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the
+# summary counts that and says why. --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's work is
+# done in one profile. The output of each step is also in target/all/STEP.log.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -24,39 +25,120 @@ export CARGO_TERM_PROGRESS_WHEN=never
 # others each time.
 export PROPTEST_RNG_SEED=${PROPTEST_RNG_SEED:-1}
 
-# ---- Steps. Each is a function; a failing command ends it; `skip REASON` leaves it.
+# ---- Steps. Each is a function; a failing command ends it; `skip REASON` leaves it. What a step leaves out it says in a line that begins
+# with `skipped:`.
 
-reason=$(mktemp)
-trap 'rm -f "$reason"' EXIT
-skip() { echo "skipped: $1"; echo "$1" > "$reason"; exit 77; }
+logs=$target/all
+rm -rf "$logs"
+mkdir -p "$logs"
+skip() { echo "skipped: $1"; exit 77; }
 need() { command -v "$1" > /dev/null || skip "$1 is not installed"; }
+
+# What a step left out, one reason a line: also tests that node's runner skips.
+skips() { # LOG
+  sed -nE 's/^skipped: //p; s/^ *﹣ .* # (.*)$/\1/p' "$1"
+}
+
+# The closing lines of the test runners in the output of a step. Those of cargo's many programs, and of node's counts, are put together.
+closing() { # LOG
+  awk '
+    /^test result:/ { programs++; passed += $4; failed += $6; ignored += $8 }
+    /^ℹ (tests|pass|fail|cancelled|skipped) / { counts = counts (counts == "" ? "" : ", ") $2 " " $3 }
+    /^ℹ duration_ms / { print counts; counts = "" }
+    /^Ran [0-9]+ tests/ { ran = $0; if (/results/) print ran; next }
+    /^(OK|FAILED)( |$)/ && ran != "" { print ran ": " $0; ran = "" }
+    /^Neovim .* passed, / { print }
+    END { if (programs) printf "%d test programs: %d passed, %d failed, %d ignored\n", programs, passed, failed, ignored }
+  ' "$1"
+}
 
 summary=()
 failed=0
+skipped=0
 step() { # NAME FUNCTION
-  local began=$SECONDS status verdict
+  local began=$SECONDS log=$logs/$1.log status verdict showing left_out line
   printf '\n==== %s\n' "$1"
-  : > "$reason"
+  exec 3> >(tee "$log")
+  showing=$!
   # Not in a condition: there `set -e` would not hold.
   set +e
-  (set -e; "$2")
+  (set -e; exec 3>&-; "$2") >&3 2>&1
   status=$?
   set -e
+  exec 3>&-
+  # All output is shown; what a step may have left running is not waited for.
+  timeout 10 tail -s 0.1 -f --pid="$showing" /dev/null || true
+  left_out=$(skips "$log" | sort | uniq -c | sed -E 's/^ *1 /skipped: /; s/^ *([0-9]+) /skipped \1 times: /')
   case $status in
     0) verdict=ok ;;
-    77) verdict="skipped: $(cat "$reason")" ;;
+    77) verdict=skipped ;;
     *) verdict="FAILED (status $status)"; failed=1 ;;
   esac
+  skipped=$((skipped + $(skips "$log" | wc -l)))
   printf -- '---- %s: %s, %d s\n' "$1" "$verdict" $((SECONDS - began))
   summary+=("$(printf '%-12s %4d s  %s' "$1" $((SECONDS - began)) "$verdict")")
+  while IFS= read -r line; do
+    [ -z "$line" ] || summary+=("                       $line")
+  done < <(closing "$log"; echo "$left_out")
 }
 
 formatting() { cargo fmt --check; }
 lints() { cargo clippy --locked --all-targets -- -D warnings; }
 # With the tests, for what is built alone has other features of some libraries, and all would be built once more.
 program() { cargo build --locked --bins --tests; }
-tests() { cargo test --locked --no-fail-fast; }
+# The tests of videos need ffmpeg. Of the output of tests that pass, what they skip is shown.
+tests() {
+  if [ $quick = no ] && ! command -v ffmpeg > /dev/null; then (install ffmpeg ffmpeg) || [ $? = 77 ] || exit 1; fi
+  cargo test --locked --no-fail-fast -- --show-output | awk '
+    /^(failures:|test result:)/ { passes = 0 }
+    /^successes:$/ { passes = 1 }
+    !passes || /^skipped: / { print; fflush() }
+  '
+}
 manual() { RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps; }
+
+# The core alone, with its tests; each feature alone, for all together are the default; and a program that embeds the core.
+features() {
+  local feature packages
+  cargo test --locked --no-default-features --lib --test layers --test models
+  for feature in disk watch render tracking preview lsp; do
+    OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features "$feature"
+  done
+  # The versions of the libraries are those of the program.
+  cp Cargo.lock tests/embedding/Cargo.lock
+  cargo run --offline --manifest-path tests/embedding/Cargo.toml --target-dir "$target"
+  packages=$(cargo tree --offline --manifest-path tests/embedding/Cargo.toml -e normal --prefix none --no-dedupe | sort -u | wc -l)
+  echo "$packages packages in the tree of a program that embeds the core"
+  [ "$packages" -lt 130 ]
+}
+
+# The core for a browser. rustup's toolchain, if it has that target; otherwise Debian's, whose standard library is compiled first.
+wasm() {
+  local target_triple=wasm32-unknown-unknown check
+  check=(check --locked --lib --no-default-features --target $target_triple)
+  if rustup target list --installed 2> /dev/null | grep -qx $target_triple; then
+    cargo "${check[@]}"
+    return
+  fi
+  if ! [ -d /usr/lib/rustlib/src/rust/library ]; then
+    [ $quick = no ] || skip "--quick, and there is no compiler for WebAssembly"
+    install "A compiler for WebAssembly" rustc-web cargo-web rust-web-src
+  fi
+  # Sources of the standard library are built by the compiler that they came with.
+  RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 /usr/bin/cargo "${check[@]}" -Z build-std=std,panic_abort --target-dir "$target/wasm"
+}
+
+# What a package holds is enough: installed from it without npm, the program serves the page.
+package() {
+  need npm
+  need curl
+  node -e 'import("./editors/web/scripts/install.mjs").then(({ install }) => install())'
+  npm run build --prefix editors/web
+  cargo package --locked --no-verify --allow-dirty
+  rm -rf "$target"/package/okoshi-*/
+  tar -xzf "$target"/package/okoshi-*.crate -C "$target/package"
+  bash $tools/installed.sh "$(realpath "$target"/package/okoshi-*/)" "$(realpath "$target")"
+}
 
 licences() {
   need node
@@ -92,11 +174,34 @@ plain() { built_models | grep -v '\.skin\.glb$'; }
 
 built() { [ -n "$(built_models)" ] || skip "there are no built examples"; }
 
+# Installs the packages of the tools, once.
+with_tools() {
+  [ $tools/node_modules/.package-lock.json -nt $tools/package-lock.json ] || (cd $tools && npm ci --no-audit --no-fund)
+}
+
 validator() {
   need npm
   built
-  (cd $tools && npm ci --no-audit --no-fund)
+  with_tools
   built_models | xargs node $tools/validate.mjs
+}
+
+# What is printed for programs follows the schemas in docs.
+schemas() {
+  need npm
+  built
+  with_tools
+  local drawing report
+  # The examples' reports are there; the cases add what no example has.
+  for drawing in tests/cases/*/drawing.svg; do
+    report=$models/cases/$(basename "$(dirname "$drawing")").json
+    mkdir -p "$(dirname "$report")"
+    "$okoshi" inspect -q "$drawing" --json > "$report" 2> /dev/null || true
+    [ -s "$report" ] || rm "$report"
+  done
+  find "$models" -name '*.json' -print0 | xargs -0 node $tools/schemas.mjs docs/okoshi-inspect.schema.json
+  "$okoshi" check --look --format json examples/*.svg tests/cases/*/drawing.svg > "$target/check.json" || true
+  node $tools/schemas.mjs docs/okoshi-check.schema.json "$target/check.json"
 }
 
 # Installs Debian packages that WHAT needs, or leaves the step.
@@ -112,27 +217,17 @@ install() { # WHAT PACKAGES…
   $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends "$@"
 }
 
-# The tests of videos run with all others too, but say there only that they skip what needs ffmpeg.
-videos() {
-  if ! command -v ffmpeg > /dev/null; then
-    [ $quick = no ] || skip "--quick, and ffmpeg is not installed"
-    install ffmpeg ffmpeg
-  fi
-  cargo test --locked --test videos
-}
-
 # Models of clip art by others, beside the drawings.
 clip_art() {
   [ $quick = no ] || skip "--quick"
   need npm
   local art=/usr/share/openclipart/svg
   [ -d $art ] || (install "the Open Clip Art Library" openclipart-svg) || [ $? = 77 ] || exit 1
-  (cd $tools && npm ci --no-audit --no-fund)
+  with_tools
   rm -rf "$target/clip-art"
   if [ -d $art ]; then
     node $tools/clip_art.mjs "$target/clip-art" $art
   else
-    echo "without the Open Clip Art Library: $(cat "$reason")"
     node $tools/clip_art.mjs "$target/clip-art"
   fi
   LOOK_DIR=$(realpath "$target/clip-art") cargo test --locked --test as_drawn -- --ignored --nocapture survey
@@ -147,11 +242,9 @@ blender_import() {
     -o "$target/trees.json"
   node $tools/same_tree.mjs "$target/trees.json"
   built_models | xargs blender -b --factory-startup --python-exit-code 1 --python $tools/blender_clips.py --
-  local model
-  for model in $(plain); do
-    echo "skin of $model"
-    blender -b --factory-startup --python-exit-code 1 --python $tools/blender_skin.py -- "$model" "${model%.glb}.skin.glb"
-  done
+  # All in one Blender: its start takes longer than most models.
+  plain | sed 's/\(.*\)\.glb$/\1.glb \1.skin.glb/' | xargs blender -b --factory-startup --python-exit-code 1 \
+    --python $tools/blender_skin.py --
 }
 
 # Gives Python Pillow, which puts pictures together, in an environment of its own.
@@ -172,8 +265,8 @@ gallery() {
   command -v inkscape > /dev/null || install Inkscape inkscape
   need python3
   with_pillow
-  cargo build --locked --release
-  OKOSHI=$(realpath "$target/release/okoshi") OUT="$target/gallery" bash $tools/gallery.sh
+  program
+  OKOSHI=$(realpath "$okoshi") OUT="$target/gallery" bash $tools/gallery.sh
 }
 
 readme() {
@@ -188,8 +281,17 @@ extension() {
   OKOSHI=$(realpath "$okoshi") npm test --prefix editors/vscode
 }
 
+has_chromium() {
+  local name
+  [ -z "${CHROMIUM:-}" ] || return 0
+  for name in chromium chromium-browser google-chrome; do [ ! -x "/usr/bin/$name" ] || return 0; done
+  return 1
+}
+
 page() {
   need npm
+  # Without a browser, the modules of the page are tested.
+  if [ $quick = no ] && ! has_chromium; then (install Chromium chromium) || [ $? = 77 ] || exit 1; fi
   program
   OKOSHI=$(realpath "$okoshi") npm test --prefix editors/web
 }
@@ -225,11 +327,14 @@ inkscape_extension() {
 step format formatting
 step clippy lints
 step test tests
-step videos videos
 step doc manual
+step features features
+step wasm wasm
+step package package
 step licences licences
 step examples examples
 step validator validator
+step schemas schemas
 step clip-art clip_art
 step blender blender_import
 step gallery gallery
@@ -241,5 +346,6 @@ step inkscape inkscape_extension
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"
+echo "$skipped skipped"
 if [ $failed = 0 ]; then echo "all well"; else echo "SOMETHING FAILED"; fi
 exit $failed

@@ -3,6 +3,7 @@
 //! Drawings are drawings of our own without given depths, clip art by others, and generated stacks, each with all its parts of one
 //! kind. `LOOK_DIR=FOLDER cargo test --test as_drawn -- --nocapture --ignored survey` measures the drawings in a folder;
 //! `tests/tools/clip_art.mjs` fills one from packages.
+#![cfg(feature = "cli")]
 #![allow(clippy::print_stdout, reason = "tables are for people")]
 
 mod common;

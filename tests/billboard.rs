@@ -1,4 +1,5 @@
 //! Characters that turn: at each drawn view the model is the drawing, seen on the page and by a viewer in that direction.
+#![cfg(feature = "cli")]
 
 mod common;
 

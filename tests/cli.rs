@@ -1,4 +1,5 @@
 //! The program end to end: what it prints, writes and returns.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,13 +1,14 @@
 //! A panic is reported as a crash, with its message and its place.
+#![cfg(feature = "cli")]
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use okoshi::cli::Findings;
 use okoshi::cli::report::{Style, human};
 use okoshi::compile::{Compiled, Compiler, Options, compile};
 use okoshi::crash;
 use okoshi::diagnostic::Code;
+use okoshi::report::Findings;
 use okoshi::resolver::{LinkError, Resolver};
 
 const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">

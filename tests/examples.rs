@@ -1,4 +1,5 @@
 //! The drawings in `examples/`: they compile without warnings, are in the gallery, and show their features.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,5 +1,6 @@
 //! No two faces with the same normal overlap in one plane (z-fighting), or a warning says so: they would
 //! flicker.
+#![cfg(feature = "cli")]
 
 mod common;
 

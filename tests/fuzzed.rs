@@ -2,7 +2,7 @@
 //! them (tests/regressions/fuzzed).
 //!
 //! `OKOSHI_FUZZ_SECONDS=600 cargo test --test fuzzed` tries more, `fuzz/run.sh` searches with coverage feedback.
-
+#![cfg(feature = "cli")]
 #![allow(
     clippy::print_stdout,
     reason = "with --nocapture it says how much was tried, and where the input of a failure is"

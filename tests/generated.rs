@@ -1,19 +1,20 @@
 //! The pages and grammars that are generated from the keyword table are up to date.
 //!
 //! `OKOSHI_REWRITE=generated cargo test --test generated` rewrites it.
+#![cfg(feature = "cli")]
 
 mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use okoshi::cli::Findings;
 use okoshi::cli::report::{Style, human};
 use okoshi::compile::Compiled;
 use okoshi::diagnostic::{Code, Diagnostic};
 use okoshi::disk::FolderResolver;
 use okoshi::lang::reference;
 use okoshi::look::{compare, hints};
+use okoshi::report::Findings;
 use okoshi::resolver::{LinkError, Resolver};
 
 fn path(name: &str) -> PathBuf {

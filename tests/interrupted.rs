@@ -1,6 +1,7 @@
 //! Outputs when the program is killed or the disk is full: the old file or the new one, whole, and nothing else.
 //!
 //! `OKOSHI_KILLS=400 cargo test --test interrupted -- --nocapture` kills more often, and prints what was found.
+#![cfg(feature = "cli")]
 #![allow(
     clippy::print_stdout,
     reason = "with --nocapture it says what kills left, and what is skipped"

@@ -1,4 +1,5 @@
 //! Which joint drives which part, in `inspect` and in the language server.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -31,14 +31,17 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
+    ("assignment", &[]),
     (
         "billboard",
         &[
+            "assignment",
             "bind",
             "diagnostic",
             "geometry",
             "lang",
             "memo",
+            "regions",
             "scene",
             "source",
             "svg",
@@ -48,6 +51,7 @@ const USES: &[(&str, &[&str])] = &[
         "bind",
         &[
             "anatomy",
+            "assignment",
             "diagnostic",
             "geometry",
             "lang",
@@ -83,6 +87,7 @@ const USES: &[(&str, &[&str])] = &[
             "watch",
         ],
     ),
+    ("clips", &["labels", "mocap", "smoothing"]),
     (
         "compile",
         &[
@@ -122,7 +127,7 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
-    ("geometry", &[]),
+    ("geometry", &["regions"]),
     (
         "ide",
         &[
@@ -141,8 +146,10 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("import", &["resolver", "scene"]),
     ("index", &[]),
+    ("labels", &["anatomy", "mocap"]),
     ("lang", &["diagnostic", "source"]),
     ("lib", &[]),
+    ("limited", &["scene"]),
     (
         "look",
         &[
@@ -182,8 +189,44 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("main", &["cli"]),
+    ("mark_tracks", &[]),
     ("memo", &["resolver", "threads"]),
-    ("motion", &["anatomy", "scene", "smoothing"]),
+    ("mocap", &[]),
+    (
+        "motion",
+        &[
+            "labels",
+            "limited",
+            "mark_tracks",
+            "mocap",
+            "performance",
+            "prepare",
+            "retarget",
+            "scene",
+        ],
+    ),
+    (
+        "performance",
+        &[
+            "labels",
+            "limited",
+            "mark_tracks",
+            "mocap",
+            "scene",
+            "smoothing",
+        ],
+    ),
+    (
+        "prepare",
+        &[
+            "clips",
+            "labels",
+            "limited",
+            "mocap",
+            "retarget",
+            "smoothing",
+        ],
+    ),
     (
         "preview",
         &[
@@ -206,6 +249,7 @@ const USES: &[(&str, &[&str])] = &[
             "svg", "threads",
         ],
     ),
+    ("regions", &[]),
     (
         "render",
         &["crash", "import", "resolver", "smoothing", "threads"],
@@ -226,6 +270,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("resolver", &[]),
+    ("retarget", &["labels", "mocap", "smoothing"]),
     (
         "rig",
         &[
@@ -264,6 +309,7 @@ const USES: &[(&str, &[&str])] = &[
             "diagnostic",
             "geometry",
             "lang",
+            "regions",
             "scene",
             "source",
             "svg",
@@ -271,14 +317,26 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("texture", &["scene"]),
     ("threads", &["crash"]),
-    ("tracking", &["motion"]),
+    ("tracking", &["mark_tracks", "regions"]),
     ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 
 /// Steps inside of modules, in their order: each may use those before it.
 const STEPS: &[(&str, &[&str])] = &[("bind", &["matching", "attributes", "hierarchy", "reports"])];
 
-/// What only some modules may use: a path or a macro, those modules, and why.
+/// The rim: modules that are there only with a feature. All others are the core, which builds without features and uses none of them.
+const RIM: &[(&str, &str)] = &[
+    ("cli", "cli"),
+    ("disk", "disk"),
+    ("look", "render"),
+    ("lsp", "lsp"),
+    ("preview", "preview"),
+    ("render", "render"),
+    ("tracking", "tracking"),
+    ("watch", "watch"),
+];
+
+/// What only some modules of the rim, or the program, may use: a path or a macro, those modules, and why.
 const ONLY_IN: &[(&str, &[&str], &str)] = &[
     ("std::fs", &["disk"], "only `disk` touches files"),
     ("tokio::fs", &["disk"], "only `disk` touches files"),
@@ -308,6 +366,21 @@ const ONLY_IN: &[(&str, &[&str], &str)] = &[
         "compiling reads no clock",
     ),
     ("chrono", &["cli"], "compiling reads no clock"),
+    (
+        "std::thread",
+        &["cli", "disk", "lsp", "preview", "render", "watch"],
+        "the core has no threads but those of `rayon`",
+    ),
+    (
+        "std::net",
+        &["lsp", "preview"],
+        "compiling knows no network",
+    ),
+    (
+        "tokio",
+        &["cli", "lsp", "preview"],
+        "only servers wait for many things at once",
+    ),
     ("print!", &["cli"], "only `cli` prints"),
     ("println!", &["cli"], "only `cli` prints"),
     ("eprint!", &["cli"], "only `cli` prints"),
@@ -712,6 +785,67 @@ fn only_the_rim_touches_the_world() {
                 only.join("::")
             );
         }
+    }
+}
+
+fn is_rim(module: &str) -> bool {
+    RIM.iter().any(|(rim, _)| *rim == module)
+}
+
+#[test]
+fn the_core_never_uses_the_rim() {
+    let (graph, shown) = graph(&sources());
+    for (module, uses) in graph.iter().filter(|(module, _)| !is_rim(module)) {
+        for other in uses.iter().filter(|other| is_rim(other)) {
+            let path = &shown[&(module.clone(), other.clone())];
+            assert!(
+                module == "main",
+                "{path} is of the core, and uses `{other}`"
+            );
+        }
+    }
+    for (only, modules, _) in ONLY_IN {
+        for module in modules.iter().filter(|module| **module != "main") {
+            assert!(
+                is_rim(module),
+                "`{module}` is of the core, and may use `{only}`"
+            );
+        }
+    }
+}
+
+/// What is part of a build is said in one place: each module of the rim belongs to its feature as a whole.
+#[test]
+fn features_are_named_at_modules_of_the_rim_alone() {
+    let text = fs::read_to_string(src().join("lib.rs")).expect("src/lib.rs");
+    let library = syn::parse_file(&text).expect("Rust");
+    let mut found = BTreeMap::new();
+    for item in &library.items {
+        let Item::Mod(item) = item else { continue };
+        for cfg in item.attrs.iter().filter(|one| one.path().is_ident("cfg")) {
+            let condition: syn::MetaNameValue = cfg.parse_args().expect("one feature");
+            assert!(condition.path.is_ident("feature"), "{}", item.ident);
+            let syn::Expr::Lit(syn::ExprLit {
+                lit: syn::Lit::Str(feature),
+                ..
+            }) = condition.value
+            else {
+                panic!("the feature of `{}` has no name", item.ident);
+            };
+            found.insert(item.ident.to_string(), feature.value());
+        }
+    }
+    let listed = RIM
+        .iter()
+        .map(|(module, feature)| (module.to_string(), feature.to_string()));
+    assert_eq!(found, listed.collect());
+    for source in sources().iter().filter(|source| source.module != "lib") {
+        let text = fs::read_to_string(src().join(&source.path)).expect("a source file");
+        let path = source.path.display();
+        assert!(
+            !text.contains("cfg(feature") && !text.contains("(feature ="),
+            "{path} names a feature"
+        );
     }
 }
 

@@ -1,4 +1,5 @@
 //! The language server over real stdio.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Laws of the language server, checked with random edits over real stdio.
+#![cfg(feature = "cli")]
 
 mod common;
 

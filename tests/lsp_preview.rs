@@ -1,4 +1,5 @@
 //! The live preview of open texts, in a client's own panel and on a page.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! The picture of a matching: what is the same in all views has one colour there, and what has no partner is grey.
+#![cfg(feature = "cli")]
 
 mod common;
 

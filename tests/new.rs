@@ -1,4 +1,5 @@
 //! `okoshi new`: starter drawings.
+#![cfg(feature = "cli")]
 
 mod common;
 

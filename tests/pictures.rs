@@ -1,6 +1,7 @@
 //! Every example looks the same as before: its picture is compared with the one in `tests/pictures/`.
 //!
 //! `OKOSHI_REWRITE=pictures cargo test --test pictures` updates those; look at them before you commit them.
+#![cfg(feature = "cli")]
 
 mod common;
 

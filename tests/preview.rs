@@ -1,4 +1,5 @@
 //! `okoshi preview` as a server: what it serves, what it refuses, and that no client can block it.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Sheets of puppets: every piece is there once, can be cut out, and can be pinned where its holes are; and it shows what is drawn.
+#![cfg(feature = "cli")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! `okoshi render` end to end: its output, and its messages about wrong use.
+#![cfg(feature = "cli")]
 
 mod common;
 

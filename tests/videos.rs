@@ -1,4 +1,5 @@
 //! Videos of `okoshi render`: what ffmpeg encodes, and what happens without it.
+#![cfg(feature = "cli")]
 #![allow(
     clippy::print_stderr,
     reason = "what is skipped is said in the test's output"

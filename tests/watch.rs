@@ -1,4 +1,5 @@
 //! `okoshi watch` with a real process and real files: saves of all kinds, and kills.
+#![cfg(feature = "cli")]
 
 mod common;
 
@@ -205,6 +206,46 @@ fn paths_that_cannot_be_watched_are_errors_at_once() {
     let folder = tempfile::tempdir().expect("a folder");
     let live = Live::start(folder.path(), &["watch", "nowhere.svg"]);
     live.line("error: `nowhere.svg` is not there; check the path");
+}
+
+#[test]
+fn the_output_of_one_drawing_may_be_a_file_of_any_format() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a.svg"), drawing(50)).expect("written");
+    for name in ["model.gltf", "model.obj", "model.GLB"] {
+        let live = Live::start(folder.path(), &["watch", "a.svg", "-o", name]);
+        live.line(&format!("{name} in"));
+        let written = fs::read(folder.path().join(name)).expect("a file");
+        match name {
+            "model.gltf" => assert!(written.starts_with(b"{")),
+            "model.obj" => assert!(written.starts_with(b"#")),
+            _ => assert!(common::nodes(&written).is_ok()),
+        }
+    }
+    assert!(!folder.path().join("a.glb").exists());
+    fs::create_dir(folder.path().join("folder.glb")).expect("a folder");
+    let live = Live::start(folder.path(), &["watch", "a.svg", "-o", "folder.glb"]);
+    live.line("a.glb in");
+    for (arguments, error) in [
+        (
+            &["watch", ".", "-o", "m.glb"][..],
+            "error: `m.glb` is one file, and more than one drawing may be watched; name a folder",
+        ),
+        (
+            &["watch", "a.svg", "a.svg", "-o", "m.glb"],
+            "error: `m.glb` is one file",
+        ),
+        (
+            &["watch", "a.svg", "-o", "b.svg"],
+            "error: `b.svg` is a drawing, and okoshi never overwrites drawings",
+        ),
+        (
+            &["watch", "a.svg", "-o", "-"],
+            "error: a model that is written at every save needs a file or a folder",
+        ),
+    ] {
+        Live::start(folder.path(), arguments).line(error);
+    }
 }
 
 #[test]

@@ -14,7 +14,7 @@
 (defconst test-arm "Rarm@Ubody$Shape roundv -90 90")
 
 (setq okoshi-command (list (or (getenv "OKOSHI") (error "OKOSHI names the program to test")) "lsp"))
-(setq eglot-sync-connect 10
+(setq eglot-sync-connect 60
       eglot-autoshutdown nil
       eglot-send-changes-idle-time 0.05
       flymake-no-changes-timeout 0.05
@@ -23,7 +23,7 @@
 
 (defun test-wait (about condition)
   "Wait until CONDITION holds; ABOUT says what that is."
-  (let ((end (+ (float-time) 15)) value)
+  (let ((end (+ (float-time) 60)) value)
     (while (not (or (setq value (funcall condition)) (> (float-time) end)))
       (accept-process-output nil 0.02))
     (unless value (ert-fail (format "waited in vain until %s" about)))

@@ -5,23 +5,20 @@
 //!
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, chapter 4.
 
-mod assignment;
 mod backing;
 mod character;
 mod diagnostics;
 mod drawn;
 mod features;
-#[cfg(test)]
-mod generated;
 mod keys;
 mod matching;
-#[cfg(test)]
-mod measured;
 mod nodes;
 mod place;
 mod raster;
 mod region;
 mod shape;
+#[cfg(test)]
+mod tests;
 mod turn;
 
 pub use character::{Character, Fill, Piece, RegionModel, read};

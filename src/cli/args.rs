@@ -202,6 +202,7 @@ pub(super) struct Build {
 const WATCH_EXAMPLES: &str = "\
 Examples:
   okoshi watch human.svg            writes human.glb now and on every save
+  okoshi watch human.svg -o h.gltf  the same in another file or format
   okoshi watch drawings -o models   all drawings below a folder, including new ones
   okoshi watch human.svg --poll     where the system does not report saves: network folders, WSL
 
@@ -214,8 +215,8 @@ pub(super) struct Watch {
     /// Drawings and folders of drawings
     #[arg(required = true, value_name = "PATH")]
     pub(super) paths: Vec<PathBuf>,
-    /// The folder that models are written to [default: beside each drawing]
-    #[arg(short, long, value_name = "DIR")]
+    /// The folder that models are written to, or for one drawing the file, in the format of its ending [default: beside each drawing]
+    #[arg(short, long, value_name = "DIR|FILE")]
     pub(super) output: Option<PathBuf>,
     #[command(flatten)]
     pub(super) noticing: Noticing,

@@ -92,14 +92,21 @@ fn exporter(output: &Path) -> Result<&'static dyn Exporter, String> {
     }
     export::by_extension(output).ok_or_else(|| {
         let name = output.display();
-        let extensions = export::extensions(|_| true);
-        match is_drawing(output) {
-            true => format!(
-                "`{name}` is a drawing, and okoshi never overwrites drawings: the output must end in {extensions}"
-            ),
-            false => format!("the output `{name}` must end in {extensions}"),
+        if is_drawing(output) {
+            return overwrites_drawing(output);
         }
+        let extensions = export::extensions(|_| true);
+        format!("the output `{name}` must end in {extensions}")
     })
+}
+
+/// What is wrong with an output that is named like a drawing.
+pub(super) fn overwrites_drawing(output: &Path) -> String {
+    format!(
+        "`{}` is a drawing, and okoshi never overwrites drawings: the output must end in {}",
+        output.display(),
+        export::extensions(|_| true)
+    )
 }
 
 fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (Outcome, String) {

@@ -7,11 +7,12 @@ use super::fix::fix;
 use super::loading::{Detail, Loaded, count, describe, load, resolver, tally};
 use super::parallel::each;
 use super::progress::spinning;
-use super::{Outcome, counted, fail, json, print_out, sarif, style};
+use super::{Outcome, counted, fail, print_out, sarif, style};
 use crate::bind;
 use crate::diagnostic;
 use crate::disk::is_standard_stream;
 use crate::look;
+use crate::report::findings_json;
 
 /// The larger side of the pictures that `--look` compares, pixels.
 const LOOK_SIDE: u32 = 800;
@@ -48,7 +49,7 @@ pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
     let findings: Vec<_> = read.iter().map(|(loaded, _)| loaded.findings()).collect();
     let text = match arguments.format {
         Format::Human => human(&read, arguments, common),
-        Format::Json => json::json(&findings),
+        Format::Json => findings_json(&findings),
         Format::Sarif => sarif::sarif(&findings),
     };
     let fixes_stdin = arguments

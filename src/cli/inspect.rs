@@ -6,20 +6,15 @@ mod matches;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use serde::Serialize;
-
 use super::args::{Common, Inspect};
 use super::loading::{Detail, Loaded, describe, load};
 use super::progress::spinning;
-use super::{Outcome, fail, pretty, print_out, style};
+use super::{Outcome, fail, print_out, style};
 use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{self, NamedBy, PartKind, SetBy};
 use crate::disk::is_standard_stream;
 use crate::lang::keyword::Keyword;
-use crate::report::{
-    self, Billboard, Clip, Part, Reader, Terrain, billboards, describe_character, own_name, parts,
-    terrain,
-};
+use crate::report::{depth_reason, describe_character, inspection_json, own_name};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
@@ -56,7 +51,7 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
         return loaded.outcome().max(drawn);
     }
     let text = if arguments.json {
-        json(&loaded)
+        inspection_json(&loaded.path, &loaded.compiled, &loaded.text)
     } else {
         let numbers = match picture {
             Some(_) => Numbers::AsInPicture,
@@ -92,25 +87,6 @@ fn checked<'a>(path: &'a Path, arguments: &Inspect) -> Result<&'a Path, String> 
 enum Numbers {
     None,
     AsInPicture,
-}
-
-#[derive(Serialize)]
-struct Report<'a> {
-    drawing: &'a str,
-    parts: Vec<Part<'a>>,
-    terrain: Vec<Terrain<'a>>,
-    billboards: Vec<Billboard<'a>>,
-    clips: Vec<Clip<'a>>,
-}
-
-fn json(loaded: &Loaded) -> String {
-    pretty(&Report {
-        drawing: &loaded.path,
-        parts: parts(&loaded.compiled, &loaded.text),
-        terrain: terrain(&loaded.compiled),
-        billboards: billboards(&loaded.compiled),
-        clips: report::clips(&loaded.compiled, Reader::Inspect),
-    })
 }
 
 fn tree(loaded: &Loaded, numbers: Numbers) -> String {
@@ -309,7 +285,7 @@ fn describe_part(loaded: &Loaded, index: usize) -> String {
     let element = loaded.compiled.drawing.shapes[part.shape]
         .element
         .describe();
-    let depth = report::depth_reason(&loaded.compiled, index);
+    let depth = depth_reason(&loaded.compiled, index);
     let depth = depth.map_or(String::new(), |reason| format!("; {reason}"));
     format!(
         "{solid}{subs}{ink}; {element}, {}{depth}",

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Common, Reading};
 use super::report::{self, Style};
-use super::{Findings, Outcome, fail};
+use super::{Outcome, fail};
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::disk::{FolderResolver, decode, read_drawing};
 use crate::look::Look;
+use crate::report::{Findings, Likeness};
 
 /// The most hints that commands other than `check` show.
 const MAX_HINTS: usize = 10;
@@ -32,7 +33,10 @@ impl Loaded {
             path: &self.path,
             text: &self.text,
             diagnostics: &self.compiled.diagnostics,
-            look: self.look.as_ref(),
+            look: self.look.as_ref().map(|look| Likeness {
+                right: look.right,
+                pixels: look.pixels,
+            }),
         }
     }
 

@@ -14,7 +14,6 @@ mod check;
 mod explain;
 mod fix;
 mod inspect;
-pub mod json;
 mod loading;
 mod motion;
 mod new;
@@ -24,8 +23,6 @@ mod progress;
 mod puppet;
 mod render;
 pub mod report;
-#[cfg(test)]
-mod samples;
 pub mod sarif;
 mod track;
 mod watch;
@@ -38,35 +35,13 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser};
 
-use crate::diagnostic::Diagnostic;
-use crate::look::Look;
 use crate::{crash, disk};
 use args::{Cli, Color, Command, Common};
 use report::Style;
 
-/// A drawing with its diagnostics, ready to be reported.
-#[derive(Debug, Clone, Copy)]
-pub struct Findings<'a> {
-    /// The path as the user wrote it.
-    pub path: &'a str,
-    /// Its text, which the spans refer to.
-    pub text: &'a str,
-    /// The diagnostics.
-    pub diagnostics: &'a [Diagnostic],
-    /// How the model looks from the front, if that was asked for.
-    pub look: Option<&'a Look>,
-}
-
 /// `1 part`, `2 parts`
 fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
-/// Indented JSON. Reports hold only text and numbers, so this cannot fail.
-fn pretty(report: &impl serde::Serialize) -> String {
-    let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
-    text.push('\n');
-    text
 }
 
 /// How a command ended.

@@ -6,18 +6,18 @@ use std::path::Path;
 use super::args::{Common, Motion};
 use super::progress::spinning;
 use super::{Outcome, fail, print_out};
+use crate::clips::BuiltIn;
 use crate::disk::{Inputs, Naming, Target, WriteError, open_stream};
 use crate::export::{self, Exporter};
-use crate::motion::bvh::{self, Reading};
-use crate::motion::clips::BuiltIn;
+use crate::labels::{Anatomy, Label};
+use crate::limited::{self, Error, Length, Method};
+use crate::mocap::Clip;
+use crate::mocap::bvh::{self, Reading};
+use crate::mocap::resample::rate;
 use crate::motion::edit::{self, EditedClip, ExposureMethod, Filmed, edit};
-use crate::motion::labels::{Anatomy, Label};
-use crate::motion::limited::{self, Error, Length, Method};
-use crate::motion::prepare::{self, LeadInPolicy};
-use crate::motion::resample::rate;
-use crate::motion::skeleton::Clip;
-use crate::motion::skeleton_model::{add_camera, skeleton_model};
-use crate::report::ranges;
+use crate::motion::{add_camera, skeleton_model};
+use crate::prepare::{self, LeadInPolicy};
+use crate::report::frame_ranges;
 
 mod performance;
 
@@ -262,11 +262,11 @@ fn report(edited: &EditedClip, arguments: &Motion) -> String {
         return out;
     };
     if let Some(cut) = &edited.cut {
-        let mut omitted: Vec<u32> = cut.omitted.iter().map(|frame| frame + 1).collect();
+        let mut omitted: Vec<u32> = cut.omitted.clone();
         omitted.sort_unstable();
         let which = match omitted.is_empty() {
             true => String::new(),
-            false => format!(" ({})", ranges(&omitted, usize::MAX)),
+            false => format!(" ({})", frame_ranges(&omitted, usize::MAX)),
         };
         let _ = writeln!(
             out,

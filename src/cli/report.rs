@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
 
-use super::Findings;
 use crate::diagnostic::{Diagnostic, Fix, Severity};
+use crate::report::Findings;
 use crate::source::LineIndex;
 use crate::source::Span;
 

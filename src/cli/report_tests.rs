@@ -1,6 +1,6 @@
-use super::super::samples::{DRAWING, at, misspelt};
 use super::*;
 use crate::diagnostic::Code;
+use crate::report::samples::{DRAWING, at, misspelt};
 
 fn report(text: &str, diagnostics: &[Diagnostic]) -> String {
     let findings = Findings {

@@ -3,8 +3,8 @@
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Serialize;
 
-use super::Findings;
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::report::{Findings, pretty};
 use crate::source::LineIndex;
 use crate::source::Span;
 
@@ -16,7 +16,7 @@ pub fn sarif(drawings: &[Findings]) -> String {
         let result = |diagnostic| result(diagnostic, &uri, &places);
         findings.diagnostics.iter().map(result).collect::<Vec<_>>()
     });
-    super::pretty(&Log {
+    pretty(&Log {
         schema: "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json",
         version: "2.1.0",
         runs: [Run {
@@ -260,8 +260,8 @@ fn uri(path: &str) -> String {
 mod tests {
     use serde_json::Value;
 
-    use super::super::samples::{DRAWING, at, misspelt};
     use super::*;
+    use crate::report::samples::{DRAWING, at, misspelt};
 
     fn log() -> Value {
         let finding = misspelt(DRAWING).related(at(DRAWING, "頭"), "the parent");

@@ -15,9 +15,9 @@ use super::progress::counting;
 use super::render::movie::{Movie, MovieForm};
 use super::{Outcome, counted, fail};
 use crate::disk::{Inputs, Naming, Target};
-use crate::motion::mark_tracks::{MAX_MARKS, MarkTrack, MarkTracks, repeated_name};
+use crate::mark_tracks::{MAX_MARKS, MarkTrack, MarkTracks, repeated_name};
 use crate::render::{Image, Palette, write_png};
-use crate::report::ranges;
+use crate::report::frame_ranges;
 use crate::tracking::{Frame, LearnError, Learned, Learner, Tracker, hue_name, tracks};
 
 /// The most ranges of lost frames that are listed.
@@ -246,7 +246,7 @@ fn report(found: &MarkTracks, learned: &Learned) -> String {
 /// In which frames a mark was seen and lost. Frames count from 1.
 fn seen(mark: &MarkTrack) -> String {
     let lost = mark.is_lost.iter().enumerate().filter(|(_, lost)| **lost);
-    let lost: Vec<u32> = lost.map(|(frame, _)| frame as u32 + 1).collect();
+    let lost: Vec<u32> = lost.map(|(frame, _)| frame as u32).collect();
     let frames = mark.is_lost.len();
     match lost.as_slice() {
         [] => format!("{}: seen in all frames", mark.name),
@@ -254,7 +254,7 @@ fn seen(mark: &MarkTrack) -> String {
             "{}: seen in {} of {frames} frames, lost in {}",
             mark.name,
             frames - lost.len(),
-            ranges(lost, MAX_RANGES)
+            frame_ranges(lost, MAX_RANGES)
         ),
     }
 }

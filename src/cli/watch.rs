@@ -5,11 +5,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use super::args::{Common, Noticing, Reading, Watch};
+use super::build::overwrites_drawing;
 use super::loading::{Detail, count, describe, tally};
-use super::{Findings, Outcome, counted, fail, style};
-use crate::disk::{ChangeDetection, Inputs, Naming, ReadError, make_folder};
-use crate::export::Model;
-use crate::report::part_count;
+use super::{Outcome, counted, fail, style};
+use crate::disk::{
+    ChangeDetection, Inputs, Naming, ReadError, is_drawing, is_standard_stream, make_folder,
+};
+use crate::export::{self, Exporter, GLB, Model};
+use crate::report::{Findings, part_count};
 use crate::watch::{Build, Event, NoModel, Options, watch};
 
 /// Builds drawings on every save until it is interrupted.
@@ -17,12 +20,22 @@ pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {
     if let Some(missing) = arguments.paths.iter().find(|path| !path.exists()) {
         return fail(&ReadError::missing(missing).to_string());
     }
+    let destination = match Destination::of(arguments.output.as_deref(), &arguments.paths) {
+        Ok(destination) => destination,
+        Err(message) => return fail(&message),
+    };
+    let options = Options {
+        exporter: match destination {
+            Destination::File(_, exporter) => exporter,
+            Destination::Beside | Destination::Folder(_) => &GLB,
+        },
+        ..options(&arguments.reading, &arguments.noticing)
+    };
     let mut outputs = Outputs {
-        folder: arguments.output.as_deref(),
+        destination,
         targets: &arguments.paths,
         owners: BTreeMap::new(),
     };
-    let options = options(&arguments.reading, &arguments.noticing);
     follow(&arguments.paths, &options, |event| match event {
         Event::Built(drawing, build) => built(drawing, build, &mut outputs, common),
         event => describe_event(&event, common),
@@ -46,20 +59,56 @@ pub(super) fn follow(
 /// How drawings are read and watched.
 pub(super) fn options(reading: &Reading, noticing: &Noticing) -> Options {
     Options {
-        shows_incomplete: false,
-        unsaved: None,
         base: reading.base.clone(),
         root: reading.root.clone(),
         tolerance: reading.tolerance,
         detection: noticing.poll.map_or(ChangeDetection::Native, |pause| {
             ChangeDetection::Polling(Duration::from_millis(pause))
         }),
+        ..Options::default()
+    }
+}
+
+/// Where models are written.
+#[derive(Debug, Clone, Copy)]
+enum Destination<'a> {
+    /// Beside each drawing, as binary glTF.
+    Beside,
+    /// In a folder, as binary glTF.
+    Folder(&'a Path),
+    /// The model of the one drawing, in a file of this format.
+    File(&'a Path, &'static dyn Exporter),
+}
+
+impl<'a> Destination<'a> {
+    /// What `-o` asks for: a name that ends like a model is a file, any other a folder.
+    fn of(output: Option<&'a Path>, watched: &[PathBuf]) -> Result<Self, String> {
+        let Some(output) = output else {
+            return Ok(Self::Beside);
+        };
+        if is_standard_stream(output) {
+            return Err("a model that is written at every save needs a file or a folder: for example -o models".to_owned());
+        }
+        if is_drawing(output) && !output.is_dir() {
+            return Err(overwrites_drawing(output));
+        }
+        let exporter = match export::by_extension(output) {
+            Some(exporter) if !output.is_dir() => exporter,
+            _ => return Ok(Self::Folder(output)),
+        };
+        match watched {
+            [drawing] if !drawing.is_dir() => Ok(Self::File(output, exporter)),
+            _ => Err(format!(
+                "`{}` is one file, and more than one drawing may be watched; name a folder, for example -o models",
+                output.display()
+            )),
+        }
     }
 }
 
 /// The output files.
 struct Outputs<'a> {
-    folder: Option<&'a Path>,
+    destination: Destination<'a>,
     targets: &'a [PathBuf],
     /// The drawing that each output is made from.
     owners: BTreeMap<PathBuf, PathBuf>,
@@ -68,9 +117,10 @@ struct Outputs<'a> {
 impl Outputs<'_> {
     /// The output file of a drawing.
     fn of(&mut self, drawing: &Path) -> Result<PathBuf, String> {
-        let output = match self.folder {
-            None => drawing.with_extension("glb"),
-            Some(folder) => {
+        let output = match self.destination {
+            Destination::Beside => drawing.with_extension("glb"),
+            Destination::File(output, _) => output.to_owned(),
+            Destination::Folder(folder) => {
                 // Drawings below a watched folder keep their relative paths.
                 let below = |target: &PathBuf| drawing.strip_prefix(target).ok();
                 let mut inner = self.targets.iter().filter_map(below);
@@ -109,12 +159,16 @@ fn built(drawing: &Path, build: &Build, outputs: &mut Outputs<'_>, common: Commo
         Err(NoModel::Errors) => (format!("{found}{}", unchanged()), true),
         Err(NoModel::Unwritten(why)) => (format!("{found}{why}; {}", unchanged()), true),
         Ok(model) => {
-            let folder = output.parent().filter(|_| outputs.folder.is_some());
+            let (folder, naming) = match outputs.destination {
+                Destination::Beside => (None, Naming::Derived),
+                Destination::Folder(_) => (output.parent(), Naming::Derived),
+                Destination::File(..) => (None, Naming::Given),
+            };
             let written = folder
                 .map_or(Ok(()), make_folder)
                 .and_then(|()| {
                     let inputs = Inputs::of(drawing).linking(build.linked.iter().cloned());
-                    inputs.target(&output, Naming::Derived)
+                    inputs.target(&output, naming)
                 })
                 .and_then(|target| target.write(|out| out.write_all(&model.bytes)));
             match written {

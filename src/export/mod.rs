@@ -10,8 +10,8 @@ mod obj;
 mod output;
 mod surfaces;
 
-use std::io;
 use std::path::Path;
+use std::{fmt, io};
 
 use crate::crash;
 use crate::memo::Memo;
@@ -41,6 +41,18 @@ pub trait Exporter: Sync {
     /// # Errors
     /// The errors of `out`; [`io::ErrorKind::InvalidInput`] for an invalid surface, or a scene that the format cannot hold.
     fn write(&self, scene: &Scene, out: &mut dyn Output, memo: &Memo) -> io::Result<Written>;
+}
+
+impl PartialEq for dyn Exporter {
+    fn eq(&self, other: &Self) -> bool {
+        self.extension() == other.extension()
+    }
+}
+
+impl fmt::Debug for dyn Exporter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.extension())
+    }
 }
 
 /// How much was written.

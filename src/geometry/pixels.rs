@@ -1,9 +1,10 @@
 //! Outlines of what is solid in a picture.
 
 use glam::DVec2;
-use rustc_hash::FxHashMap;
+use rustc_hash::FxHashSet;
 
 use super::{Ring, simplify};
+use crate::regions::{Side, follow};
 
 /// How far the outline may deviate from the pixels' edges, in pixels: enough to smooth the steps of slanted borders.
 const BORDER_TOLERANCE: f64 = 0.75;
@@ -11,43 +12,38 @@ const BORDER_TOLERANCE: f64 = 0.75;
 /// The rings of pixel edges between solid and other pixels, with the solid side on the right, simplified. The unit is a pixel, y
 /// is down.
 pub fn pixel_borders(width: u32, height: u32, is_solid: impl Fn(u32, u32) -> bool) -> Vec<Ring> {
-    let (width, height) = (i64::from(width), i64::from(height));
-    let solid = |x: i64, y: i64| {
-        x >= 0 && y >= 0 && x < width && y < height && is_solid(x as u32, y as u32)
+    // In a picture with one more pixel on each side, which is not solid.
+    let padded = width as usize + 2;
+    let is_inside = |at: usize| {
+        let (x, y) = (at % padded, at / padded);
+        let is_in_picture = x > 0 && y > 0 && x <= width as usize && y <= height as usize;
+        is_in_picture && is_solid(x as u32 - 1, y as u32 - 1)
     };
-    // An edge is identified by its start and direction: 0 right, 1 down, 2 left, 3 up.
-    let step = [(1, 0), (0, 1), (-1, 0), (0, -1)];
-    let has = |x: i64, y: i64, direction: usize| match direction {
-        0 => solid(x, y) && !solid(x, y - 1),
-        1 => solid(x - 1, y) && !solid(x, y),
-        2 => solid(x - 1, y - 1) && !solid(x - 1, y),
-        _ => solid(x, y - 1) && !solid(x - 1, y - 1),
-    };
-    let mut seen: FxHashMap<(i64, i64), u8> = FxHashMap::default();
+    // Pixels whose upper sides are in a ring.
+    let mut seen: FxHashSet<usize> = FxHashSet::default();
     let mut rings = Vec::new();
-    for y in 0..=height {
-        for x in 0..=width {
-            let visited = seen.get(&(x, y)).is_some_and(|bits| bits & 1 != 0);
-            if !has(x, y, 0) || visited {
+    for y in 0..height {
+        for x in 0..width {
+            let inner = (y as usize + 1) * padded + x as usize + 1;
+            let is_start = is_solid(x, y) && (y == 0 || !is_solid(x, y - 1));
+            if !is_start || seen.contains(&inner) {
                 continue;
             }
             let mut ring = Vec::new();
-            let (mut at, mut direction) = ((x, y), 0_usize);
-            loop {
-                let bits = seen.entry(at).or_default();
-                if *bits & (1 << direction) != 0 {
-                    break;
-                }
-                *bits |= 1 << direction;
-                ring.push(DVec2::new(at.0 as f64, at.1 as f64));
-                at = (at.0 + step[direction].0, at.1 + step[direction].1);
-                // Turning right first separates pixels that touch only at a corner.
-                let turns = [(direction + 1) % 4, direction, (direction + 3) % 4];
-                match turns.into_iter().find(|turn| has(at.0, at.1, *turn)) {
-                    Some(turn) => direction = turn,
-                    None => break,
-                }
-            }
+            let outer = inner - padded;
+            follow(Side { inner, outer }, padded, is_inside, |side| {
+                let corner = match side.ahead(padded) {
+                    1 => {
+                        seen.insert(side.inner);
+                        DVec2::ZERO
+                    }
+                    -1 => DVec2::ONE,
+                    down if down > 0 => DVec2::X,
+                    _ => DVec2::Y,
+                };
+                let (x, y) = (side.inner % padded - 1, side.inner / padded - 1);
+                ring.push(DVec2::new(x as f64, y as f64) + corner);
+            });
             rings.push(smoothed(&ring));
         }
     }

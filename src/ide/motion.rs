@@ -8,7 +8,7 @@ use super::hover::escaped;
 use crate::bind::{PartKind, StringId};
 use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
-use crate::report::{cut_frames, ranges, undriven};
+use crate::report::{cut_frames, frame_ranges, undriven};
 use crate::rig::FigureClip;
 use crate::source::Span;
 
@@ -126,7 +126,7 @@ impl Analysis {
             let (omitted, held) = cut_frames(clip);
             let what = |frames: &[u32]| match frames.is_empty() {
                 true => String::new(),
-                false => format!(" ({})", ranges(frames, MAX_RANGES)),
+                false => format!(" ({})", frame_ranges(frames, MAX_RANGES)),
             };
             format!(
                 "clip {} of {}: of {} {} omitted{} and {} held{}; {}",

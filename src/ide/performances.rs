@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::motion::{code, list};
 use crate::bind::StringId;
-use crate::report::{Performance, PerformedMark, Reader, performance, performed_mark};
+use crate::report::{Performance, PerformedMark, performance, performed_mark};
 use crate::rig::FigureClip;
 use crate::source::Span;
 
@@ -15,7 +15,7 @@ impl Analysis {
     pub(super) fn performance_card(&self, span: Span) -> Option<String> {
         let lines = self.compiled.clips.iter().filter_map(|clip| {
             let performed = clip.performed.as_ref()?;
-            let performance = performance(&self.compiled, clip, Reader::Inspect)?;
+            let performance = performance(&self.compiled, clip)?;
             (performed.requested_at == span).then(|| self.performed_line(clip, &performance))
         });
         list(lines.collect())
@@ -60,7 +60,7 @@ impl Analysis {
 
 /// What a mark does, in words.
 fn mark_line(mark: &PerformedMark<'_>) -> String {
-    let parts: Vec<String> = mark.parts.iter().map(|part| code(part)).collect();
+    let parts: Vec<String> = mark.performs.iter().map(|part| code(part)).collect();
     format!(
         "{} performs {} ({})",
         code(mark.name),

@@ -22,9 +22,6 @@ pub(super) const VEC3: Dimensions = Dimensions::Vec3;
 pub(super) const VEC4: Dimensions = Dimensions::Vec4;
 pub(super) const MAT4: Dimensions = Dimensions::Mat4;
 
-/// No length or offset in a file may be larger, so that sums of a few of them do not overflow.
-const MAX_EXTENT: usize = 1 << 40;
-
 pub(crate) struct Buffers(Vec<Vec<u8>>);
 
 impl Buffers {
@@ -109,10 +106,14 @@ impl Buffers {
         let fits = |view: buffer::View<'_>, offset: usize, count: usize, size: usize| {
             let stride = view.stride().unwrap_or(size);
             let length = self.view(&view)?.len();
-            let sound = count > 0 && stride >= size && offset.max(count).max(stride) < MAX_EXTENT;
-            match sound && stride.saturating_mul(count - 1) + size + offset <= length {
-                true => Ok(()),
-                false => Err(short()),
+            let last = count
+                .checked_sub(1)
+                .and_then(|last| stride.checked_mul(last));
+            let end = last.and_then(|last| last.checked_add(size)?.checked_add(offset));
+            if stride >= size && end.is_some_and(|end| end <= length) {
+                Ok(())
+            } else {
+                Err(short())
             }
         };
         match accessor.view() {

@@ -2,17 +2,16 @@
 
 use glam::{DQuat, DVec3};
 
-use super::bvh::{self, Decimals};
-use super::chart::{Chart, chart};
-use super::labels::{Anatomy, Facing};
-use super::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method, Poses};
-use super::looping::Cycle;
-use super::measured::{Measured, PointChoice};
-use super::performance::{self, Filming};
-use super::prepare::PreparedClip;
-use super::resample;
-use super::retarget;
-use super::skeleton::{Clip, height};
+use crate::labels::{Anatomy, Facing};
+use crate::limited::Measured;
+use crate::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method, Poses};
+use crate::mocap::bvh::{self, Decimals};
+use crate::mocap::resample;
+use crate::mocap::{Clip, height};
+use crate::motion::{Chart, PointChoice, chart};
+use crate::performance::{self, Filming};
+use crate::prepare::{Cycle, PreparedClip};
+use crate::retarget;
 
 /// How a motion is thinned out.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

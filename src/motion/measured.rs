@@ -1,12 +1,11 @@
-//! The points by which limited animation measures how fast a motion is, and which frames repeat the one before.
+//! Where the speed of a clip is measured.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::labels::{Anatomy, Class, Tip};
-use super::limited::Poses;
-use super::retarget::{RetargetedClip, Rig};
-use super::skeleton::{Clip, Transform};
+use crate::labels::{Anatomy, Class, Tip};
+use crate::limited::Measured;
+use crate::mocap::Clip;
 
 /// Frames that a thread processes at once.
 const GRAIN: usize = 256;
@@ -20,17 +19,6 @@ pub enum PointChoice {
     Seen,
     /// All joints, as in the thesis (5.2.1).
     All,
-}
-
-/// A motion as limited animation sees it.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Measured {
-    /// The points, `frames × per_frame`, frame by frame.
-    pub points: Vec<DVec3>,
-    /// The number of points per frame.
-    pub per_frame: usize,
-    /// Per frame whether nothing has changed since the one before.
-    pub repeats: Vec<bool>,
 }
 
 impl Measured {
@@ -80,47 +68,6 @@ impl Measured {
             per_frame: tips.len(),
             repeats,
         }
-    }
-
-    /// A figure that plays a clip: the joints and the far ends of its driven parts, in the drawing's axes and unit.
-    pub fn of_figure(rig: &Rig, clip: &RetargetedClip) -> Self {
-        let frames = clip.grounded.len();
-        let driven = rig.parts.iter().enumerate();
-        let driven: Vec<usize> = driven
-            .filter(|(_, part)| part.drive.is_some())
-            .map(|(index, _)| index)
-            .collect();
-        let mut points = Vec::with_capacity(frames * driven.len() * 2);
-        let order = rig.order();
-        let mut placed: Vec<Transform> = rig.parts.iter().map(|part| part.node).collect();
-        for frame in 0..frames {
-            for index in &order {
-                placed[*index] = clip.node(rig, *index, frame, &placed);
-            }
-            for index in &driven {
-                let part = &rig.parts[*index];
-                for point in [part.joint, part.tip] {
-                    points.push(placed[*index].apply(part.node.to_local(point)));
-                }
-            }
-        }
-        let same = |frame: usize| {
-            let turns = clip.rotations.iter().flatten();
-            let moves = clip.translations.iter().flatten();
-            frame > 0
-                && turns.clone().all(|turns| turns[frame] == turns[frame - 1])
-                && moves.clone().all(|moves| moves[frame] == moves[frame - 1])
-        };
-        Self {
-            points,
-            per_frame: driven.len() * 2,
-            repeats: (0..frames).map(same).collect(),
-        }
-    }
-
-    /// Its poses.
-    pub fn poses(&self) -> Poses<'_> {
-        Poses::new(&self.points, self.per_frame).repeating(&self.repeats)
     }
 }
 

@@ -2,11 +2,10 @@
 
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
-use super::key_times::KeyTimes;
-use super::limited::Exposure;
-use super::performance::{Filmed, Filming};
-use super::skeleton::{Channel, Clip, Transform, height};
-use super::turns::continuous;
+use crate::limited::{Exposure, KeyTimes};
+use crate::mocap::turns::continuous;
+use crate::mocap::{Channel, Clip, Transform, height};
+use crate::performance::{Filmed, Filming};
 use crate::scene::{
     Animation, Material, Mesh, Node, Primitive, Scene, Surface, Track, Values, WorldTransform,
 };

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
-use axum::body::Bytes;
 use rustc_hash::FxHashMap;
 use serde_json::value::{RawValue, to_raw_value};
 use tokio::sync::{Semaphore, watch};
@@ -13,7 +12,7 @@ use super::message::{Build, Listed, PartOrKept, ToPage, findings};
 use crate::compile::Compiled;
 use crate::export::{self, GLB};
 use crate::render::{self, Options, PosedModel, write_png};
-use crate::report::{Reader, characters, clips, landscapes, parts};
+use crate::report::{characters, clips, landscapes, parts};
 use crate::resolver::MemoryResolver;
 use crate::watch::BuildTimes;
 
@@ -36,6 +35,9 @@ impl std::fmt::Debug for Hub {
         f.debug_struct("Hub").finish_non_exhaustive()
     }
 }
+
+/// A file that is sent.
+type Bytes = Arc<[u8]>;
 
 /// Called with the id of a drawing and what was clicked in it.
 type OnPick = dyn Fn(&str, Picked<'_>) + Send + Sync;
@@ -152,7 +154,7 @@ pub struct Shown<'a> {
     /// The compiled drawing.
     pub compiled: &'a Compiled,
     /// The model as binary glTF and its number of triangles; `None` keeps the last one. With errors it is what can be built.
-    pub model: Option<(&'a Bytes, usize)>,
+    pub model: Option<(&'a Arc<[u8]>, usize)>,
     /// When it was built.
     pub times: BuildTimes,
 }
@@ -192,7 +194,7 @@ impl Hub {
         parts.extend(landscapes(shown.compiled, shown.text));
         parts.extend(characters(shown.compiled));
         let parts = parts.iter().flat_map(to_raw_value).collect::<Vec<_>>();
-        let clips = to_raw_value(&clips(shown.compiled, Reader::Page)).unwrap_or_default();
+        let clips = to_raw_value(&clips(shown.compiled)).unwrap_or_default();
         let originals = shown.model.and_then(|_| originals(shown.compiled));
         self.change(|state, now| {
             let number = state.models + 1;
@@ -329,7 +331,7 @@ impl Hub {
     }
 
     /// The bytes of a model, by the address in a message, or what changed since another one (`?since=` and its address).
-    pub fn bytes(&self, address: &str) -> Option<Bytes> {
+    pub fn bytes(&self, address: &str) -> Option<Arc<[u8]>> {
         let (address, since) = match address.split_once("?since=") {
             Some((address, since)) => (address, since.split_once('/').map(|(_, file)| file)),
             None => (address, None),

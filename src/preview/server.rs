@@ -152,9 +152,13 @@ async fn originals(State(shared): State<Shared>, Path(file): Path<String>) -> Re
     binary(model.and_then(|model| model.originals.clone()))
 }
 
-fn binary(model: Option<Bytes>) -> Response {
-    match model {
-        Some(bytes) => ([(header::CONTENT_TYPE, "model/gltf-binary")], bytes).into_response(),
+fn binary(model: Option<Arc<[u8]>>) -> Response {
+    served("model/gltf-binary", model)
+}
+
+fn served(media_type: &'static str, bytes: Option<Arc<[u8]>>) -> Response {
+    match bytes.map(Bytes::from_owner) {
+        Some(bytes) => ([(header::CONTENT_TYPE, media_type)], bytes).into_response(),
         None => StatusCode::NOT_FOUND.into_response(),
     }
 }
@@ -166,10 +170,7 @@ async fn picture(State(shared): State<Shared>, Path(file): Path<String>) -> Resp
     };
     let _permit = shared.hub.drawing_pictures.acquire().await;
     let drawn = tokio::task::spawn_blocking(move || model.picture()).await;
-    match drawn {
-        Ok(Some(png)) => ([(header::CONTENT_TYPE, "image/png")], png).into_response(),
-        _ => StatusCode::NOT_FOUND.into_response(),
-    }
+    served("image/png", drawn.ok().flatten())
 }
 
 /// `12` of `12.glb`

@@ -1,4 +1,4 @@
-//! The characters of a drawing that turn (frontends.md, `inspect --json`).
+//! The characters of a drawing that turn.
 
 use serde::Serialize;
 
@@ -23,22 +23,14 @@ pub struct Billboard<'a> {
 pub struct BillboardRegion<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Per view the `id` of its element, or its number in the view, from 1; `None` where the view does not show it.
-    pub members: Vec<Option<Member<'a>>>,
+    /// Per view the `id` of its element; `None` where the view does not show it, and for a region of a picture.
+    pub members: Vec<Option<&'a str>>,
+    /// Per view its number there, from 1; `None` where the view does not show it.
+    pub numbers: Vec<Option<usize>>,
     /// The least similarity of its pairs (Kitamura, equation 4.1), 0 to 1; `None` for a region without a partner.
     pub similarity: Option<f64>,
     /// Its position in the character's space, heights: its left, up, its front.
     pub position: [f64; 3],
-}
-
-/// A region in a view.
-#[derive(Debug, Clone, Copy, Serialize)]
-#[serde(untagged)]
-pub enum Member<'a> {
-    /// The `id` of its element.
-    Element(&'a str),
-    /// Its number in the view, from 1.
-    Number(usize),
 }
 
 /// The characters of a drawing.
@@ -62,21 +54,18 @@ fn region<'a>(
 ) -> BillboardRegion<'a> {
     let model = &character.regions[index];
     let track = &character.matching.tracks[index];
-    let members = track.regions.iter().zip(&model.shapes);
-    let members = members.map(|(region, shape)| {
+    let member = |shape: &Option<usize>| {
         let shape = &compiled.drawing.shapes[(*shape)?];
-        let id = shape
-            .element
-            .id
-            .as_deref()
-            .filter(|_| shape.picture.is_none());
-        Some(id.map_or(Member::Number((*region)? + 1), Member::Element))
-    });
+        let id = shape.element.id.as_deref();
+        id.filter(|_| shape.picture.is_none())
+    };
+    let number = |region: &Option<usize>| Some((*region)? + 1);
     let pairs = character.matching.pairs.iter();
     let own = pairs.filter(|pair| track.regions[pair.second.view] == Some(pair.second.region));
     BillboardRegion {
         name: &model.name,
-        members: members.collect(),
+        members: model.shapes.iter().map(member).collect(),
+        numbers: track.regions.iter().map(number).collect(),
         similarity: own.map(|pair| pair.similarity).reduce(f64::min),
         position: model.places[0].to_array(),
     }

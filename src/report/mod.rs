@@ -1,23 +1,33 @@
-//! Reports on a compiled drawing: as data for programs (`inspect --json` and the preview's page), and as a picture (`inspect --matches`).
+//! Reports on a compiled drawing: as data for programs (`check --format json`, `inspect --json` and the preview's page), and as a
+//! picture (`inspect --matches`).
 
 mod billboards;
 mod clips;
 mod depths;
+mod findings;
+mod inspection;
 mod joints;
 mod matches;
 mod parts;
 mod performances;
+#[cfg(test)]
+pub(crate) mod samples;
 mod terrain;
 
-pub use billboards::{
-    Billboard, BillboardRegion, Member, billboards, characters, describe_character,
-};
-pub use clips::{Clip, Held, Joint, PageDetails, Reader, clips, cut_frames};
+pub use billboards::{Billboard, BillboardRegion, billboards, characters, describe_character};
+pub use clips::{Clip, clips, cut_frames};
 pub use depths::depth_reason;
-pub use joints::{Driver, drivers, ranges, undriven};
+pub use findings::{Findings, Likeness, findings_json};
+pub use inspection::inspection_json;
+pub use joints::{Driver, drivers, frame_ranges, undriven};
 pub use matches::picture_of_matches;
 pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, part_count, parts};
-pub use performances::{
-    Frames, Performance, PerformanceCurves, PerformedMark, performance, performed_mark,
-};
+pub use performances::{Frames, Performance, PerformedMark, performance, performed_mark};
 pub use terrain::{Group, House, Terrain, terrain};
+
+/// Indented JSON. Reports hold only text and numbers, so this cannot fail.
+pub(crate) fn pretty(report: &impl serde::Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
+    text.push('\n');
+    text
+}

@@ -1,4 +1,4 @@
-//! The parts of a drawing (frontends.md, `inspect --json`).
+//! The parts of a drawing.
 
 use std::collections::BTreeMap;
 

@@ -1,11 +1,10 @@
-//! What a performance does to a clip: `inspect` and the preview's page.
+//! What a performance does to a clip.
 
 use serde::Serialize;
 
-use super::clips::Reader;
 use super::own_name;
 use crate::compile::Compiled;
-use crate::motion::performance::{Filming, Information};
+use crate::performance::{Filming, Information};
 use crate::rig::{FigureClip, Performed};
 
 /// The most values of a curve in a report: more cannot be told apart on a screen.
@@ -13,7 +12,7 @@ const MAX_VALUES: usize = 4096;
 /// Curves are rounded to so many parts of the largest movement.
 const PARTS: f64 = 1e4;
 
-/// The performance of a clip.
+/// The performance of a clip. Frames are counted from 0.
 #[derive(Debug, Clone, Serialize)]
 pub struct Performance<'a> {
     /// The file of the track, as the drawing names it.
@@ -27,21 +26,28 @@ pub struct Performance<'a> {
     /// Whether the motion has the timing of the performance: its key frame then stands in that of the performance.
     pub timed: bool,
     /// How many frames there are.
-    pub frames: Frames,
+    pub lengths: Frames,
     /// How it is filmed: `camera`, `root` or `none`.
     pub filming: &'static str,
     /// The shown frame in which the camera, or the figure, is nearest.
     pub nearest: Option<usize>,
-    /// What only the page shows.
-    #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    pub page: Option<PerformanceCurves>,
+    /// The points through which the timing goes: frames of the performance with the frames of the motion that they show.
+    pub timing: Vec<[usize; 2]>,
+    /// Per mark how much it moves, as a ratio of the largest movement; each value is the highest of `input_step` frames.
+    pub input_curves: Vec<Vec<f64>>,
+    /// The number of frames of a value of `input_curves`.
+    pub input_step: usize,
+    /// The same of the joints of the motion that the marks perform.
+    pub motion_curves: Vec<Vec<f64>>,
+    /// The number of frames of a value of `motion_curves`.
+    pub motion_step: usize,
 }
 
 /// A frame of the performance and one of the motion, or how many frames they have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Frames {
     /// In the performance, at the frame rate of the motion.
-    pub performance: usize,
+    pub performed: usize,
     /// In the motion, before it is retimed.
     pub motion: usize,
 }
@@ -52,73 +58,36 @@ pub struct PerformedMark<'a> {
     /// Its name in the track.
     pub name: &'a str,
     /// Its colour, `#rrggbb`.
-    pub colour: String,
-    /// The parts.
-    pub parts: Vec<&'a str>,
+    pub color: String,
+    /// The names of the parts.
+    pub performs: Vec<&'a str>,
     /// The ratio R of equation 1: its largest movement over that of the emphasised mark, 0 to 1.
     pub ratio: f64,
     /// Whether it is the emphasised one.
-    pub emphasised: bool,
+    pub emphasized: bool,
     /// Whether the parts turn less than in the motion: by the ratio.
     pub damped: bool,
 }
 
-/// What the page draws of a performance. Frames count from 0.
-#[derive(Debug, Clone, Serialize)]
-pub struct PerformanceCurves {
-    /// The points through which the timing goes: frames of the performance with the frames of the motion that they show.
-    pub timing: Vec<[usize; 2]>,
-    /// Per mark how much it moves, as a ratio of the largest movement; each value is the highest of `input_step` frames.
-    pub input: Vec<Vec<f64>>,
-    /// The number of frames of a value of `input`.
-    pub input_step: usize,
-    /// The same of the joints of the motion that the marks perform.
-    pub motion: Vec<Vec<f64>>,
-    /// The number of frames of a value of `motion`.
-    pub motion_step: usize,
-}
-
 /// What a clip's performance does to it; `None` for a clip without one.
-pub fn performance<'a>(
-    compiled: &'a Compiled,
-    clip: &'a FigureClip,
-    reader: Reader,
-) -> Option<Performance<'a>> {
+pub fn performance<'a>(compiled: &'a Compiled, clip: &'a FigureClip) -> Option<Performance<'a>> {
     let performed = clip.performed.as_ref()?;
     let plan = &performed.plan;
-    // People count from 1.
-    let first = match reader {
-        Reader::Inspect => 1,
-        Reader::Page => 0,
-    };
     let channels = 0..performed.channels.len();
-    let page = (reader == Reader::Page).then(|| {
-        let (input, input_step) = thinned(&plan.input);
-        let (motion, motion_step) = thinned(&plan.motion);
-        PerformanceCurves {
-            timing: plan.timing_points(),
-            input,
-            input_step,
-            motion,
-            motion_step,
-        }
-    });
+    let (input_curves, input_step) = thinned(&plan.input);
+    let (motion_curves, motion_step) = thinned(&plan.motion);
     Some(Performance {
         track: &performed.file,
         marks: channels
             .map(|channel| performed_mark(compiled, performed, channel))
             .collect(),
-        keys: plan.keys.map(|[input, motion]| Frames {
-            performance: input + first,
-            motion: motion + first,
-        }),
-        shown: plan
-            .key_frame()
-            .and_then(|key| clip.shown_in(key))
-            .map(|frame| frame + first),
+        keys: plan
+            .keys
+            .map(|[performed, motion]| Frames { performed, motion }),
+        shown: plan.key_frame().and_then(|key| clip.shown_in(key)),
         timed: plan.timing.is_some(),
-        frames: Frames {
-            performance: plan.input.frames(),
+        lengths: Frames {
+            performed: plan.input.frames(),
             motion: plan.motion.frames(),
         },
         filming: match plan.filming {
@@ -126,8 +95,12 @@ pub fn performance<'a>(
             Filming::Character => "root",
             Filming::None => "none",
         },
-        nearest: clip.filmed.nearest().map(|frame| frame + first),
-        page,
+        nearest: clip.filmed.nearest(),
+        timing: plan.timing_points(),
+        input_curves,
+        input_step,
+        motion_curves,
+        motion_step,
     })
 }
 
@@ -141,16 +114,16 @@ pub fn performed_mark<'a>(
     let parts = &performed.channels[channel];
     let track = &performed.tracks.marks[parts.mark];
     let [red, green, blue] = track.colour;
-    let emphasised = plan.emphasised == Some(channel);
+    let emphasized = plan.emphasised == Some(channel);
     let ratio = plan.ratio(channel);
     let name = |part: &usize| own_name(compiled, &compiled.bindings.parts[*part]);
     PerformedMark {
         name: &track.name,
-        colour: format!("#{red:02x}{green:02x}{blue:02x}"),
-        parts: parts.parts.iter().map(name).collect(),
+        color: format!("#{red:02x}{green:02x}{blue:02x}"),
+        performs: parts.parts.iter().map(name).collect(),
         ratio,
-        emphasised,
-        damped: plan.is_damping && !emphasised && ratio < 1.0,
+        emphasized,
+        damped: plan.is_damping && !emphasized && ratio < 1.0,
     }
 }
 
@@ -158,7 +131,7 @@ impl PerformedMark<'_> {
     /// What it does to its parts, in words.
     pub fn effect(&self) -> String {
         let ratio = format!("R = {:.2}", self.ratio);
-        match (self.emphasised, self.damped) {
+        match (self.emphasized, self.damped) {
             (true, _) => format!("{ratio}, emphasised"),
             (false, true) => format!("{ratio}, damped"),
             (false, false) => format!("{ratio}, not damped"),
@@ -167,24 +140,27 @@ impl PerformedMark<'_> {
 }
 
 impl Performance<'_> {
-    /// What it does to the timing, in words. For a report to people, whose frames count from 1.
+    /// What it does to the timing, in words, for people, who count frames from 1.
     pub fn timing(&self) -> String {
         let Some(keys) = self.keys.filter(|_| self.timed) else {
             return "the motion keeps its timing".to_owned();
         };
         let stands = format!(
             "frame {} of the motion stands in frame {} of {}",
-            keys.motion, keys.performance, self.frames.performance
+            keys.motion + 1,
+            keys.performed + 1,
+            self.lengths.performed
         );
-        match self.shown.filter(|shown| *shown != keys.performance) {
-            Some(shown) => format!("{stands}, shown in frame {shown}"),
+        match self.shown.filter(|shown| *shown != keys.performed) {
+            Some(shown) => format!("{stands}, shown in frame {}", shown + 1),
             None => stands,
         }
     }
 
     /// How it is filmed, in words; likewise.
     pub fn filmed(&self) -> String {
-        match (self.filming, self.nearest) {
+        let nearest = self.nearest.map(|nearest| nearest + 1);
+        match (self.filming, nearest) {
             ("camera", Some(nearest)) => {
                 format!("filmed by a camera that is nearest in frame {nearest}")
             }
@@ -212,69 +188,50 @@ fn thinned(information: &Information) -> (Vec<Vec<f64>>, usize) {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::{Value, json};
-
     use super::super::clips;
     use super::*;
     use crate::compile::{Options, compile};
     use crate::resolver::MemoryResolver;
 
-    /// The reports of the two clips of a case: both are performed, the second one is limited.
-    fn reports(reader: Reader) -> [Value; 2] {
+    /// The two clips of a case: both are performed, the second one is limited.
+    #[test]
+    fn clips_report_what_their_performance_does() {
         let drawing = include_str!("../../tests/cases/perform-plays/drawing.svg");
         let track = include_str!("../../tests/cases/perform-plays/hands.json");
         let files = MemoryResolver::default().with("hands.json", track.as_bytes());
         let compiled = compile(drawing, &Options::default(), &files);
-        let clips = clips(&compiled, reader);
-        assert_eq!(clips.len(), 2);
-        [0, 1].map(|clip| serde_json::to_value(&clips[clip].performance).unwrap())
-    }
-
-    #[test]
-    fn people_and_pages_read_the_same_facts() {
-        let [clip, limited] = reports(Reader::Inspect);
-        assert_eq!(clip["track"], "hands.json");
-        assert_eq!(clip["keys"], json!({"performance": 37, "motion": 26}));
-        assert_eq!(clip["frames"], json!({"performance": 49, "motion": 49}));
-        assert_eq!(
-            (&clip["timed"], &clip["filming"]),
-            (&json!(true), &json!("camera"))
-        );
-        let [red, green] = [0, 1].map(|mark| &clip["marks"][mark]);
-        assert_eq!(
-            (&red["name"], &red["colour"]),
-            (&json!("red"), &json!("#d03020"))
-        );
-        assert_eq!(
-            (&red["ratio"], &red["emphasised"], &red["damped"]),
-            (&json!(1.0), &json!(true), &json!(false))
-        );
-        assert_eq!(
-            (&green["parts"], &green["damped"]),
-            (&json!(["Larm"]), &json!(true))
-        );
-        assert!(clip["input"].is_null(), "curves are only for pages");
-
-        let [page, limited_page] = reports(Reader::Page);
-        assert_eq!(page["keys"], json!({"performance": 36, "motion": 25}));
-        assert_eq!(page["timing"], json!([[0, 0], [36, 25], [48, 48]]));
-        for curves in ["input", "motion"] {
-            let values = page[curves][0].as_array().unwrap();
-            assert_eq!(
-                (values.len(), &page[curves].as_array().unwrap().len()),
-                (49, &2)
-            );
+        let clips = clips(&compiled);
+        let [clip, limited] = [0, 1].map(|clip| clips[clip].performance.as_ref().unwrap());
+        assert_eq!(clip.track, "hands.json");
+        let keys = clip.keys.unwrap();
+        assert_eq!((keys.performed, keys.motion), (36, 25));
+        assert_eq!((clip.lengths.performed, clip.lengths.motion), (49, 49));
+        assert_eq!(clip.timing, [[0, 0], [36, 25], [48, 48]]);
+        assert_eq!((clip.timed, clip.filming), (true, "camera"));
+        let [red, green] = &clip.marks[..] else {
+            panic!("two marks");
+        };
+        assert_eq!((red.name, &*red.color), ("red", "#d03020"));
+        assert_eq!((red.ratio, red.emphasized, red.damped), (1.0, true, false));
+        assert_eq!((&green.performs[..], green.damped), (&["Larm"][..], true));
+        for curves in [&clip.input_curves, &clip.motion_curves] {
+            assert_eq!((curves.len(), curves[0].len()), (2, 49));
         }
         assert_eq!(
-            (&page["input"][0][36], &page["motion"][0][25]),
-            (&json!(1.0), &json!(1.0))
+            (clip.input_curves[0][36], clip.motion_curves[0][25]),
+            (1.0, 1.0)
         );
         // The limited clip follows the same performance, and its frames are those that are shown.
-        assert_eq!(limited["marks"], clip["marks"]);
-        for (people, page) in [(&clip, &page), (&limited, &limited_page)] {
-            let nearest = people["nearest"].as_u64().unwrap();
-            assert_eq!(page["nearest"].as_u64(), Some(nearest - 1));
-        }
+        assert_eq!(limited.marks, clip.marks);
+        assert!(
+            clip.timing()
+                .starts_with("frame 26 of the motion stands in frame 37 of 49")
+        );
+        let nearest = clip.nearest.unwrap() + 1;
+        assert_eq!(
+            clip.filmed(),
+            format!("filmed by a camera that is nearest in frame {nearest}")
+        );
     }
 
     #[test]

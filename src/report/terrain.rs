@@ -1,4 +1,4 @@
-//! The landscapes of a drawing (frontends.md, `inspect --json`).
+//! The landscapes of a drawing.
 
 use serde::Serialize;
 

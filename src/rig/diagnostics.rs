@@ -4,12 +4,11 @@ use std::collections::BTreeMap;
 
 use crate::bind::{FollowedName, PartMark, PerformanceRequest};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::motion::bvh;
-use crate::motion::limited::{Cut, MAX_OMITTED_RUN};
-use crate::motion::mark_tracks;
-use crate::motion::matching::{Matching, Problem};
-use crate::motion::performance::Finding;
-use crate::motion::skeleton::Skeleton;
+use crate::limited::{Cut, MAX_OMITTED_RUN};
+use crate::mark_tracks;
+use crate::mocap::{Skeleton, bvh};
+use crate::performance::Finding;
+use crate::retarget::{Matching, Problem};
 use crate::source::Span;
 
 use super::figures::FigureGroup;

@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use crate::motion::key_times::KeyTimes;
-use crate::motion::labels::{Label, Tip};
-use crate::motion::limited::{Cut, Exposure};
-use crate::motion::matching::{Follow, Matching, joints_named};
-use crate::motion::measured::Measured;
-use crate::motion::performance::Filmed;
-use crate::motion::prepare::PreparedClip;
-use crate::motion::retarget::RetargetedClip;
-use crate::motion::skeleton::Skeleton;
+use crate::labels::{Label, Tip};
+use crate::limited::{Cut, Exposure};
+use crate::limited::{KeyTimes, Measured};
+use crate::mocap::Skeleton;
+use crate::performance::Filmed;
+use crate::prepare::PreparedClip;
+use crate::retarget::RetargetedClip;
+use crate::retarget::{Follow, Matching, joints_named};
 use crate::scene::{Animation, Node, Scene};
 use crate::source::Span;
 

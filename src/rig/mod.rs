@@ -1,4 +1,4 @@
-//! Clips of motion capture on the figures of a drawing (motion.md).
+//! Clips of motion capture on the figures of a drawing (docs/motion.md).
 //!
 //! A figure is a group of parts that are connected, by strings or because they touch. Each clip becomes an animation of the nodes
 //! of a figure's parts; figures that play clips of the same name share one animation.
@@ -7,6 +7,7 @@ mod builder;
 mod diagnostics;
 mod figure_clip;
 mod figures;
+mod measured;
 mod missing_files;
 mod motion_files;
 mod performances;
@@ -18,11 +19,11 @@ mod tracks;
 use std::sync::Arc;
 
 use crate::bind::{Bindings, MotionSource};
+use crate::clips::BuiltIn;
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::memo::Memo;
-use crate::motion::clips::BuiltIn;
-use crate::motion::prepare::PreparedClip;
+use crate::prepare::PreparedClip;
 use crate::resolver::Resolver;
 use crate::scene::{Scene, WorldTransform};
 use crate::svg::Drawing;

@@ -6,10 +6,9 @@ use std::sync::Arc;
 use crate::bind::{ClipRequest, SignedAxis};
 use crate::diagnostic::Diagnostic;
 use crate::memo::Memo;
-use crate::motion::bvh;
-use crate::motion::prepare::{self, PreparedClip, prepare};
-use crate::motion::skeleton::{Axis, Clip};
-use crate::motion::up::UpAxis;
+use crate::mocap::{Axis, Clip};
+use crate::mocap::{UpAxis, bvh};
+use crate::prepare::{self, PreparedClip, prepare};
 use crate::resolver::{LinkError, Resolver};
 
 use super::diagnostics;
@@ -116,7 +115,7 @@ impl MotionFile {
                 Err(error) => {
                     notes.push(format!(
                         "it cannot be shown at {} frames a second: {error}",
-                        prepare::FPS
+                        crate::mocap::resample::FPS
                     ));
                     None
                 }

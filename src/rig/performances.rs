@@ -7,8 +7,8 @@ use super::diagnostics;
 use super::missing_files::missing_file;
 use crate::bind::PerformanceRequest;
 use crate::diagnostic::Diagnostic;
+use crate::mark_tracks::{self, MarkTracks};
 use crate::memo::Memo;
-use crate::motion::mark_tracks::{self, MarkTracks};
 use crate::resolver::{LinkError, Resolver};
 use crate::source::Span;
 

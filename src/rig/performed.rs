@@ -1,4 +1,4 @@
-//! Performances of figures: which part each mark performs, and what that does to a clip (motion.md, Performance).
+//! Performances of figures: which part each mark performs, and what that does to a clip (docs/performance.md).
 
 use std::sync::Arc;
 
@@ -10,16 +10,16 @@ use super::diagnostics::{self, MarkProblem};
 use super::figures::FigureGroup;
 use crate::bind::{Camerawork, PartMark, PerformanceRequest};
 use crate::diagnostic::{Diagnostic, nearest_word};
+use crate::labels::{Facing, Tip};
+use crate::mark_tracks::{Hsv, MarkTrack, MarkTracks, hue_difference, same_name};
 use crate::memo::{Memo, Same};
-use crate::motion::labels::{Facing, Tip};
-use crate::motion::mark_tracks::{Hsv, MarkTrack, MarkTracks, hue_difference, same_name};
-use crate::motion::matching::{Drive, MatchedPart, joints_named};
-use crate::motion::performance::{
+use crate::mocap::Clip;
+use crate::performance::{
     Effects, Filming, Finding, Limbs, Plan, Request, joint_steps, mark_movements, plan, ratios,
 };
-use crate::motion::prepare::PreparedClip;
-use crate::motion::retarget::{RetargetedClip, Rig, to_drawing};
-use crate::motion::skeleton::Clip;
+use crate::prepare::PreparedClip;
+use crate::retarget::{Drive, MatchedPart, joints_named};
+use crate::retarget::{RetargetedClip, Rig, to_drawing};
 use crate::source::Span;
 
 /// A mark whose hue differs by more than this from that of a part's `Mark` is another one, degrees.
@@ -291,7 +291,7 @@ fn mark_of(tracks: &MarkTracks, mark: &PartMark<'_>) -> Option<usize> {
     let exact = || position(&|track| track.colour == mark.colour);
     let near = || {
         let own = hue(mark.colour)?;
-        let off = |track: &crate::motion::mark_tracks::MarkTrack| {
+        let off = |track: &crate::mark_tracks::MarkTrack| {
             let off = hue_difference(hue(track.colour)?, own).abs();
             (off <= SAME_HUE).then_some(off)
         };

@@ -7,16 +7,16 @@ use glam::{DQuat, DVec2, DVec3};
 use super::Context;
 use super::figures::FigureGroup;
 use super::surface;
-use crate::bind::Carry;
+use crate::bind;
 use crate::geometry::{Frame, y_up};
+use crate::labels::{Carry, Figure, FigurePart};
+use crate::labels::{Class, Facing};
 use crate::memo::{Bits, Same};
-use crate::motion::figure::{Figure, FigurePart};
-use crate::motion::labels::{Class, Facing};
-use crate::motion::matching::{Drive, Follow, Matching};
-use crate::motion::performance::Plan;
-use crate::motion::prepare::PreparedClip;
-use crate::motion::retarget::{Rig, RigPart};
-use crate::motion::skeleton::Transform;
+use crate::mocap::Transform;
+use crate::performance::Plan;
+use crate::prepare::PreparedClip;
+use crate::retarget::{Drive, Matching};
+use crate::retarget::{Rig, RigPart};
 
 /// A figure as it is drawn, its parts in the order of the group; drawing units, y up.
 pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure {
@@ -60,7 +60,7 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
             bounds,
             drawing_order: part.shape,
             bones,
-            carry: bindings.attributes(index).carry().map(follow),
+            carry: bindings.attributes(index).carry().map(carry),
         }
     };
     Figure {
@@ -68,10 +68,10 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
     }
 }
 
-fn follow(carry: Carry) -> Follow {
+fn carry(carry: bind::Carry) -> Carry {
     match carry {
-        Carry::Direction => Follow::Direction,
-        Carry::Change => Follow::Change,
+        bind::Carry::Direction => Carry::Direction,
+        bind::Carry::Change => Carry::Change,
     }
 }
 
@@ -188,7 +188,7 @@ impl RestNodes {
     }
 }
 
-/// A motion and a rig with its numbers as bits, as the key of a cached [`RetargetedClip`](crate::motion::retarget::RetargetedClip).
+/// A motion and a rig with its numbers as bits, as the key of a cached [`RetargetedClip`](crate::retarget::RetargetedClip).
 #[derive(PartialEq, Eq, Hash)]
 pub(super) struct RetargetKey {
     motion: Same<PreparedClip>,

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
 
-use crate::motion::key_times::KeyTimes;
-use crate::motion::retarget::RetargetedClip;
-use crate::motion::turns::continuous;
+use crate::limited::KeyTimes;
+use crate::mocap::turns::continuous;
+use crate::retarget::RetargetedClip;
 use crate::scene::{Animation, Track, Values, WorldTransform};
 
 use super::RestNode;

@@ -7,9 +7,10 @@ use roxmltree::{Document, Node, NodeId};
 use rustc_hash::FxHashMap;
 
 use super::elements::{Ids, start_tag};
-use super::prepare::{MAX_DEPTH, Prepared};
+use super::prepare::Prepared;
 use super::style::Styles;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::threads::nesting_limit;
 
 /// How many elements a drawing may expand to.
 const MOST: u64 = 1 << 22;
@@ -70,7 +71,7 @@ pub(super) fn check(
     let span = start_tag(blamed.unwrap_or(document.root_element()), prepared);
     let what = "nested clones, patterns, clips, masks or markers";
     let message = match growth.too_deep {
-        true => format!("{what} are more than {MAX_DEPTH} levels deep"),
+        true => format!("{what} are more than {} levels deep", nesting_limit()),
         false => format!("{what} expand to more than {MOST} elements"),
     };
     let help = "remove the nesting: use patterns of plain shapes, and clips of a single path";
@@ -192,7 +193,7 @@ impl<'a, 'input> Growth<'a, 'input> {
         if let Some(known) = self.known.get(&target.id()) {
             return *known;
         }
-        if self.depth >= MAX_DEPTH {
+        if self.depth >= nesting_limit() {
             // usvg expands references recursively.
             self.too_deep = true;
             let elements = MOST + 1;

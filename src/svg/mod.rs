@@ -182,7 +182,8 @@ pub type PixelGroups<'a> = &'a (dyn Fn(&Drawing) -> Vec<bool> + Sync);
 /// `pixel_groups` is called only if there are pictures.
 ///
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing. Recurses as deep as the
-/// drawing is nested: the thread needs a stack of some 100 MiB, as [`crate::compile::compile`] gives it.
+/// drawing is nested, so the thread needs a large stack, as [`crate::compile::compile`] gives it; where there are no
+/// threads but the caller's, 1 MiB is enough, as less nesting is allowed there.
 pub fn read(
     source: &str,
     tolerance: f64,

@@ -14,9 +14,7 @@ use super::replacements::{Positions, Replacement, replaced};
 use super::round;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-
-/// How deep elements may be nested; usvg's own limit is slightly higher.
-pub(super) const MAX_DEPTH: usize = 1000;
+use crate::threads::nesting_limit;
 
 /// The prefix of generated ids, unless the drawing itself has ids with that prefix.
 pub(super) const ID_PREFIX: &str = "okoshi-";
@@ -67,7 +65,7 @@ impl Prepared {
 ///
 /// # Errors
 ///
-/// If the XML declaration is malformed, elements are nested deeper than [`MAX_DEPTH`], or entities expand to too much
+/// If the XML declaration is malformed, elements are nested deeper than [`nesting_limit`], or entities expand to too much
 /// text. Other text that is not well-formed is not an error here: from that position on the copy equals the original,
 /// and the parser, which knows more about XML, reports the problem.
 pub(super) fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
@@ -150,6 +148,7 @@ struct Scan<'a> {
     text: &'a str,
     prefix: &'a str,
     depth: usize,
+    depth_limit: usize,
     tag: Tag,
     seen_root: bool,
     draws_again: bool,
@@ -167,6 +166,7 @@ impl<'a> Scan<'a> {
             text,
             prefix,
             depth: 0,
+            depth_limit: nesting_limit(),
             tag: Tag::default(),
             seen_root: false,
             draws_again: false,
@@ -192,8 +192,9 @@ impl<'a> Scan<'a> {
                 }
                 self.has_clones |= local.as_str() == "use";
                 self.depth += 1;
-                if self.depth > MAX_DEPTH {
-                    let message = format!("elements are nested more than {MAX_DEPTH} deep");
+                if self.depth > self.depth_limit {
+                    let message =
+                        format!("elements are nested more than {} deep", self.depth_limit);
                     return Err(Box::new(
                         Diagnostic::new(Code::LimitPassed, span.range().into(), message)
                             .help("ungroup the drawing a few times"),

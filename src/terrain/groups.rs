@@ -1,9 +1,8 @@
 //! Groups: tiles of one kind that are connected through sides without an edge (terrain.md, rules 2, 4 and 8).
 
-use rayon::prelude::*;
-
 use super::grid::Grid;
 use super::map::Tile;
+use crate::regions::{connected, join, root};
 
 /// What a group of tiles is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,107 +73,16 @@ impl Groups {
     }
 }
 
-/// Finds the representative of a set in a union-find forest, with path halving.
-fn root(parents: &mut [u32], mut index: u32) -> u32 {
-    while parents[index as usize] != index {
-        let next = parents[parents[index as usize] as usize];
-        parents[index as usize] = next;
-        index = next;
-    }
-    index
-}
-
-fn join(parents: &mut [u32], one: u32, other: u32) {
-    let (one, other) = (root(parents, one), root(parents, other));
-    // The smaller index becomes the root, so that the result does not depend on the order.
-    let (low, high) = (one.min(other), one.max(other));
-    parents[high as usize] = low;
-}
-
-/// Labels connected cells of one kind (connected-component labelling by union-find), and gives the first cell of each label.
-/// Label 0 is that of the empty cells.
+/// Labels connected cells of one kind, and gives the first cell of each label. Label 0 is that of the empty cells.
 fn components(grid: &Grid) -> (Vec<u32>, Vec<usize>) {
-    let (columns, rows) = (grid.columns, grid.rows);
-    let mut parents = vec![0_u32; columns * rows];
-    if parents.is_empty() {
-        return (parents, vec![0]);
-    }
-    let band = columns.div_ceil(rayon::current_num_threads() * 4).max(16);
-    // Label each band by itself, in parallel…
-    parents
-        .par_chunks_mut(band * rows)
-        .enumerate()
-        .for_each(|(index, parents)| {
-            let base = index * band * rows;
-            for at in 0..parents.len() {
-                let cell = base + at;
-                let tile = grid.tile(cell);
-                let row = cell % rows;
-                let above = row > 0 && grid.tile(cell - 1) == tile && !grid.edge_below(cell - 1);
-                parents[at] = if above { parents[at - 1] } else { at as u32 };
-                let left =
-                    at >= rows && grid.tile(cell - rows) == tile && !grid.edge_right(cell - rows);
-                // Usually the pair of cells above has joined the two columns already.
-                let known = above
-                    && left
-                    && grid.tile(cell - rows - 1) == tile
-                    && !grid.edge_right(cell - rows - 1)
-                    && !grid.edge_below(cell - rows - 1);
-                if left && !known {
-                    join(parents, at as u32, (at - rows) as u32);
-                }
-            }
-            for at in 0..parents.len() {
-                parents[at] = root(parents, at as u32);
-            }
-            let base = base as u32;
-            parents.iter_mut().for_each(|parent| *parent += base);
-        });
-    // …then join the bands.
-    for column in (band..columns).step_by(band) {
-        for row in 0..rows {
-            let (cell, left) = (column * rows + row, (column - 1) * rows + row);
-            if grid.tile(cell) == grid.tile(left) && !grid.edge_right(left) {
-                join(&mut parents, cell as u32, left as u32);
-            }
-        }
-    }
-    number(grid, parents)
-}
-
-/// Numbers the sets in the order of their first cells.
-fn number(grid: &Grid, parents: Vec<u32>) -> (Vec<u32>, Vec<usize>) {
-    let leads = |cell: usize| parents[cell] as usize == cell && grid.tile(cell) != Tile::None;
-    let mut firsts = vec![usize::MAX];
-    firsts.extend((0..parents.len()).filter(|cell| leads(*cell)));
-    // A root's label is found by binary search; for most cells it is that of the cell before.
-    let find = |cell: usize| {
-        let mut lead = cell as u32;
-        while parents[lead as usize] != lead {
-            lead = parents[lead as usize];
-        }
-        lead as usize
-    };
-    let mut labels = vec![0_u32; parents.len()];
-    labels
-        .par_chunks_mut(grid.rows.max(1))
-        .enumerate()
-        .for_each(|(column, labels)| {
-            let mut last = (usize::MAX, 0);
-            for (row, label) in labels.iter_mut().enumerate() {
-                let cell = column * grid.rows + row;
-                if grid.tile(cell) == Tile::None {
-                    continue;
-                }
-                let lead = find(cell);
-                if last.0 != lead {
-                    let index = firsts[1..].partition_point(|first| *first < lead) + 1;
-                    last = (lead, index as u32);
-                }
-                *label = last.1;
-            }
-        });
-    (labels, firsts)
+    let rows = grid.rows;
+    let is_member = |cell: usize| grid.tile(cell) != Tile::None;
+    let below = |cell: usize| grid.tile(cell - 1) == grid.tile(cell) && !grid.edge_below(cell - 1);
+    let right =
+        |cell: usize| grid.tile(cell - rows) == grid.tile(cell) && !grid.edge_right(cell - rows);
+    let labels = connected(grid.columns * rows, rows, 1, is_member, below, right);
+    let firsts = std::iter::once(usize::MAX).chain(labels.firsts);
+    (labels.of, firsts.collect())
 }
 
 /// Groups while they are joined to surfaces and houses.

@@ -6,6 +6,7 @@ use super::appearance::Appearance;
 use super::components::{Component, components, push_pixel};
 use super::lookup::Lookup;
 use super::samples::Samples;
+use crate::regions::{Span, connected_runs};
 
 /// What looks like a mark in more than this part of the samples stands still.
 const STILL: f64 = 0.8;
@@ -186,27 +187,18 @@ fn still_groups(
 /// The groups of connected pixels.
 fn groups(size: [usize; 2], has: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
     let [width, height] = size;
-    let mut is_taken = vec![false; width * height];
-    let mut groups = Vec::new();
-    for start in 0..width * height {
-        let mut group = Vec::new();
-        let mut todo = vec![start];
-        while let Some(index) = todo.pop() {
-            if is_taken[index] || !has(index) {
-                continue;
-            }
-            is_taken[index] = true;
-            group.push(index);
-            let (x, y) = (index % width, index / width);
-            for y in y.saturating_sub(1)..=(y + 1).min(height - 1) {
-                for x in x.saturating_sub(1)..=(x + 1).min(width - 1) {
-                    todo.push(y * width + x);
-                }
-            }
+    let mut runs: Vec<Span> = Vec::new();
+    for index in (0..width * height).filter(|index| has(*index)) {
+        let (x, y) = ((index % width) as u32, (index / width) as u32);
+        if !runs.last_mut().is_some_and(|run| run.extend(x, y)) {
+            runs.push(Span::pixel(x, y));
         }
-        if !group.is_empty() {
-            groups.push(group);
-        }
+    }
+    let (labels, count) = connected_runs(&runs, |run| *run);
+    let mut groups = vec![Vec::new(); count];
+    for (run, label) in runs.iter().zip(labels) {
+        let row = run.y as usize * width;
+        groups[label as usize].extend(row + run.from as usize..row + run.to as usize);
     }
     groups
 }

@@ -1,7 +1,7 @@
 //! The names of hues.
 
-pub use crate::motion::mark_tracks::Hsv;
-pub(super) use crate::motion::mark_tracks::hue_difference;
+pub use crate::mark_tracks::Hsv;
+pub(super) use crate::mark_tracks::hue_difference;
 
 /// The names of hues, and where they are on the circle, in degrees.
 pub const HUES: [(&str, f64); 8] = [

@@ -1,16 +1,13 @@
-//! Connected components of pixels, found from runs in rows.
+//! Connected components of pixels with weights.
 
 use glam::DVec2;
 
-/// Pixels of a row beside each other.
+use crate::regions::{Span, connected_runs};
+
+/// Pixels of a row beside each other, with their weights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Run {
-    /// The row.
-    pub(super) y: u32,
-    /// The first column.
-    pub(super) from: u32,
-    /// The column after the last one.
-    pub(super) to: u32,
+    pub(super) span: Span,
     /// The sum of the pixels' weights.
     pub(super) weight: f64,
     /// The sum of their columns, weighted.
@@ -35,77 +32,47 @@ pub(super) struct Component {
 /// Adds a pixel after those before it, in the order of rows and columns.
 pub(super) fn push_pixel(runs: &mut Vec<Run>, x: u32, y: u32, weight: f64) {
     let moment = weight * f64::from(x);
-    match runs.last_mut() {
-        Some(run) if run.y == y && run.to == x => {
-            run.to += 1;
-            run.weight += weight;
-            run.moment += moment;
-        }
-        _ => runs.push(Run {
-            y,
-            from: x,
-            to: x + 1,
-            weight,
-            moment,
-        }),
+    if let Some(run) = runs.last_mut()
+        && run.span.extend(x, y)
+    {
+        run.weight += weight;
+        run.moment += moment;
+        return;
     }
+    runs.push(Run {
+        span: Span::pixel(x, y),
+        weight,
+        moment,
+    });
 }
 
 /// The components of runs that are sorted by row and column, do not overlap and have weights, in the order of their first runs.
 pub(super) fn components(runs: &[Run]) -> Vec<Component> {
-    let mut parents: Vec<usize> = (0..runs.len()).collect();
-    let mut above = 0;
-    for (index, run) in runs.iter().enumerate() {
-        // Runs of the row above that touch this one, by a corner at least. Runs further left cannot touch later ones.
-        while runs[above].y + 1 < run.y || (runs[above].y + 1 == run.y && runs[above].to < run.from)
-        {
-            above += 1;
-        }
-        let touching = runs[above..index].iter().enumerate();
-        for (offset, _) in touching.take_while(|(_, other)| other.y < run.y && other.from <= run.to)
-        {
-            let (root, other) = (
-                root(&mut parents, index),
-                root(&mut parents, above + offset),
-            );
-            parents[root.max(other)] = root.min(other);
-        }
-    }
-    let mut places = vec![usize::MAX; runs.len()];
-    let mut components: Vec<Component> = Vec::new();
-    for (index, run) in runs.iter().enumerate() {
-        let root = root(&mut parents, index);
-        if root == index {
-            places[index] = components.len();
+    let (labels, count) = connected_runs(runs, |run| run.span);
+    let mut components: Vec<Component> = Vec::with_capacity(count);
+    for (run, label) in runs.iter().zip(labels) {
+        let Span { y, from, to } = run.span;
+        if label as usize == components.len() {
             components.push(Component {
                 area: 0.0,
                 weight: 0.0,
                 middle: DVec2::ZERO,
-                least: [run.from, run.y],
-                most: [run.from, run.y],
+                least: [from, y],
+                most: [from, y],
             });
         }
-        let component = &mut components[places[root]];
-        component.area += f64::from(run.to - run.from);
+        let component = &mut components[label as usize];
+        component.area += f64::from(to - from);
         component.weight += run.weight;
         // A sum, until all runs are in it.
-        component.middle += DVec2::new(run.moment, run.weight * f64::from(run.y));
-        component.least[0] = component.least[0].min(run.from);
-        component.most = [component.most[0].max(run.to - 1), run.y];
+        component.middle += DVec2::new(run.moment, run.weight * f64::from(y));
+        component.least[0] = component.least[0].min(from);
+        component.most = [component.most[0].max(to - 1), y];
     }
     for component in &mut components {
         component.middle /= component.weight;
     }
     components
-}
-
-/// The first run of a run's component.
-fn root(parents: &mut [usize], mut run: usize) -> usize {
-    while parents[run] != run {
-        parents[run] = parents[parents[run]];
-        run = parents[run];
-    }
-    run
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Coloured marks found in the frames of a clip (motion.md, Performance).
+//! Coloured marks found in the frames of a clip (docs/tracking.md).
 //!
 //! A [`Learner`] looks at some frames and learns what each mark looks like, and what else in the picture does; a [`Tracker`] then finds the
 //! marks in one frame after the other. Knows pixels, no files. Positions are pixels from the top left corner of the picture, x to the

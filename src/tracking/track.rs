@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::motion::mark_tracks::{MarkTrack, MarkTracks, bridge};
+use crate::mark_tracks::{MarkTrack, MarkTracks, bridge};
 
 use super::colour::Hsv;
 use super::components::{Component, Run, components, push_pixel};
@@ -290,11 +290,11 @@ fn windowed(runs: &[Run], start: DVec2, radius: f64) -> Option<DVec2> {
     let mut middle = start;
     for _ in 0..4 {
         let (mut sum, mut count) = (DVec2::ZERO, 0.0);
-        for run in runs {
-            let y = f64::from(run.y);
+        for Run { span, .. } in runs {
+            let y = f64::from(span.y);
             let half = (radius * radius - (y - middle.y).powi(2)).max(0.0).sqrt();
-            let from = f64::from(run.from).max((middle.x - half).ceil());
-            let to = f64::from(run.to - 1).min((middle.x + half).floor());
+            let from = f64::from(span.from).max((middle.x - half).ceil());
+            let to = f64::from(span.to - 1).min((middle.x + half).floor());
             if half > 0.0 && to >= from {
                 let pixels = to - from + 1.0;
                 sum += pixels * DVec2::new((from + to) / 2.0, y);

@@ -10,7 +10,7 @@ use super::source::Source;
 use super::{Build, BuildTimes, NoModel, Options};
 use crate::compile::{self, Compiled, Compiler};
 use crate::disk::{FolderResolver, ReadError, decode, read_drawing};
-use crate::export::{self, GLB};
+use crate::export::{self, Exporter};
 use crate::memo::Memo;
 use crate::resolver::{Dependency, Recorder};
 
@@ -25,6 +25,7 @@ pub struct Drawing {
     surfaces: Memo,
     last: Option<Inputs>,
     shows_incomplete: bool,
+    exporter: &'static dyn Exporter,
 }
 
 /// The files that a build was made from.
@@ -62,6 +63,7 @@ impl Drawing {
             surfaces: Memo::default(),
             last: None,
             shows_incomplete: options.shows_incomplete,
+            exporter: options.exporter,
         }
     }
 
@@ -143,7 +145,7 @@ impl Drawing {
     }
 
     fn model(&mut self, compiled: &Compiled) -> Result<export::Model, NoModel> {
-        let model = export::to_memory(&GLB, &compiled.scene, Some(&mut self.surfaces));
+        let model = export::to_memory(self.exporter, &compiled.scene, Some(&mut self.surfaces));
         model.map_err(|error| NoModel::Unwritten(error.to_string()))
     }
 }

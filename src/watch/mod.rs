@@ -13,7 +13,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use crate::compile::{Compiled, TOLERANCE};
 use crate::disk::{ChangeDetection, FolderWatch, WatchError};
-use crate::export::Model;
+use crate::export::{Exporter, GLB, Model};
 use watcher::Watcher;
 
 pub use drawing::Drawing;
@@ -34,6 +34,8 @@ pub struct Options {
     pub detection: ChangeDetection,
     /// Whether to build what can be built of drawings with errors, to show it.
     pub shows_incomplete: bool,
+    /// The format of the models.
+    pub exporter: &'static dyn Exporter,
 }
 
 impl Default for Options {
@@ -45,6 +47,7 @@ impl Default for Options {
             tolerance: TOLERANCE,
             detection: ChangeDetection::default(),
             shows_incomplete: false,
+            exporter: &GLB,
         }
     }
 }
@@ -56,7 +59,7 @@ pub struct Build {
     pub text: String,
     /// The compiled drawing.
     pub compiled: Compiled,
-    /// The model as binary glTF, or why there is none.
+    /// The model, or why there is none.
     pub model: Result<Model, NoModel>,
     /// The files that the drawing links to, including missing ones.
     pub linked: Vec<PathBuf>,
@@ -72,7 +75,7 @@ pub enum NoModel {
     /// The drawing has errors.
     #[error("the drawing has errors")]
     Errors,
-    /// It cannot be written as binary glTF.
+    /// It cannot be written in its format.
     #[error("{0}")]
     Unwritten(String),
 }

@@ -4,8 +4,11 @@
     reason = "each test file is a crate of its own and uses its share"
 )]
 
+#[cfg(feature = "cli")]
 pub(crate) mod editor;
+#[cfg(feature = "cli")]
 pub(crate) mod live;
+#[cfg(feature = "cli")]
 pub(crate) mod program;
 pub(crate) mod rewrite;
 

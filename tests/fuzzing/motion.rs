@@ -1,9 +1,9 @@
 //! Every motion file is read, or refused with a line; a clip that was read can be resampled, written and read again.
 
-use okoshi::motion::bvh::{Decimals, MAX_MAGNITUDE, Reading, read_bytes, write};
-use okoshi::motion::lead_in::find_lead_in;
-use okoshi::motion::resample::resample;
-use okoshi::motion::skeleton::Clip;
+use okoshi::mocap::Clip;
+use okoshi::mocap::bvh::{Decimals, MAX_MAGNITUDE, Reading, read_bytes, write};
+use okoshi::mocap::resample::resample;
+use okoshi::prepare::find_lead_in;
 
 use super::files;
 

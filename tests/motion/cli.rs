@@ -4,10 +4,11 @@ use std::path::Path;
 
 use gltf::animation::Interpolation;
 use gltf::animation::util::ReadOutputs;
-use okoshi::motion::bvh::read_bytes;
-use okoshi::motion::limited::{Cut, Options, limit};
-use okoshi::motion::measured::{Measured, PointChoice};
-use okoshi::motion::skeleton::Clip;
+use okoshi::limited::Measured;
+use okoshi::limited::{Cut, Options, limit};
+use okoshi::mocap::Clip;
+use okoshi::mocap::bvh::read_bytes;
+use okoshi::motion::PointChoice;
 
 use crate::common::program::{Room, Run};
 use crate::retarget::clips::clip;

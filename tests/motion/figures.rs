@@ -12,9 +12,9 @@ use std::sync::Arc;
 use std::{env, fs};
 
 use okoshi::compile::Compiled;
-use okoshi::motion::bvh::{self, Decimals};
-use okoshi::motion::labels::{Anatomy, Class, Limb, Piece, Side, Tip, label_clip};
-use okoshi::motion::skeleton::{Clip, Skeleton};
+use okoshi::labels::{Anatomy, Class, Limb, Piece, Side, Tip, label_clip};
+use okoshi::mocap::bvh::{self, Decimals};
+use okoshi::mocap::{Clip, Skeleton};
 use okoshi::resolver::MemoryResolver;
 
 use crate::common::compiled;

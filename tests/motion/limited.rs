@@ -10,16 +10,17 @@ use std::sync::Arc;
 use crate::retarget::clips::clip;
 use fastrand::Rng;
 use glam::{DVec3, dvec3};
-use okoshi::motion::bvh;
-use okoshi::motion::edit::{self, ExposureMethod, edit};
-use okoshi::motion::labels::label_clip;
-use okoshi::motion::limited::{
+use okoshi::labels::label_clip;
+use okoshi::limited::Measured;
+use okoshi::limited::{
     Camera, Cut, Drawing, Exposure, Length, MAX_OMITTED_RUN, Method, Options, Poses, compare,
     error, every, limit, ssd,
 };
-use okoshi::motion::measured::{Measured, PointChoice};
-use okoshi::motion::prepare;
-use okoshi::motion::skeleton::{Axis, Channel, Clip, Joint, Skeleton};
+use okoshi::mocap::bvh;
+use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton};
+use okoshi::motion::PointChoice;
+use okoshi::motion::edit::{self, ExposureMethod, edit};
+use okoshi::prepare;
 use plain_limited::{Plain, plain, repeats};
 
 /// A random point of a grid with `places` places in each direction.

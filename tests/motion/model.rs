@@ -6,9 +6,9 @@ use std::path::Path;
 use glam::{DQuat, DVec2, DVec3};
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::disk::FolderResolver;
-use okoshi::motion::labels::Facing;
-use okoshi::motion::retarget::Landmarks;
-use okoshi::motion::skeleton::{Clip, Transform};
+use okoshi::labels::Facing;
+use okoshi::mocap::{Clip, Transform};
+use okoshi::retarget::Landmarks;
 use okoshi::rig::FigureClip;
 use okoshi::scene::{Animation, Interpolation, Scene, Values};
 

@@ -9,10 +9,10 @@ mod swing;
 mod walks;
 
 use glam::{DQuat, DVec3};
-use okoshi::motion::labels::{Facing, Tip};
-use okoshi::motion::matching::{Drive, Follow};
-use okoshi::motion::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
-use okoshi::motion::skeleton::{Clip, Transform};
+use okoshi::labels::{Facing, Tip};
+use okoshi::mocap::{Clip, Transform};
+use okoshi::retarget::{Drive, Follow};
+use okoshi::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
 
 use clips::{FILES, clip};
 use rigs::{Limbs, biped, dog, stout};

@@ -1,4 +1,5 @@
 //! Terrain: the meaning of maps, their surfaces, and their appearance.
+#![cfg(feature = "cli")]
 
 mod drawn;
 mod letters;

@@ -1,8 +1,8 @@
-"""Checks in Blender that a skinned model has the same shape and movement as the one without a skin.
+"""Checks in Blender that skinned models have the same shape and movement as those without a skin.
 
-    blender -b --factory-startup --python-exit-code 1 --python blender_skin.py -- PLAIN.glb SKINNED.glb [NODE]
+    blender -b --factory-startup --python-exit-code 1 --python blender_skin.py -- PLAIN.glb SKINNED.glb [PLAIN.glb SKINNED.glb...]
 
-Imports both, compares all corners at rest and after NODE (the largest one with a parent and a mesh) was turned by 40
+Imports each pair, compares all corners at rest and after the largest node with a parent and a mesh was turned by 40
 degrees about its joint. Ends with 1 if a corner is off by more than a thousandth of the model's size.
 """
 
@@ -64,12 +64,11 @@ def distance(some, others):
     return max(tree.find(corner)[2] for corner in some)
 
 
-def main():
-    """Compares the two files."""
-    plain, skinned, *names = sys.argv[sys.argv.index("--") + 1 :]
+def is_same(plain, skinned):
+    """Compares two files."""
     load(plain)
     jointed = [thing for thing in bpy.data.objects if thing.type == "MESH" and thing.parent]
-    name = names[0] if names else max(jointed, key=lambda thing: (thing.dimensions.length, thing.name)).name
+    name = max(jointed, key=lambda thing: (thing.dimensions.length, thing.name)).name
     states = {}
     for file in (plain, skinned):
         load(file)
@@ -84,8 +83,17 @@ def main():
         print(f"{state}: {len(one)} and {len(other)} corners, off by {off:.1e} of the size")
     moved = distance(*states[plain]) / size
     print(f"the turn moves corners by up to {moved:.2f} of the size")
-    if bad or moved < 0.01:
-        sys.exit(1)
+    return not bad and moved >= 0.01
 
 
-main()
+def main(files):
+    """Compares all pairs; the exit status is 1 if any differs."""
+    differ = 0
+    for plain, skinned in zip(files[::2], files[1::2]):
+        print(f"skin of {plain}")
+        differ += not is_same(plain, skinned)
+    print(f"{len(files) // 2} models, {differ} differ from their skinned ones")
+    sys.exit(1 if differ or not files or len(files) % 2 else 0)
+
+
+main(sys.argv[sys.argv.index("--") + 1 :])

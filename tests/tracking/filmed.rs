@@ -6,7 +6,7 @@ use std::path::Path;
 
 use image::AnimationDecoder as _;
 use image::codecs::webp::WebPDecoder;
-use okoshi::motion::mark_tracks::MarkTracks;
+use okoshi::mark_tracks::MarkTracks;
 use okoshi::tracking::{Frame, Learner, Mark, Tracker, tracks};
 
 #[test]

@@ -31,6 +31,8 @@ try:
 except ImportError:
     inkex = None
 
+# The limit of every wait, in seconds: it only ends a test that hangs.
+PATIENCE = 60
 SVG = (
     '<?xml version="1.0" encoding="UTF-8"?>\n'
     '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">%s</svg>\n'
@@ -297,7 +299,7 @@ class Previews(Folder):
 
     def lines(self, path, number):
         """The lines of a file, as soon as it has so many."""
-        end = time.monotonic() + 10
+        end = time.monotonic() + PATIENCE
         while True:
             found = []
             if os.path.exists(path):
@@ -309,9 +311,9 @@ class Previews(Folder):
 
     def served(self, page, text):
         """Waits until the page has the text."""
-        end = time.monotonic() + 10
+        end = time.monotonic() + PATIENCE
         while True:
-            with urllib.request.urlopen(page, timeout=5) as answer:
+            with urllib.request.urlopen(page, timeout=PATIENCE) as answer:
                 body = answer.read().decode("utf-8")
             if text in body or time.monotonic() > end:
                 return body
@@ -345,7 +347,7 @@ class Previews(Folder):
         self.show("first")
         folder = okoshi_previews.folder_of(drawing)
         os.kill(okoshi_previews.read_state(folder)["pid"], 15)
-        end = time.monotonic() + 10
+        end = time.monotonic() + PATIENCE
         while okoshi_previews.is_running(folder) and time.monotonic() < end:
             time.sleep(0.05)
         self.show("second")

@@ -150,9 +150,9 @@ return {
     function()
       h.open(h.with(h.example('human.svg'), arm, 'Rarm@Ubody$Shape   roundv -90   90'))
       if vim.lsp.buf.format then
-        vim.lsp.buf.format({ timeout_ms = 10000 })
+        vim.lsp.buf.format({ timeout_ms = h.patience })
       else
-        vim.lsp.buf.formatting_sync({}, 10000)
+        vim.lsp.buf.formatting_sync({}, h.patience)
       end
       h.equal(h.text(), h.example('human.svg'))
     end,

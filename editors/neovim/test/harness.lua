@@ -25,8 +25,11 @@ function M.holds(text, piece)
   end
 end
 
+-- The limit of every wait, in milliseconds: it only ends a test that hangs.
+M.patience = 60000
+
 function M.wait(about, condition)
-  if not vim.wait(10000, condition, 10) then
+  if not vim.wait(M.patience, condition, 10) then
     error('waited in vain until ' .. about, 2)
   end
 end
@@ -153,6 +156,27 @@ function M.ask(method, params)
   return result
 end
 
+-- Lets all servers of the buffer answer what was asked before, and Neovim do what it has scheduled.
+function M.settle()
+  for _, client in pairs(clients()) do
+    local answered
+    local params = { textDocument = { uri = M.uri } }
+    local function answer()
+      vim.schedule(function()
+        answered = true
+      end)
+    end
+    if is_new then
+      client:request('textDocument/documentSymbol', params, answer, M.buffer)
+    else
+      client.request('textDocument/documentSymbol', params, answer, M.buffer)
+    end
+    M.wait(client.name .. ' has settled', function()
+      return answered
+    end)
+  end
+end
+
 -- The length of a text in the negotiated encoding.
 local function units(text)
   if M.client().offset_encoding == 'utf-8' then
@@ -252,7 +276,7 @@ end
 
 -- Waits for exactly these codes, in the order of the text.
 function M.wait_for_codes(expected)
-  local ok = vim.wait(10000, function()
+  local ok = vim.wait(M.patience, function()
     return vim.deep_equal(M.codes(), expected)
   end, 10)
   if not ok then

@@ -110,7 +110,7 @@ return {
           return vim.deep_equal(codes(), case[2])
         end)
         -- Late answers must not be added.
-        vim.wait(300)
+        h.settle()
         h.equal(codes(), case[2])
         if case[1] == '' then
           h.equal(#vim.diagnostic.get(h.buffer), 8, 'diagnostics of both servers')
@@ -327,7 +327,7 @@ return {
       h.write(path, '<notes>Rarm@Ubody$Shape roundv</notes>\n')
       vim.cmd('edit ' .. path)
       h.equal(vim.bo.filetype, 'xml')
-      vim.wait(200)
+      h.settle()
       h.equal(vim.lsp.buf_is_attached(0, h.client().id), false, 'a server for other XML')
     end,
   },

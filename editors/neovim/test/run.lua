@@ -6,7 +6,7 @@ local here = vim.fn.fnamemodify(debug.getinfo(1, 'S').source:sub(2), ':p:h')
 package.path = here .. '/?.lua;' .. package.path
 
 local only = os.getenv('ONLY')
-local passed, failed = 0, 0
+local passed, failed, skipped = 0, 0, {}
 
 local function say(words)
   io.stdout:write(words .. '\n')
@@ -19,7 +19,9 @@ local ok, problem = xpcall(function()
     for _, test in ipairs(require(file)) do
       local name, run = test[1], test[2]
       local can = not test.needs or vim.fn.has(test.needs) == 1
-      if can and (not only or name:find(only, 1, true)) then
+      if not can then
+        skipped[test.needs] = (skipped[test.needs] or 0) + 1
+      elseif (not only or name:find(only, 1, true)) then
         local well, trouble = xpcall(run, debug.traceback)
         local ended, unrest = xpcall(harness.close, debug.traceback)
         if well and ended then
@@ -38,6 +40,9 @@ if not ok then
   failed = failed + 1
 end
 local version = vim.version()
+for needs, count in pairs(skipped) do
+  say(('skipped: %d of the tests in Neovim %d.%d need %s'):format(count, version.major, version.minor, needs))
+end
 local encoding = os.getenv('OKOSHI_ENCODING') or 'default'
 say(('Neovim %d.%d.%d, encoding %s: %d passed, %d failed'):format(
   version.major, version.minor, version.patch, encoding, passed, failed))

@@ -112,7 +112,7 @@ return {
           vim.cmd('silent undo')
         end
         if step % 50 == 0 then
-          vim.wait(200)
+          h.settle()
         end
       end
       -- Wherever it ended, the XML errors are gone after undoing everything, except for one string.

@@ -41,7 +41,7 @@ await build({
 });
 const files = readdirSync(out).sort().map((name) => join(out, name));
 const env = { ...process.env, ...(okoshi ? { OKOSHI: okoshi } : {}) };
-// Files end when their tests have, whatever those left open; one that still does not end is ended after 20 minutes.
-const ending = ["--test-force-exit", `--test-timeout=${20 * 60 * 1000}`];
+// Files end when their tests have, whatever those left open; one that still does not end is ended after an hour.
+const ending = ["--test-force-exit", `--test-timeout=${60 * 60 * 1000}`];
 const { status } = spawnSync(process.execPath, ["--test", ...ending, "--test-reporter=spec", ...files], { stdio: "inherit", env });
 process.exit(status ?? 1);

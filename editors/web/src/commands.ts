@@ -36,7 +36,7 @@ export class Commands {
   }
 
   turn(degrees: number, aboutLimb: boolean): void {
-    const node = this.viewer.nodesOf(this.state.selected)[0];
+    const node = this.viewer.parts.nodesOf(this.state.selected)[0];
     if (node && partNode(node)) this.pointer?.posing.turn(node, degrees, aboutLimb);
   }
 
@@ -96,7 +96,7 @@ export class Commands {
   }
 
   async download(): Promise<void> {
-    const bytes = await this.viewer.file();
+    const bytes = await this.viewer.requests.file();
     if (bytes) await this.host.save(`${this.fileName()}.glb`, new Blob([bytes], { type: "model/gltf-binary" }));
   }
 

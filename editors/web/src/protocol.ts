@@ -54,7 +54,7 @@ export interface Part {
   readonly depthWhy: string | null;
 }
 
-/** Facts about a figure's clip that are not in the model's animation of the same name. */
+/** Facts about a figure's clip that are not in the model's animation of the same name. Frames count from 0. */
 export interface ClipFacts {
   readonly name: string;
   /** The name of the figure's root part. */
@@ -73,8 +73,8 @@ export interface ClipFacts {
   readonly exposure: readonly (readonly [source: number, frames: number])[];
   /** The omitted source frames. */
   readonly omitted: readonly number[];
-  /** The number of frames that repeat the pose before. */
-  readonly held: number;
+  /** The shown frames that repeat the pose before. */
+  readonly held: readonly number[];
   /** For each source frame: the sum of the squared distances of all joints to the frame before, in squares of the motion file's unit. */
   readonly ssd: readonly number[];
   /** The number of source frames for which an entry of `ssd` is the maximum. */
@@ -93,11 +93,11 @@ export interface PerformanceFacts {
   readonly marks: readonly {
     readonly name: string;
     /** As `#rrggbb`; empty if unknown. */
-    readonly colour: string;
+    readonly color: string;
     readonly parts: readonly string[];
     /** Its largest movement over that of the emphasised mark, 0 to 1. */
     readonly ratio: number;
-    readonly emphasised: boolean;
+    readonly emphasized: boolean;
     readonly damped: boolean;
   }[];
   /** The frames of the largest movements. */
@@ -229,6 +229,7 @@ function readBuild(raw: Raw, kept: readonly Part[] = []): Build {
 
 function readClip(value: unknown): ClipFacts {
   const raw = object(value);
+  const reasons = object(raw["joint_reasons"]);
   return {
     name: text(raw["name"]),
     figure: text(raw["figure"]),
@@ -240,47 +241,42 @@ function readClip(value: unknown): ClipFacts {
     limited: raw["limited"] === true,
     exposure: list(raw["exposure"]).map((run) => [whole(list(run)[0]), whole(list(run)[1])]),
     omitted: list(raw["omitted"]).map(whole),
-    held: whole(raw["held"]),
+    held: list(raw["held"]).map(whole),
     ssd: list(raw["ssd"]).map(number),
     ssdStep: Math.max(whole(raw["ssd_step"]), 1),
-    joints: new Map(
-      Object.entries(object(raw["joints"])).map(([part, driven]) => {
-        const { joint, why } = object(driven);
-        return [part, { joint: text(joint), why: text(why) }];
-      }),
-    ),
+    joints: new Map(Object.entries(object(raw["joints"])).map(([part, joint]) => [part, { joint: text(joint), why: text(reasons[part]) }])),
     unmatched: list(raw["unmatched"]).map(text),
     performance: raw["performance"] === undefined || raw["performance"] === null ? null : readPerformance(object(raw["performance"])),
   };
 }
 
 function readPerformance(raw: Raw): PerformanceFacts {
-  const frames = (value: unknown) => ({ performance: whole(object(value)["performance"]), motion: whole(object(value)["motion"]) });
+  const frames = (value: unknown) => ({ performance: whole(object(value)["performed"]), motion: whole(object(value)["motion"]) });
   const curves = (value: unknown) => list(value).map((curve) => list(curve).map(number));
   return {
     track: text(raw["track"]),
     marks: list(raw["marks"]).map((value) => {
       const mark = object(value);
-      const colour = text(mark["colour"]);
+      const color = text(mark["color"]);
       return {
         name: text(mark["name"]),
-        colour: /^#[0-9a-f]{6}$/i.test(colour) ? colour : "",
-        parts: list(mark["parts"]).map(text),
+        color: /^#[0-9a-f]{6}$/i.test(color) ? color : "",
+        parts: list(mark["performs"]).map(text),
         ratio: number(mark["ratio"]),
-        emphasised: mark["emphasised"] === true,
+        emphasized: mark["emphasized"] === true,
         damped: mark["damped"] === true,
       };
     }),
     keys: raw["keys"] === undefined || raw["keys"] === null ? null : frames(raw["keys"]),
     shown: typeof raw["shown"] === "number" ? whole(raw["shown"]) : null,
     timed: raw["timed"] === true,
-    frames: frames(raw["frames"]),
+    frames: frames(raw["lengths"]),
     filming: oneOf(raw["filming"], ["camera", "root", "none"], "none"),
     nearest: typeof raw["nearest"] === "number" ? whole(raw["nearest"]) : null,
     timing: list(raw["timing"]).map((point) => [whole(list(point)[0]), whole(list(point)[1])]),
-    input: curves(raw["input"]),
+    input: curves(raw["input_curves"]),
     inputStep: Math.max(whole(raw["input_step"]), 1),
-    motion: curves(raw["motion"]),
+    motion: curves(raw["motion_curves"]),
     motionStep: Math.max(whole(raw["motion_step"]), 1),
   };
 }

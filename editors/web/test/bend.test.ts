@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { Matrix4, Vector3 } from "three";
 import type { Page } from "playwright-core";
 import { bendFor, ratioAt } from "../src/viewport/bend";
-import { camera, overlaps, picture, project, shown, still, type Colour } from "./browser";
+import { camera, overlaps, picture, project, resize, shown, still, type Colour } from "./browser";
 import { FRONT, island, SIDE, TOP } from "./cube";
 import { browse, build, FIGURE, isLike } from "./setup";
 
@@ -143,8 +143,7 @@ browse("the slider is shown only for models with terrain, also on a phone and in
   const target = (await slider(page).boundingBox())!;
   assert.ok(target.height >= 36 && target.width >= 60, `${target.width} by ${target.height}`);
   for (const width of [320, 500, 761, 1200]) {
-    await page.setViewportSize({ width, height: 740 });
-    await page.waitForTimeout(60);
+    await resize(page, width, 740);
     assert.deepEqual(await overlaps(page), [], `at ${width} pixels`);
   }
   host.built("island.svg", island(false));

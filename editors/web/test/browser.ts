@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 import { PNG } from "pngjs";
 import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
-import { PATIENCE, type Close } from "./closing";
+import { LAUNCH_LIMIT, PATIENCE, type Close } from "./closing";
 
 const executable = (path: string): boolean => {
   try {
@@ -25,7 +25,7 @@ export async function launch(more: readonly string[] = []): Promise<Browser> {
   if (!CHROMIUM || !existsSync(CHROMIUM)) throw new Error("there is no Chromium");
   return chromium.launch({
     executablePath: CHROMIUM,
-    timeout: PATIENCE,
+    timeout: LAUNCH_LIMIT,
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", ...more],
   });
 }
@@ -61,10 +61,39 @@ export async function still(page: Page): Promise<void> {
     const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
     for (let last = ""; last !== (canvas.dataset["frames"] ?? "-"); ) {
       last = canvas.dataset["frames"] ?? "-";
-      for (let n = 0; n < 3; n++) await frame();
-      await new Promise((resolve) => setTimeout(resolve, 40));
+      for (let n = 0; n < 6; n++) await frame();
     }
   });
+}
+
+/** Waits until the browser has made some frames: what the page does before a frame, or when sizes change, is done then. */
+export async function pass(page: Page, frames = 2): Promise<void> {
+  await page.evaluate(async (frames) => {
+    for (let n = 0; n < frames; n++) await new Promise((resolve) => requestAnimationFrame(resolve));
+  }, frames);
+}
+
+/** Counts the rows of the list of parts that are made from now on; what it returns tells their number. */
+export async function countRows(page: Page): Promise<() => Promise<number>> {
+  const counter = await page.evaluateHandle(() => {
+    const counter = { rows: 0 };
+    const count = ({ addedNodes }: MutationRecord): void => {
+      for (const node of addedNodes) if (node instanceof Element && node.matches(".tree-item")) counter.rows++;
+    };
+    new MutationObserver((records) => records.forEach(count)).observe(document.querySelector(".tree")!, { childList: true, subtree: true });
+    return counter;
+  });
+  return async () => {
+    await pass(page);
+    return counter.evaluate(({ rows }) => rows);
+  };
+}
+
+/** Resizes the window, and waits until the page is laid out for it. */
+export async function resize(page: Page, width: number, height: number): Promise<void> {
+  await page.setViewportSize({ width, height });
+  await page.waitForFunction((width) => document.documentElement.clientWidth === width, width);
+  await pass(page);
 }
 
 /** The state of the camera, as the page reports it. */

@@ -19,14 +19,14 @@ test("a frame is a header and RGB", () => {
 test("messages of the program are read, and others dropped", () => {
   for (const none of [null, "", "{", "[]", '{"type":"other"}', new ArrayBuffer(8)]) assert.equal(readMessage(none), null);
   assert.deepEqual(readMessage('{"type":"seen","sequence":3,"marks":[[1,2,3],null,[1]],"recorded":2}'), { type: "seen", sequence: 3, marks: [{ x: 1, y: 2, radius: 3 }, null, null], recorded: 2 });
-  assert.deepEqual(readMessage('{"type":"marks","marks":[{"name":"a","colour":"#010203"},{"name":"b","colour":"url(x)"}]}'), { type: "marks", marks: [{ name: "a", colour: "#010203" }, { name: "b", colour: "#808080" }] });
+  assert.deepEqual(readMessage('{"type":"marks","marks":[{"name":"a","colour":"#010203"},{"name":"b","colour":"url(x)"}]}'), { type: "marks", marks: [{ name: "a", color: "#010203" }, { name: "b", color: "#808080" }] });
   assert.deepEqual(readMessage('{"type":"error","message":"no","isFrame":true}'), { type: "error", message: "no", isFrame: true });
 });
 
 test("a track says where each mark is and when it is lost", () => {
   const track = readTrack('{"format":"okoshi track","version":1,"size":[320,240],"times":[0,0.1,0.2],"marks":[{"name":"a","colour":"#010203","lost":[[1,2]],"points":[[1,2],[3,4],[5,6]]}]}');
   assert.deepEqual(track.size, [320, 240]);
-  assert.deepEqual(track.marks[0], { name: "a", colour: "#010203", points: [[1, 2], [3, 4], [5, 6]], isLost: [false, true, true] });
+  assert.deepEqual(track.marks[0], { name: "a", color: "#010203", points: [[1, 2], [3, 4], [5, 6]], isLost: [false, true, true] });
   assert.deepEqual(curve(track, track.marks[0]!, 1), [[0, (2 / 240) * 100], null, null]);
   assert.deepEqual(readTrack("nothing").marks, []);
 });
@@ -87,7 +87,7 @@ test("trails have gaps where the mark is lost", () => {
 test("the drawing's marks are offered, and the strings for the track told", () => {
   const part = (name: string, value: string) => ({ name, parent: null, kind: "main" as const, element: "", namedBy: null, string: null, attributes: [{ name: "Mark", value, from: "own" as const }], joint: null, depth: null, depthWhy: null });
   assert.deepEqual(markNames(new Parts([part("a", "red"), part("b", "#102030"), part("c", "red"), part("d", "blue")])), ["red", "blue"]);
-  const said = strings("hands.json", [{ name: "red", colour: "#d01020" }, { name: "left-hand", colour: "#1020d0" }], (name) => name === "red");
+  const said = strings("hands.json", [{ name: "red", color: "#d01020" }, { name: "left-hand", color: "#1020d0" }], (name) => name === "red");
   assert.deepEqual(said, { perform: 'Perform "hands.json"', marks: ["Mark red", "Mark #1020d0"] });
 });
 

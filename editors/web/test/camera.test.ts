@@ -48,6 +48,10 @@ const panel = (page: Page) => page.locator(".camera-dialog");
 const status = (page: Page, text: string | RegExp) => panel(page).locator(".camera-status").filter({ hasText: text }).waitFor();
 const press = (page: Page, name: string) => panel(page).getByRole("button", { name, exact: true }).click();
 
+/** Waits until so many seconds are recorded. */
+const recorded = (page: Page, seconds: number) =>
+  page.waitForFunction((seconds) => parseInt(document.querySelector(".camera-count")!.textContent!.replace("●", "")) >= seconds, seconds);
+
 /** Opens the panel and starts the camera. */
 async function start(page: Page): Promise<void> {
   await page.keyboard.press("r");
@@ -111,10 +115,15 @@ function errors({ times, marks }: Track): number[] {
 }
 
 camera("a recording has the marks where they are", async (page) => {
-  // Counts the clicks that are heard.
+  // Counts the clicks that are heard, and the pictures of the recording that are shown again.
   await page.evaluate(() => {
-    const counts = window as unknown as { heard: number };
-    counts.heard = 0;
+    const counts = window as unknown as { heard: number; replayed: number };
+    counts.heard = counts.replayed = 0;
+    const draw = CanvasRenderingContext2D.prototype.drawImage as (...all: unknown[]) => void;
+    CanvasRenderingContext2D.prototype.drawImage = function (this: CanvasRenderingContext2D, ...all: unknown[]) {
+      draw.apply(this, all);
+      if (all[0] instanceof ImageBitmap) counts.replayed++;
+    };
     const start = OscillatorNode.prototype.start;
     OscillatorNode.prototype.start = function (when?: number) {
       counts.heard++;
@@ -129,13 +138,15 @@ camera("a recording has the marks where they are", async (page) => {
   await panel(page).locator(".camera-count").filter({ hasText: "2" }).waitFor();
   await status(page, "Recording.");
   assert.equal(await page.evaluate(() => (window as unknown as { heard: number }).heard), 4);
-  await page.waitForTimeout(1000 * PERIOD);
+  await recorded(page, PERIOD);
   await picture(page, "camera-recording");
   await press(page, "Stop");
   await status(page, /Recorded \d+ frames/);
+  const replayed = (number: number) => page.waitForFunction((number) => (window as unknown as { replayed: number }).replayed >= number, number);
+  await replayed(1);
   await panel(page).getByRole("slider", { name: "Frame" }).press("End");
   await panel(page).locator(".camera-readout").filter({ hasText: /Frame (\d+) of \1 / }).waitFor();
-  await page.waitForTimeout(200);
+  await replayed(2);
   await picture(page, "camera-replay");
   if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) await panel(page).screenshot({ path: join("..", "..", "docs", "preview-camera.png") });
   assert.match(await panel(page).locator(".camera-help").innerText(), /Perform "hands.json".*\n*.*Mark red, Mark blue/s);
@@ -210,7 +221,7 @@ camera("everything is done with the keyboard, and Escape releases the camera", a
   await press(page, "Clicks before the recording");
   await panel(page).getByRole("button", { name: "Record", exact: true }).press("Enter");
   await status(page, "Recording.");
-  await page.waitForTimeout(1500);
+  await recorded(page, 1);
   await page.keyboard.press("Enter");
   await status(page, /Recorded \d+ frames/);
   await name.fill("left-hand");

@@ -12,6 +12,7 @@ import { WebSocket } from "ws";
 import { Model, type Shading } from "../src/viewport/model";
 import { readChanges, readFile } from "../src/viewport/model-file";
 import { Messages, read, type Build } from "../src/protocol";
+import { TEST_LIMIT } from "./closing";
 
 const okoshi = process.env["OKOSHI"] ?? "";
 const skip = !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
@@ -86,7 +87,7 @@ function isUsed(batch: BatchedMesh, instance: number): boolean {
   }
 }
 
-test("changes that are applied to a model make it the new one", { skip, timeout: 240_000 }, async () => {
+test("changes that are applied to a model make it the new one", { skip, timeout: TEST_LIMIT }, async () => {
   const choose = random(7);
   const parts: Drawn[] = Array.from({ length: PARTS }, () => ({ x: choose(10), width: 10 + choose(20), kind: choose(4), colour: choose(3) }));
   const folder = mkdtempSync(join(tmpdir(), "okoshi-changes-"));

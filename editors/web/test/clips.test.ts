@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { camera, overlaps, picture, project, shown, still, type Colour } from "./browser";
+import { camera, overlaps, picture, project, resize, shown, still, type Colour } from "./browser";
 import { aside, EXPOSURE, FACTS, FRAMES, FPS, FULL, kick, LEG, OMITTED, raised, SECONDS, SSD } from "./kick";
 import type { MockHost } from "./mock";
 import { assertLike, browse, build, FIGURE, isLike } from "./setup";
@@ -101,7 +101,7 @@ browse("the chart shows frames, omitted frames and drawings; its playhead moves,
   assert.equal(await marks(page, "gone"), OMITTED.length);
   const held = EXPOSURE.filter(([, frames]) => frames > 1).length;
   assert.deepEqual([await marks(page, "held"), await marks(page, "single")], [held, DRAWINGS - held]);
-  assert.equal(await page.locator(".chart .chart-summary").innerText(), `60 frames, ${DRAWINGS} drawings, 4 in-betweens omitted, ${FACTS.held} held`);
+  assert.equal(await page.locator(".chart .chart-summary").innerText(), `60 frames, ${DRAWINGS} drawings, 4 in-betweens omitted, ${FACTS.held.length} held`);
   const said = (await page.locator(".chart .chart-picture").getAttribute("aria-label"))!;
   const most = SSD.indexOf(Math.max(...SSD));
   assert.match(said, new RegExp(`^How much the joints of kick move .* 4 in-betweens omitted.* The fastest is frame ${most + 1}, with an SSD of [\\d.]+\\.$`));
@@ -147,8 +147,7 @@ browse("a frame has the same place on the slider, among the keys and in the char
   await shown(page);
   await page.keyboard.press("c");
   for (const width of [1400, 844, 520, 390]) {
-    await page.setViewportSize({ width, height: width === 844 ? 390 : 800 });
-    await page.waitForTimeout(80);
+    await resize(page, width, width === 844 ? 390 : 800);
     const left = (await page.locator(".chart .chart-picture").boundingBox())!.x;
     for (const frame of [0, 17, 59]) {
       await page.locator(".slider").fill(String((frame + 0.02) / FPS));
@@ -340,7 +339,7 @@ browse("the view goes along with a figure that travels, and stays where it is af
 });
 
 browse("the drawings of one of several figures are counted; without facts keys are counted", (host) => {
-  const other = { ...FACTS, figure: "Twin", limited: true, exposure: [[0, 30], [30, 30]], drawings: 2, omitted: [], held: 58 };
+  const other = { ...FACTS, figure: "Twin", limited: true, exposure: [[0, 30], [30, 30]], drawings: 2, omitted: [], held: FACTS.held };
   kicking(kick([FACTS, other]))(host);
 }, async (page, host) => {
   await shown(page);
@@ -384,13 +383,12 @@ browse("the chart and two figures at any width, in dark mode", kicking(), async 
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
   await page.locator(".slider").fill("1.4");
   for (const width of [1600, 1200, 1024, 900, 761, 760, 500, 380, 320]) {
-    await page.setViewportSize({ width, height: 800 });
-    await page.waitForTimeout(80);
+    await resize(page, width, 800);
     assert.deepEqual(await overlaps(page), [], `at ${width} pixels`);
     const clipped = await page.locator(".clips .readout").evaluate((element) => element.scrollWidth > element.clientWidth + 1);
     assert.equal(clipped, false, `the readout is whole at ${width} pixels`);
   }
-  await page.setViewportSize({ width: 1200, height: 800 });
+  await resize(page, 1200, 800);
   await still(page);
   await picture(page, "clips-dark");
   const [ink, paper] = await page.evaluate(() => [getComputedStyle(document.querySelector(".chart .chart-number")!).fill, getComputedStyle(document.querySelector(".motion")!).backgroundColor]);

@@ -4,10 +4,12 @@ import { spawn, type ChildProcess } from "node:child_process";
 import { createInterface } from "node:readline";
 import type { TestContext } from "node:test";
 
-/** The limit of every wait, in milliseconds: a page may load for half a minute on a machine with other work. PATIENCE gives it in seconds. */
-export const PATIENCE = 1000 * Number(process.env["PATIENCE"] ?? 60);
-/** The limit of a test, in milliseconds: a few waits. */
-export const TEST_LIMIT = 5 * PATIENCE;
+/** The limit of every wait, in milliseconds, which only ends a test that hangs: a page may load for a minute on a machine with other work. PATIENCE gives it in seconds. */
+export const PATIENCE = 1000 * Number(process.env["PATIENCE"] ?? 180);
+/** The limit of a test, in milliseconds: a few waits. TEST_LIMIT gives it in seconds. */
+export const TEST_LIMIT = 1000 * Number(process.env["TEST_LIMIT"] ?? (5 * PATIENCE) / 1000);
+/** The limit for the start of the browser, in milliseconds. */
+export const LAUNCH_LIMIT = 180_000;
 
 /** Closes something, at once or in time. */
 export type Close = () => unknown;

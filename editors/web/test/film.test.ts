@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { camera, overlaps, picture, shown, still } from "./browser";
+import { camera, overlaps, picture, resize, shown, still } from "./browser";
 import { film } from "./film";
 import { aside, EXPOSURE, kick, SECONDS } from "./kick";
 import type { MockHost } from "./mock";
@@ -91,8 +91,7 @@ browse("what the camera shows in a square fits into a page of any shape", filmed
   await seek(page, 0);
   await page.keyboard.press("m");
   for (const [width, height] of [[1300, 700], [761, 800], [500, 900], [380, 700], [320, 700]] as const) {
-    await page.setViewportSize({ width, height });
-    await page.waitForTimeout(80);
+    await resize(page, width, height);
     await still(page);
     assert.deepEqual(await overlaps(page), [], `at ${width} pixels`);
     const box = (await page.locator("canvas").boundingBox())!;

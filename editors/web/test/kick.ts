@@ -165,14 +165,16 @@ export const FACTS = {
   limited: true,
   exposure: EXPOSURE,
   omitted: OMITTED,
-  held: FRAMES - EXPOSURE.length - OMITTED.length,
+  // The page shows only how many there are.
+  held: Array.from({ length: FRAMES - EXPOSURE.length - OMITTED.length }, (_, at) => at),
   ssd: SSD,
   ssd_step: 1,
-  joints: { Body: { joint: "Hips", why: "the word body" }, Leg: { joint: "RightUpLeg", why: "drawn left, so right; lowest point near the ground" } },
+  joints: { Body: "Hips", Leg: "RightUpLeg" },
+  joint_reasons: { Body: "the word body", Leg: "drawn left, so right; lowest point near the ground" },
   unmatched: ["Head", "Stand"],
 };
 /** The same clip in full. */
-export const FULL = { ...FACTS, name: "slowly", file: "slowly.bvh", drawings: FRAMES, limited: false, exposure: full.map(([, source]) => [source, 1] as const), omitted: [], held: 0 };
+export const FULL = { ...FACTS, name: "slowly", file: "slowly.bvh", drawings: FRAMES, limited: false, exposure: full.map(([, source]) => [source, 1] as const), omitted: [], held: [] };
 
 const part = (name: string, parent: string | null) => ({ name, parent, kind: "main", element: name.toLowerCase(), string: null, attributes: {}, joint: null });
 

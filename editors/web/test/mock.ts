@@ -1,10 +1,12 @@
 // A host for the page: serves the bundle under a strict policy, models and pictures by GET, and messages through a WebSocket.
 
+import { EventEmitter, once } from "node:events";
 import { readFileSync } from "node:fs";
 import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
 import type { AddressInfo } from "node:net";
 import { join } from "node:path";
 import { WebSocketServer, type WebSocket } from "ws";
+import { PATIENCE, within } from "./closing";
 import type { Made } from "./drawings";
 
 /** What the tests need of the host. */
@@ -29,8 +31,9 @@ export class MockHost {
   private port = 0;
   /** The messages of the page. */
   readonly heard: Record<string, unknown>[] = [];
-  /** The delay of models, in milliseconds. */
-  delay = 0;
+  private readonly events = new EventEmitter();
+  /** Answers with models that wait for `release`; null if none has to wait. */
+  private waiting: (() => void)[] | null = null;
   /** Whether requests are left without an answer. */
   silent = false;
   /** Addresses that return invalid files. */
@@ -101,12 +104,45 @@ export class MockHost {
     for (const socket of this.sockets?.clients ?? []) socket.send(JSON.stringify(message));
   }
 
+  /** The messages of a type, as soon as there are so many. */
+  async messages(type: string, number: number): Promise<Record<string, unknown>[]> {
+    const all = () => this.heard.filter((message) => message["type"] === type);
+    await this.until(`${number} messages of the type ${type}`, () => all().length >= number);
+    return all();
+  }
+
+  /** Waits until the page has requested an address. */
+  async request(address: string): Promise<void> {
+    await this.until(`a request for ${address}`, () => this.asked.includes(address));
+  }
+
+  /** Lets requests for models wait until `release`. */
+  hold(): void {
+    this.waiting ??= [];
+  }
+
+  release(): void {
+    const waiting = this.waiting ?? [];
+    this.waiting = null;
+    for (const send of waiting) send();
+  }
+
+  private async until(what: string, holds: () => boolean): Promise<void> {
+    const heard = async () => {
+      while (!holds()) await once(this.events, "heard");
+    };
+    await within(PATIENCE, what, heard());
+  }
+
   private list() {
     return [...this.drawings.values()].map(({ id, name, folder }) => ({ id, name, folder }));
   }
 
   private greet(socket: WebSocket): void {
-    socket.on("message", (data) => this.heard.push(JSON.parse(String(data)) as Record<string, unknown>));
+    socket.on("message", (data) => {
+      this.heard.push(JSON.parse(String(data)) as Record<string, unknown>);
+      this.events.emit("heard");
+    });
     socket.send("not json");
     socket.send(JSON.stringify({ type: "ofTheFuture" }));
     socket.send(JSON.stringify({ type: "drawings", drawings: this.list() }));
@@ -119,6 +155,7 @@ export class MockHost {
   private answer({ url = "/" }: IncomingMessage, response: ServerResponse): void {
     const { pathname } = new URL(url, this.address);
     this.asked.push(pathname);
+    this.events.emit("heard");
     if (this.silent) return;
     const page = pathname === "/" ? "page.html" : /^\/page\.(js|css)$/.test(pathname) ? pathname.slice(1) : null;
     const body = page ? readFileSync(join(this.dist, page)) : this.broken.has(pathname) ? Buffer.from("no model") : this.files.get(pathname);
@@ -127,7 +164,7 @@ export class MockHost {
       response
         .writeHead(body ? 200 : 404, { "content-type": type, "content-security-policy": POLICY, "x-content-type-options": "nosniff", "cache-control": "no-store" })
         .end(body ?? "");
-    if (this.delay > 0 && pathname.endsWith(".glb")) setTimeout(send, this.delay);
+    if (this.waiting && pathname.endsWith(".glb")) this.waiting.push(send);
     else send();
   }
 }

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { PNG } from "pngjs";
 import type { Page } from "playwright-core";
-import { camera, picture, project, shown, still } from "./browser";
+import { camera, pass, picture, project, shown, still } from "./browser";
 import { animate } from "./animate";
 import { assertLike, browse, build, example, FIGURE, isLike, one } from "./setup";
 import { SPIN } from "./spin";
@@ -37,7 +37,7 @@ browse("fills have the drawing's colours, from all sides and in both projections
 browse("nothing is drawn while nothing changes", one(FIGURE), async (page) => {
   await shown(page);
   const before = await frames(page);
-  await page.waitForTimeout(700);
+  await pass(page, 60);
   assert.equal(await frames(page), before);
   await page.keyboard.press("ArrowLeft");
   await still(page);
@@ -66,13 +66,19 @@ browse("a new build replaces the old one; camera, selection, pose and shading st
 
 browse("in a burst of builds the last one is shown and not all are fetched", one(FIGURE), async (page, host) => {
   await shown(page, 1);
-  host.delay = 250;
+  host.hold();
   const colours = ["#111111", "#222222", "#333333", "#444444", "#555555", "#0000ff"];
   for (const colour of colours) host.built("figure.svg", build(FIGURE, (text) => text.replace("#ff0000", colour)));
+  await host.request("/builds/2.glb");
+  // All messages have arrived when this one has.
+  host.say({ type: "light", drawing: "figure.svg", part: "Arm" });
+  await page.waitForSelector("canvas[data-lit=Arm]");
+  host.release();
   await shown(page, 7);
-  await page.waitForTimeout(600);
-  assert.equal(await page.getAttribute("canvas", "data-revision"), "7");
-  assert.deepEqual(host.asked.filter((path) => path.endsWith(".glb")), ["/builds/1.glb", "/builds/2.glb", "/builds/7.glb"]);
+  // Models are loaded one after the other: whatever else was to be fetched is fetched before the next.
+  host.built("figure.svg", build(FIGURE));
+  await shown(page, 8);
+  assert.deepEqual(host.asked.filter((path) => path.endsWith(".glb")), ["/builds/1.glb", "/builds/2.glb", "/builds/7.glb", "/builds/8.glb"]);
 });
 
 browse("removed models leave nothing on the graphics card", one(FIGURE), async (page, host) => {

@@ -13,7 +13,7 @@ import { Model } from "../src/viewport/model";
 import { onNodes } from "../src/viewport/side-by-side";
 import { ExposureSheet, describeExposure, peaks } from "../src/viewport/exposure-sheet";
 import { Latest } from "../src/viewport/latest";
-import { neighbours } from "../src/viewport/onion-skin";
+import { neighbors } from "../src/viewport/onion-skin";
 import { pathOf } from "../src/viewport/path";
 import { describeFilming, describeTiming, PerformanceTimes, type Rows } from "../src/viewport/performance";
 import { directionOf } from "../src/viewport/view";
@@ -86,6 +86,23 @@ test("a search lists what matches, whatever its case and accents, and what carri
   assert.deepEqual(names("korper"), ["1 Körper 1/1"]);
   assert.deepEqual(names("e- hand"), ["1 Körper 1/1", "2 Arm 1/1", "3 Hand 1/1"]);
   assert.deepEqual(names("nobody"), []);
+});
+
+test("the lines of thousands of parts take one look at each", () => {
+  const names = Array.from({ length: 5000 }, (_, at) => `P${at}`);
+  const parts = new Parts(names.map((name, at) => part(name, at === 0 ? null : `P${Math.floor((at - 1) / 10)}`)));
+  let looks = 0;
+  const children = parts.children.bind(parts);
+  parts.children = (name) => {
+    looks++;
+    return children(name);
+  };
+  assert.equal(linesOf(parts, [], () => true).length, names.length);
+  assert.equal(looks, names.length + 1);
+  // A search looks for what matches first.
+  looks = 0;
+  assert.equal(linesOf(parts, wordsOf("p4999"), () => false).length, 5);
+  assert.ok(looks <= names.length + 10, `${looks} looks for a search`);
 });
 
 test("typing goes to the next name that begins so, and round", () => {
@@ -168,10 +185,10 @@ test("a clip waits at its end for a longer one beside it", () => {
 
 test("the neighbours of a time are the drawings, or the keys, before and after it", () => {
   const held = { keys: { times: [0, 0.5, 1], held: true } };
-  assert.deepEqual([0.2, 0.5, 0.7, 1.5].map((time) => neighbours({ ...held, time }, null)), [[null, 0.5], [0, 1], [0, 1], [0.5, null]]);
-  assert.deepEqual(neighbours({ keys: { times: [0, 0.5, 1], held: false }, time: 0.7 }, null), [0.5, 1]);
-  const exposure = new ExposureSheet(facts({ exposure: [[2, 4], [7, 5], [10, 3]], held: 9 }));
-  const [before, after] = neighbours({ ...held, time: 5 / 24 }, exposure);
+  assert.deepEqual([0.2, 0.5, 0.7, 1.5].map((time) => neighbors({ ...held, time }, null)), [[null, 0.5], [0, 1], [0, 1], [0.5, null]]);
+  assert.deepEqual(neighbors({ keys: { times: [0, 0.5, 1], held: false }, time: 0.7 }, null), [0.5, 1]);
+  const exposure = new ExposureSheet(facts({ exposure: [[2, 4], [7, 5], [10, 3]] }));
+  const [before, after] = neighbors({ ...held, time: 5 / 24 }, exposure);
   assert.deepEqual([before, after].map((time) => exposure.drawingIn(exposure.frameAt(time!))), [0, 2]);
 });
 
@@ -258,7 +275,7 @@ test("a build belongs to its connection, even if that is reported open later", (
 });
 
 const facts = (more: Partial<ClipFacts>): ClipFacts => ({
-  name: "kick", figure: "Body", file: "kick.bvh", seconds: 0.5, fps: 24, frames: 12, drawings: 0, limited: true, exposure: [], omitted: [], held: 0,
+  name: "kick", figure: "Body", file: "kick.bvh", seconds: 0.5, fps: 24, frames: 12, drawings: 0, limited: true, exposure: [], omitted: [], held: [],
   ssd: Array.from({ length: 12 }, (_, at) => at), ssdStep: 1, joints: new Map(), unmatched: [], performance: null, ...more,
 });
 
@@ -266,7 +283,7 @@ test("facts of clips are read, and missing ones become empty", () => {
   const message = read({
     type: "build",
     drawing: "a",
-    build: { originals: "o.glb", clips: [{ name: "kick", figure: "Body", exposure: [[0, 2], [5, "x"], 7], omitted: [3, null], ssd: [0, "x", 0.5], joints: JSON.parse('{"__proto__": {"joint": "Hips", "why": "so"}, "Arm": 3}') as object }, 5] },
+    build: { originals: "o.glb", clips: [{ name: "kick", figure: "Body", exposure: [[0, 2], [5, "x"], 7], omitted: [3, null], ssd: [0, "x", 0.5], joints: JSON.parse('{"__proto__": "Hips", "Arm": null}') as object, joint_reasons: JSON.parse('{"__proto__": "so"}') as object }, 5] },
   });
   assert.ok(message?.type === "build");
   const [clip, none] = message.build.clips;
@@ -289,7 +306,7 @@ test("drawings replace the source frames up to the next drawing, except omitted 
 });
 
 test("without omitted frames a drawing may show any of the frames it replaces", () => {
-  const exposure = new ExposureSheet(facts({ exposure: [[2, 4], [7, 5], [10, 3]], held: 9 }));
+  const exposure = new ExposureSheet(facts({ exposure: [[2, 4], [7, 5], [10, 3]], held: Array.from({ length: 9 }, (_, at) => at) }));
   assert.deepEqual(exposure.runs.map(({ from, to }) => [from, to]), [[0, 4], [4, 9], [9, 12]]);
   assert.deepEqual([0, 3, 4, 8, 9, 11].map((frame) => exposure.sourceAt((frame + 0.5) / 24)), [0, 3, 4, 8, 9, 11]);
   assert.equal(exposure.drawingIn(exposure.frameAt(exposure.timeOf(8))), 1);
@@ -366,8 +383,8 @@ test("what a performance does is read, and missing facts become empty", () => {
     return message.build.clips[0]!.performance;
   };
   assert.equal(clip(undefined), null);
-  const facts = clip({ track: "a.json", marks: [{ name: "red", colour: "#d03020", parts: ["Arm", 7], ratio: 1, emphasised: true }, { colour: "url(x)" }], keys: { performance: 8 }, timing: [[0, 0], [8, "x"]], input: [[0, "x", 1]], input_step: 2, filming: "strange" })!;
-  assert.deepEqual(facts.marks, [{ name: "red", colour: "#d03020", parts: ["Arm", "7"], ratio: 1, emphasised: true, damped: false }, { name: "", colour: "", parts: [], ratio: 0, emphasised: false, damped: false }]);
+  const facts = clip({ track: "a.json", marks: [{ name: "red", color: "#d03020", performs: ["Arm", 7], ratio: 1, emphasized: true }, { color: "url(x)" }], keys: { performed: 8 }, timing: [[0, 0], [8, "x"]], input_curves: [[0, "x", 1]], input_step: 2, filming: "strange" })!;
+  assert.deepEqual(facts.marks, [{ name: "red", color: "#d03020", parts: ["Arm", "7"], ratio: 1, emphasized: true, damped: false }, { name: "", color: "", parts: [], ratio: 0, emphasized: false, damped: false }]);
   assert.deepEqual([facts.keys, facts.timing, facts.input, facts.inputStep, facts.motion, facts.filming, facts.nearest], [{ performance: 8, motion: 0 }, [[0, 0], [8, 0]], [[0, 0, 1]], 2, [], "none", null]);
 });
 

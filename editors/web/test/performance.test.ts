@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { copyFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { CHROMIUM, OUT, overlaps, picture, project, shown, still } from "./browser";
+import { CHROMIUM, OUT, overlaps, picture, project, resize, shown, still } from "./browser";
 import type { Made } from "./drawings";
 import type { MockHost } from "./mock";
 import { performed, puppet } from "./performed";
@@ -91,7 +91,7 @@ browse("the chart of a performance shows marks, joints, and which frame stands i
   // A curve for each mark in both rows, in the mark's colour; the one of the emphasised mark reaches the top at its key.
   assert.equal(await page.locator(".performance-picture .performance-curve").count(), 4);
   for (const [row, frame] of [["performance", KEY], ["motion", MOTION_KEY]] as const) {
-    const curve = await numbers(page, `.performance-picture .emphasised[data-row=${row}]`);
+    const curve = await numbers(page, `.performance-picture .emphasized[data-row=${row}]`);
     const points = curve.flatMap((x, place) => (place % 2 === 0 ? [{ x, y: curve[place + 1]! }] : []));
     assert.equal(points.length, FRAMES);
     const top = points.reduce((a, b) => (b.y < a.y ? b : a));
@@ -184,13 +184,12 @@ browse("in the dark and at any width the chart of a performance has its place", 
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
   await seek(page, KEY - 6);
   for (const width of [1600, 1200, 1024, 900, 761, 760, 500, 380, 320]) {
-    await page.setViewportSize({ width, height: 800 });
-    await page.waitForTimeout(80);
+    await resize(page, width, 800);
     assert.deepEqual(await overlaps(page), [], `at ${width} pixels`);
     const clipped = await page.locator(".performance-marks").evaluate((element) => element.scrollWidth > element.clientWidth + 1);
     assert.equal(clipped, false, `the table is whole at ${width} pixels`);
   }
-  await page.setViewportSize({ width: 1200, height: 800 });
+  await resize(page, 1200, 800);
   await still(page);
   await picture(page, "performance-dark");
 }, { colorScheme: "dark" });

@@ -1,6 +1,6 @@
 //! What pairs of regions gain, before order is looked at.
 
-use crate::billboard::assignment::assign;
+use crate::assignment::most_gainful;
 
 /// What an unmatched region costs.
 pub(super) const UNMATCHED: f64 = 1.75;
@@ -33,6 +33,6 @@ impl Gains {
 
     /// The partner of each row with the largest sum of gains. Each row can do without.
     pub(super) fn assign(&self) -> Vec<Option<usize>> {
-        assign(self.rows, self.columns, |row, column| self.get(row, column))
+        most_gainful(self.rows, self.columns, |row, column| self.get(row, column))
     }
 }

@@ -5,9 +5,9 @@ use super::by_similarity::most_similar;
 use super::exchange::{Sides, exchange};
 use super::gains::Gains;
 use super::*;
-use crate::billboard::generated::{Drawn, character, directions};
 use crate::billboard::place::frames;
 use crate::billboard::region::{Direction, Region};
+use crate::billboard::tests::generated::{Drawn, character, directions};
 use crate::geometry::{Outline, Polygon};
 
 /// How many of the regions that two drawings share got their right partner.

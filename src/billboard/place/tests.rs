@@ -2,10 +2,10 @@ use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
 use super::*;
-use crate::billboard::generated::{Character, Drawn, character, directions};
 use crate::billboard::matching::{Matching, match_regions};
 use crate::billboard::region::Direction;
 use crate::billboard::region::Region;
+use crate::billboard::tests::generated::{Character, Drawn, character, directions};
 use crate::billboard::turn::between as turn_between;
 use crate::geometry::{Outline, Polygon};
 

@@ -8,6 +8,7 @@ use glam::DVec2;
 use super::canvas::PAD;
 use super::simplify::{simplified_arc, simplified_loop};
 use crate::geometry::Ring;
+use crate::regions::{Side, follow};
 
 /// Borders may deviate by so much, pixels: those of small regions, and those between large ones.
 const TOLERANCES: [f64; 2] = [0.3, 0.5];
@@ -84,13 +85,14 @@ impl<'a> Map<'a> {
             for &start in &starts {
                 let (left, right) = (start as usize, start as usize + 1);
                 let is_in = [left, right].map(|at| is_inside[usize::from(self.labels[at])]);
-                let ends = match is_in {
-                    [true, false] => [left, right],
-                    [false, true] => [right, left],
+                let (inner, outer) = match is_in {
+                    [true, false] => (left, right),
+                    [false, true] => (right, left),
                     _ => continue,
                 };
                 if self.visited[left] != self.traces {
-                    let ring = self.trace(ends, &is_inside, crossing, &mut borders);
+                    let start = Side { inner, outer };
+                    let ring = self.trace(start, &is_inside, crossing, &mut borders);
                     borders.rings.extend((ring.len() > 2).then_some(ring));
                 }
             }
@@ -99,49 +101,34 @@ impl<'a> Map<'a> {
         borders
     }
 
-    /// Follows a border with the inside on its right until it closes.
+    /// Follows a border until it closes.
     fn trace(
         &mut self,
-        start: [usize; 2],
+        start: Side,
         is_inside: &[bool],
         crossing: &impl Fn(usize, usize) -> f64,
         borders: &mut Borders,
     ) -> Ring {
-        let width = self.width as isize;
         let mut arcs = Arcs::default();
-        let [mut inner, mut outer] = start;
-        loop {
-            let right = inner as isize - outer as isize;
-            if right.abs() == 1 {
-                self.visited[inner.min(outer)] = self.traces;
+        let mut visited = std::mem::take(&mut self.visited);
+        let is_in = |at: usize| is_inside[usize::from(self.labels[at])];
+        follow(start, self.width, is_in, |side| {
+            let Side { inner, outer } = side;
+            if inner.abs_diff(outer) == 1 {
+                visited[inner.min(outer)] = self.traces;
             }
             let point = self.point(inner, outer, crossing);
             borders.crossings.push([inner, outer]);
             borders.dense.push(point);
             arcs.push(point, self.tolerance(inner, outer));
-            // East has south on its right, south has west.
-            let ahead = match right {
-                1 => -width,
-                -1 => width,
-                _ if right > 0 => 1,
-                _ => -1,
-            };
-            let next_inner = inner.wrapping_add_signed(ahead);
-            let next_outer = outer.wrapping_add_signed(ahead);
-            let cell = [inner, outer, next_outer, next_inner];
-            if let Some(node) = self.node(cell, crossing) {
+            let ahead = side.ahead(self.width);
+            let [next_outer, next_inner] = [outer, inner].map(|at| at.wrapping_add_signed(ahead));
+            if let Some(node) = self.node([inner, outer, next_outer, next_inner], crossing) {
                 arcs.push_node(node);
             }
-            let is_in = |at: usize| is_inside[usize::from(self.labels[at])];
-            match (is_in(next_inner), is_in(next_outer)) {
-                (false, _) => outer = next_inner,
-                (true, false) => (inner, outer) = (next_inner, next_outer),
-                (true, true) => inner = next_outer,
-            }
-            if [inner, outer] == start {
-                return arcs.ring();
-            }
-        }
+        });
+        self.visited = visited;
+        arcs.ring()
     }
 
     fn tolerance(&self, a: usize, b: usize) -> f64 {

@@ -4,6 +4,7 @@ use super::canvas::{Canvas, Color, mixture, mixture_of_three};
 use super::fill::Seeds;
 use super::ink::{Ink, is_line};
 use super::seeds::{MAX_REGIONS, min_area};
+use crate::regions::groups;
 
 /// Colours farther than this (0.08) from a mixture, squared, are not mixed of those, in steps of 1/255.
 const FAR: f32 = 416.0;
@@ -34,7 +35,8 @@ pub(super) fn add_details(canvas: &Canvas, seeds: &mut Seeds, ink: Option<&Ink>)
             strange.push(at);
         }
     }
-    let mut groups = groups(canvas, &strange, &strangeness);
+    let is_strange = |at: usize| strangeness[at] > 0.0;
+    let mut groups = groups(strangeness.len(), &strange, &canvas.around(), is_strange);
     groups.retain(|group| group.len() >= min_area(canvas));
     groups.sort_by_key(|group| usize::MAX - group.len());
     groups.truncate((MAX_REGIONS + 1).saturating_sub(seeds.colors.len()));
@@ -89,32 +91,6 @@ fn is_sliver(canvas: &Canvas, seeds: &Seeds, ink: &Ink, at: usize) -> bool {
     let colors = seeds.colors.iter().take(MAX_MIXED);
     let mut mixtures = colors.map(|color| mixture(canvas.color(at), *color, dark));
     is_beside && mixtures.any(|(share, distance)| share > 0.1 && distance <= FAR)
-}
-
-/// Marked pixels that are connected over edges or corners.
-pub(super) fn groups(canvas: &Canvas, marked: &[usize], mark: &[f32]) -> Vec<Vec<usize>> {
-    let around = canvas.around();
-    let mut is_taken = vec![false; mark.len()];
-    let mut groups = Vec::new();
-    for &start in marked {
-        if std::mem::replace(&mut is_taken[start], true) {
-            continue;
-        }
-        let mut group = vec![start];
-        let mut next = 0;
-        while let Some(&at) = group.get(next) {
-            next += 1;
-            for offset in around {
-                let neighbor = at.wrapping_add_signed(offset);
-                if mark[neighbor] > 0.0 && !is_taken[neighbor] {
-                    is_taken[neighbor] = true;
-                    group.push(neighbor);
-                }
-            }
-        }
-        groups.push(group);
-    }
-    groups
 }
 
 /// Gives a group its colour and its label. Its colour is that of the stranger half; pixels that are mostly in their region's

@@ -57,6 +57,8 @@ pub(super) fn fill(
     for (at, label) in dark {
         seeds.labels[at] = label;
     }
+    // What only dark regions surround was not reached.
+    spread(canvas, &mut seeds.labels);
     add_details(canvas, &mut seeds, ink);
     sharpen(canvas, &mut seeds, ink);
     connect(canvas, &mut seeds);

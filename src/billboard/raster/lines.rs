@@ -2,13 +2,13 @@
 
 use super::borders::{Borders, Map};
 use super::canvas::{Canvas, PAD};
-use super::detail::groups;
 use super::fill::Areas;
 use super::ink::{Ink, Part};
 use super::seeds::min_area;
 use super::spread::{FREE, spread};
 use super::{InnerLine, Line, straight};
 use crate::geometry::{FillRule, resolve_overlaps};
+use crate::regions::groups;
 
 /// The share of a region's border that a line follows if the region has one.
 const LINED: f64 = 0.9;
@@ -170,12 +170,8 @@ fn drawn(canvas: &Canvas, borders: &[Borders], lines: &[Option<Line>]) -> Vec<u3
 fn kept_groups(canvas: &Canvas, ink: &Ink, mut rest: Vec<u16>) -> Vec<Vec<usize>> {
     let marked: Vec<usize> = (0..rest.len()).filter(|at| rest[*at] == FREE).collect();
     let depth = spread(canvas, &mut rest);
-    let mark: Vec<f32> = depth
-        .squared
-        .iter()
-        .map(|squared| *squared as f32)
-        .collect();
-    let mut groups = groups(canvas, &marked, &mark);
+    let is_marked = |at: usize| depth.squared[at] > 0;
+    let mut groups = groups(depth.squared.len(), &marked, &canvas.around(), is_marked);
     groups.retain(|group| {
         let deepest = |depth: &super::spread::Spread| {
             let depths = group.iter().map(|at| depth.squared[*at]);
@@ -188,7 +184,7 @@ fn kept_groups(canvas: &Canvas, ink: &Ink, mut rest: Vec<u16>) -> Vec<Vec<usize>
             && deepest(&depth) >= SLIVER * deepest(&ink.depth)
     });
     groups.truncate(usize::from(u16::MAX / 2));
-    let mut is_taken = vec![false; mark.len()];
+    let mut is_taken = vec![false; depth.squared.len()];
     for &at in groups.iter().flatten() {
         is_taken[at] = true;
     }

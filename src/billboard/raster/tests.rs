@@ -324,6 +324,21 @@ fn pictures_that_are_no_drawings_give_few_regions() {
 }
 
 #[test]
+fn pixels_that_only_dark_regions_surround_belong_to_one() {
+    let mut random = fastrand::Rng::with_seed(0);
+    // Dark camera noise: a normal distribution, clipped.
+    let picture = RgbaImage::from_fn(160, 160, |_, _| {
+        let radius = (-2.0 * (1.0 - random.f32()).ln()).sqrt();
+        let value = radius * (std::f32::consts::TAU * random.f32()).cos();
+        let gray = (20.0 + 50.0 * value).clamp(0.0, 255.0) as u8;
+        Rgba([gray, gray, gray, 255])
+    });
+    let view = regions(&picture);
+    assert!(view.regions.len() <= 400);
+    assert_finite(&view);
+}
+
+#[test]
 fn empty_and_tiny_pictures_give_no_or_one_region() {
     for (width, height) in [(0, 0), (0, 5), (1, 1), (2, 2), (3, 1), (7, 7)] {
         for color in [NOTHING, WHITE, BLACK, [9, 9, 9, 9]] {

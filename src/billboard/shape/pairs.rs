@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::billboard::assignment;
+use crate::assignment::most_gainful;
 
 /// Pairs that cost more are not the same polygon.
 const MAX_COST: f64 = 1.2;
@@ -62,7 +62,7 @@ fn assign(a: &[Item], b: &[Item]) -> Vec<Option<usize>> {
     let [large_a, large_b] = [a, b].map(largest);
     let gain =
         |row: usize, column: usize| Some(MAX_COST - cost(&a[large_a[row]], &b[large_b[column]]));
-    let columns = assignment::assign(large_a.len(), large_b.len(), gain);
+    let columns = most_gainful(large_a.len(), large_b.len(), gain);
     for (row, column) in columns.into_iter().enumerate() {
         if let Some(column) = column {
             partners[large_b[column]] = Some(large_a[row]);

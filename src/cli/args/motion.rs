@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use crate::clips::Legs;
 use crate::export::extensions;
-use crate::motion::clips::Legs;
-use crate::motion::limited::Camera;
-use crate::motion::measured::PointChoice;
-use crate::motion::resample::{Range, parse_range};
-use crate::motion::up::UpAxis;
+use crate::limited::Camera;
+use crate::mocap::UpAxis;
+use crate::mocap::resample::{Range, parse_range};
+use crate::motion::PointChoice;
 
 const MOTION_EXAMPLES: &str = "\
 Examples:
@@ -60,7 +60,7 @@ pub(in crate::cli) struct Motion {
     #[arg(long)]
     pub(in crate::cli) compare: bool,
     /// Frames a second
-    #[arg(long, value_name = "F", default_value_t = crate::motion::prepare::FPS)]
+    #[arg(long, value_name = "F", default_value_t = crate::mocap::resample::FPS)]
     pub(in crate::cli) fps: f64,
     /// Use only these frames, counted from 1 and including both ends; `10:` and `:48` are open-ended
     #[arg(long, value_name = "A:B", value_parser = range)]

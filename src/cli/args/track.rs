@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::motion::mark_tracks::{MAX_NAME, is_name, named_colour, parse_hex};
+use crate::mark_tracks::{MAX_NAME, is_name, named_colour, parse_hex};
 use crate::tracking::Mark;
 
 const EXAMPLES: &str = "\

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::columns;
 use crate::cli::counted;
 use crate::compile::Compiled;
-use crate::report::{Performance, Reader, cut_frames, performance, ranges, undriven};
+use crate::report::{Performance, cut_frames, frame_ranges, performance, undriven};
 
 /// How many runs of frames are listed individually.
 const MAX_RANGES: usize = 12;
@@ -28,7 +28,7 @@ pub(super) fn clips(compiled: &Compiled) -> String {
         let (omitted, held) = cut_frames(clip);
         for (what, frames) in [("omitted", omitted), ("held", held)] {
             if !frames.is_empty() {
-                let ranges = ranges(&frames, MAX_RANGES);
+                let ranges = frame_ranges(&frames, MAX_RANGES);
                 let _ = writeln!(
                     out,
                     "   {what} {}: {ranges}",
@@ -36,7 +36,7 @@ pub(super) fn clips(compiled: &Compiled) -> String {
                 );
             }
         }
-        if let Some(performance) = performance(compiled, clip, Reader::Inspect) {
+        if let Some(performance) = performance(compiled, clip) {
             out.push_str(&performed(&performance));
         }
         let rows = clip.parts.iter().map(|drive| {
@@ -61,7 +61,7 @@ fn performed(performance: &Performance<'_>) -> String {
     let rows = performance.marks.iter().map(|mark| {
         [
             format!("   mark {}", mark.name),
-            mark.parts.join(", "),
+            mark.performs.join(", "),
             mark.effect(),
         ]
     });

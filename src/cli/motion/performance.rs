@@ -6,14 +6,13 @@ use crate::cli::args::{self, Performing};
 use crate::cli::{Outcome, fail};
 use crate::diagnostic::nearest_word;
 use crate::disk::read_file;
+use crate::mark_tracks::{MarkTracks, same_name};
+use crate::mocap::Skeleton;
 use crate::motion::edit::Film;
-use crate::motion::mark_tracks::{MarkTracks, same_name};
-use crate::motion::matching::joints_named;
-use crate::motion::performance::{
-    Effects, Filming, Finding, JointChannel, PerformedClip, Plan, Request, perform as perform_clip,
-};
-use crate::motion::prepare::PreparedClip;
-use crate::motion::skeleton::Skeleton;
+use crate::motion::{JointChannel, PerformedClip, perform as perform_clip};
+use crate::performance::{Effects, Filming, Finding, Plan, Request};
+use crate::prepare::PreparedClip;
+use crate::retarget::joints_named;
 
 /// A motion that was performed, or left as it is.
 pub(super) struct Performed {

@@ -3,7 +3,7 @@
 use image::{DynamicImage, RgbImage};
 use resvg::tiny_skia::{Color, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
-use crate::motion::mark_tracks::{MarkTrack, MarkTracks};
+use crate::mark_tracks::{MarkTrack, MarkTracks};
 use crate::render::Image;
 
 /// How long the trail behind a mark is, in seconds.

@@ -10,7 +10,7 @@ use image::{AnimationDecoder, Frames, ImageDecoder, ImageReader, ImageResult, Li
 
 use super::video;
 use crate::disk::{files, open_stream, read_file};
-use crate::motion::mark_tracks::MAX_FRAMES;
+use crate::mark_tracks::MAX_FRAMES;
 
 /// The most pixels of a frame.
 const MAX_PIXELS: u64 = 1 << 26;

@@ -7,7 +7,7 @@ mod tests;
 
 use std::fmt::Write as _;
 
-use super::limited::Exposure;
+use crate::limited::Exposure;
 use scale::{BOTTOM, LEFT, RIGHT, Scale, TOP, columns, number, step};
 
 /// The picture's size, pixels.

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::frame::{FrameError, Picture};
 use super::message::{FromCamera, MarkFacts, ToCamera};
-use crate::motion::mark_tracks::{MAX_NAME, MarkTracks, hex, is_name};
+use crate::mark_tracks::{MAX_NAME, MarkTracks, hex, is_name};
 use crate::tracking::{Learned, Learner, Mark, Sighting, Tracker, hue_name, tracks};
 
 /// The most marks.

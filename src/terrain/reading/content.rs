@@ -15,7 +15,7 @@ use crate::svg::{Drawing, LARGE, PictureSource, StrokeSource};
 /// The largest number of pixels of all pictures of a layer.
 const MAX_PIXELS: usize = 1 << 28;
 /// The largest number of cells that the bounding boxes of a layer's shapes may cover, summed.
-const MAX_COVERED: usize = 1 << 34;
+const MAX_COVERED: u64 = 1 << 34;
 /// For pictures that are SVG: the smallest and the largest number of pixels along the longer side, and the preferred number a
 /// tile, which is odd so that one pixel is in the middle.
 const SVG_SIDE: [u32; 3] = [1024, 8192, 3];
@@ -91,7 +91,7 @@ impl Content {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Vec<(usize, Item<'a>)>, Box<Diagnostic>> {
         let mut items = Vec::with_capacity(self.fills.len());
-        let (mut pixels, mut painted) = (0_usize, 0_usize);
+        let (mut pixels, mut painted) = (0_usize, 0_u64);
         for (index, bounds) in &self.fills {
             let shape = &drawing.shapes[*index];
             let too_much = |what: String| {
@@ -135,7 +135,7 @@ impl Content {
                 },
             };
             let [columns, rows] = item.reach(grid).map(|[from, to]| to - from);
-            painted = painted.saturating_add(columns * rows);
+            painted = painted.saturating_add(columns as u64 * rows as u64);
             if painted > MAX_COVERED {
                 let what = format!(
                     "the shapes of a tile layer cover more than {MAX_COVERED} cells in total"

@@ -6,10 +6,10 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use okoshi::motion::bvh;
-use okoshi::motion::clips::{BuiltIn, Legs};
-use okoshi::motion::prepare::{Options, PreparedClip, built_in, prepare};
-use okoshi::motion::retarget::retarget;
+use okoshi::clips::{BuiltIn, Legs};
+use okoshi::mocap::bvh;
+use okoshi::prepare::{Options, PreparedClip, built_in, prepare};
+use okoshi::retarget::retarget;
 
 use super::clips::FILES;
 use super::swing::hairy;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use glam::{DVec3, dvec3};
-use okoshi::motion::labels::Anatomy;
-use okoshi::motion::matching::{Drive, Follow};
-use okoshi::motion::retarget::{Landmarks, Rig, RigPart, retarget};
-use okoshi::motion::skeleton::{Axis, Channel, Clip, Joint, Skeleton, Transform};
+use okoshi::labels::Anatomy;
+use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
+use okoshi::retarget::{Drive, Follow};
+use okoshi::retarget::{Landmarks, Rig, RigPart, retarget};
 
 use super::clips::{FILES, clip};
 use super::rigs::{Limbs, biped, part};

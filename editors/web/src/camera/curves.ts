@@ -33,7 +33,7 @@ export class Curves {
     fill(
       this.element,
       ...track.marks.flatMap((mark) =>
-        ([0, 1] as const).map((axis) => svg("path", { d: trailPath(curve(track, mark, axis)), class: axis === 0 ? "camera-curve" : "camera-curve of-y", stroke: mark.colour })),
+        ([0, 1] as const).map((axis) => svg("path", { d: trailPath(curve(track, mark, axis)), class: axis === 0 ? "camera-curve" : "camera-curve of-y", stroke: mark.color })),
       ),
       this.now,
     );

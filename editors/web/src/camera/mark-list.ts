@@ -16,9 +16,9 @@ export class MarkList {
   show(marks: readonly Mark[], names: readonly string[]): void {
     this.marks = marks;
     fill(this.offered, ...names.map((value) => h("option", { attributes: { value } })));
-    this.rows = marks.map(({ name, colour }, mark) => {
-      const swatch = h("span", { class: "camera-swatch", title: colour });
-      swatch.style.background = colour;
+    this.rows = marks.map(({ name, color }, mark) => {
+      const swatch = h("span", { class: "camera-swatch", title: color });
+      swatch.style.background = color;
       const field = h("input", { class: "camera-name", attributes: { type: "text", list: "camera-mark-names", value: name, maxlength: 64, spellcheck: "false", autocomplete: "off", "aria-label": `Name of the mark ${name}` } });
       field.addEventListener("change", () => this.rename(mark, field.value.trim()));
       const state = h("span", { class: "muted camera-state" });

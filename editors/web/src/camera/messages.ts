@@ -11,7 +11,7 @@ export interface Sighting {
 export interface Mark {
   readonly name: string;
   /** As #rrggbb. */
-  readonly colour: string;
+  readonly color: string;
 }
 
 export type FromTracker =
@@ -91,8 +91,8 @@ function readSighting(value: unknown): Sighting | null {
 }
 
 function readMark(value: unknown): Mark {
-  const { name, colour } = object(value);
-  return { name: text(name), colour: /^#[0-9a-f]{6}$/.test(text(colour)) ? text(colour) : "#808080" };
+  const { name, colour: color } = object(value);
+  return { name: text(name), color: /^#[0-9a-f]{6}$/.test(text(color)) ? text(color) : "#808080" };
 }
 
 /** A recorded track, as the program writes it. */

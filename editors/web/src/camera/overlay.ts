@@ -36,13 +36,13 @@ export class Overlay {
       this.rings,
       ...rings.flatMap(({ mark, at, isLost }) => {
         const ring = { cx: at.x, cy: at.y, r: at.radius + MARGIN };
-        return [svg("circle", { ...ring, class: "camera-ring-edge" }), svg("circle", { ...ring, class: isLost ? "camera-ring lost" : "camera-ring", stroke: mark.colour, "data-mark": mark.name })];
+        return [svg("circle", { ...ring, class: "camera-ring-edge" }), svg("circle", { ...ring, class: isLost ? "camera-ring lost" : "camera-ring", stroke: mark.color, "data-mark": mark.name })];
       }),
     );
   }
 
   showTrails(trails: readonly { readonly mark: Mark; readonly places: readonly Place[] }[]): void {
-    fill(this.trails, ...trails.map(({ mark, places }) => svg("path", { d: trailPath(places), class: "camera-trail", stroke: mark.colour })));
+    fill(this.trails, ...trails.map(({ mark, places }) => svg("path", { d: trailPath(places), class: "camera-trail", stroke: mark.color })));
   }
 
   showCross(at: { readonly x: number; readonly y: number } | null): void {

@@ -10,8 +10,8 @@ export function markNames(parts: Parts): string[] {
 }
 
 /** What is written for a track: a `Perform`, and the `Mark` of each part. Marks are named by their colour; others by its number. */
-export function strings(file: string, marks: readonly Mark[], isColour: (name: string) => boolean): { readonly perform: string; readonly marks: readonly string[] } {
-  return { perform: `Perform "${file}"`, marks: marks.map(({ name, colour }) => `Mark ${isColour(name) ? name : colour}`) };
+export function strings(file: string, marks: readonly Mark[], isColor: (name: string) => boolean): { readonly perform: string; readonly marks: readonly string[] } {
+  return { perform: `Perform "${file}"`, marks: marks.map(({ name, color }) => `Mark ${isColor(name) ? name : color}`) };
 }
 
 /** A name for a file: what a person typed, without folders, and with its extension. */

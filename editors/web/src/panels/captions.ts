@@ -18,8 +18,8 @@ export class Captions {
     const { boxes } = this.viewer.sideBySide;
     this.element.hidden = boxes === null;
     if (!boxes) return;
-    const limited = this.viewer.exposure?.facts.limited === false ? ["full", "full"] : ["limited", "full"];
-    for (const [at, words] of (this.viewer.performed ? ["performed", "original"] : limited).entries()) if (this.labels[at]!.textContent !== words) this.labels[at]!.textContent = words;
+    const limited = this.viewer.playback.exposures.current?.facts.limited === false ? ["full", "full"] : ["limited", "full"];
+    for (const [at, words] of (this.viewer.playback.exposures.performed ? ["performed", "original"] : limited).entries()) if (this.labels[at]!.textContent !== words) this.labels[at]!.textContent = words;
     this.place();
   }
 

@@ -46,7 +46,7 @@ export class Chart extends ClipChart {
   }
 
   protected get sheet(): ExposureSheet | null {
-    return this.viewer.exposure;
+    return this.viewer.playback.exposures.current;
   }
 
   get isPossible(): boolean {
@@ -142,7 +142,7 @@ export class Chart extends ClipChart {
   protected move(): void {
     const { drawn } = this;
     if (!drawn) return;
-    const { time } = this.viewer.player;
+    const { time } = this.viewer.playback.player;
     // The playhead is where the slider is; the dot is on the frame of the source that is shown then.
     this.head.setAttribute("transform", `translate(${round(this.at(time * drawn.fps))} 0)`);
     const source = drawn.sourceAt(time);

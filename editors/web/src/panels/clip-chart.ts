@@ -89,9 +89,9 @@ export abstract class ClipChart {
   /** Goes to a time in seconds while the pointer drags. */
   protected dragTo(time: number): void {
     if (!this.drags) return;
-    this.viewer.moved(() => {
-      this.viewer.player.play(false);
-      this.viewer.player.seek(time);
+    this.viewer.playback.moved(() => {
+      this.viewer.playback.player.play(false);
+      this.viewer.playback.player.seek(time);
     });
   }
 

@@ -35,7 +35,7 @@ export class Clips {
   private readonly ticks = svg("svg", { class: "ticks", viewBox: "0 0 1000 10", preserveAspectRatio: "none", "aria-hidden": "true" });
   private readonly now = svg("path", { class: "now" });
   private readonly readout = h("output", { class: "readout" });
-  private readonly loop = button({ icon: Repeat, label: "Loop", press: () => this.viewer.moved(() => (this.player.loops = !this.player.loops)) });
+  private readonly loop = button({ icon: Repeat, label: "Loop", press: () => this.viewer.playback.moved(() => (this.player.loops = !this.player.loops)) });
   private readonly along = button({ icon: Footprints, label: "Follow the figure", key: "V", press: () => this.followTravel() });
   private readonly films = button({ icon: Video, label: "Camera", key: "M", press: () => this.film() });
   private readonly onion = button({ icon: SquareStack, label: "Onion skin: the drawings before and after", key: "N", press: () => this.onionSkin() });
@@ -71,12 +71,12 @@ export class Clips {
     this.speed.value = "1";
     this.choice.addEventListener("change", () => {
       const clip = this.player.clips[this.choice.selectedIndex];
-      if (clip) viewer.moved(() => this.player.choose(clip));
+      if (clip) viewer.playback.moved(() => this.player.choose(clip));
     });
-    this.figure.addEventListener("change", () => viewer.chooseFigure(this.figure.value));
+    this.figure.addEventListener("change", () => viewer.playback.chooseFigure(this.figure.value));
     this.speed.addEventListener("change", () => (this.player.speed = Number(this.speed.value)));
     this.slider.addEventListener("input", () =>
-      viewer.moved(() => {
+      viewer.playback.moved(() => {
         this.player.play(false);
         this.player.seek(Number(this.slider.value));
       }),
@@ -86,43 +86,43 @@ export class Clips {
   }
 
   toggle(): void {
-    this.viewer.moved(() => this.player.play(!this.player.playing));
+    this.viewer.playback.moved(() => this.player.play(!this.player.playing));
   }
 
   /** Lets the view go along with a figure that travels, or stay. */
   followTravel(): void {
-    this.viewer.followTravel(!this.viewer.travel.wanted);
+    this.viewer.playback.followTravel(!this.viewer.playback.travel.wanted);
   }
 
   /** Shows the drawings before and after that of a paused clip, or no longer. */
   onionSkin(): void {
-    this.viewer.showOnionSkin(!this.viewer.onionSkin.wanted);
+    this.viewer.playback.showOnionSkin(!this.viewer.playback.onionSkin.wanted);
   }
 
   /** Looks through the camera that films the clip, or no longer. */
   film(): void {
-    if (this.viewer.isFilmable) this.viewer.film(!this.viewer.isFilming);
+    if (this.viewer.playback.isFilmable) this.viewer.playback.film(!this.viewer.playback.isFilming);
   }
 
   /** Goes to the previous or next drawing or key. */
   step(keys: 1 | -1): void {
     const { clip, time } = this.player;
-    const { exposure } = this.viewer;
+    const exposure = this.viewer.playback.exposures.current;
     if (!clip) return;
-    if (!exposure || exposure.runs.length === 0) return this.viewer.moved(() => this.player.step(keys));
+    if (!exposure || exposure.runs.length === 0) return this.viewer.playback.moved(() => this.player.step(keys));
     const { runs } = exposure;
     const frame = exposure.frameAt(time);
     const at = exposure.drawingIn(frame);
     // From within a drawing, back goes to its beginning.
     const next = keys < 0 && frame > runs[at]!.start ? at : (at + keys + runs.length) % runs.length;
-    this.viewer.moved(() => {
+    this.viewer.playback.moved(() => {
       this.player.play(false);
       this.player.seek(exposure.timeOf(runs[next]!.from));
     });
   }
 
   compare(): void {
-    this.viewer.compare(!this.viewer.comparison.wanted);
+    this.viewer.playback.compare(!this.viewer.playback.comparison.wanted);
   }
 
   /** A chart was opened or closed. A small window has space for one. */
@@ -132,7 +132,7 @@ export class Clips {
   }
 
   private get player() {
-    return this.viewer.player;
+    return this.viewer.playback.player;
   }
 
   private list(): void {
@@ -145,7 +145,7 @@ export class Clips {
 
   /** A short description of a clip. */
   private describe(clip: AnimationClip, at: number): string {
-    const figures = this.viewer.exposuresOf(clip);
+    const figures = this.viewer.playback.exposures.of(clip);
     const keys = this.player.keysIn(clip);
     const [only] = figures;
     const words = [clip.name || `clip ${at + 1}`, `${clip.duration.toFixed(1)} s`];
@@ -157,7 +157,8 @@ export class Clips {
   private follow(): void {
     const { clip, keys, time, end, playing, loops } = this.player;
     if (!clip) return;
-    const { exposure, comparison } = this.viewer;
+    const { exposures, comparison } = this.viewer.playback;
+    const exposure = exposures.current;
     const seconds = this.longest(end);
     if (this.shown !== clip || this.exposure !== exposure || this.axis.seconds !== seconds) {
       this.shown = clip;
@@ -166,7 +167,7 @@ export class Clips {
       this.choice.selectedIndex = this.player.clips.indexOf(clip);
       this.slider.max = String(seconds);
       for (const chart of [this.chart, this.performance]) if (chart.isOpen) chart.draw();
-      const figures = this.viewer.exposuresOf(clip).map(({ facts }) => facts.figure);
+      const figures = this.viewer.playback.exposures.of(clip).map(({ facts }) => facts.figure);
       this.figure.hidden = figures.length < 2;
       fill(this.figure, ...figures.map((name) => h("option", { attributes: { value: name } }, name)));
       if (exposure) this.figure.value = exposure.facts.figure;
@@ -181,10 +182,10 @@ export class Clips {
     this.now.setAttribute("d", box ? outline(box, seconds) : "");
     this.element.dataset["playing"] = String(playing);
     this.loop.setAttribute("aria-pressed", String(loops));
-    this.along.setAttribute("aria-pressed", String(this.viewer.travel.wanted));
-    this.onion.setAttribute("aria-pressed", String(this.viewer.onionSkin.wanted));
-    this.films.hidden = !this.viewer.isFilmable;
-    this.films.setAttribute("aria-pressed", String(this.viewer.isFilming));
+    this.along.setAttribute("aria-pressed", String(this.viewer.playback.travel.wanted));
+    this.onion.setAttribute("aria-pressed", String(this.viewer.playback.onionSkin.wanted));
+    this.films.hidden = !this.viewer.playback.isFilmable;
+    this.films.setAttribute("aria-pressed", String(this.viewer.playback.isFilming));
     this.charts.hidden = !this.chart.isPossible;
     this.charts.setAttribute("aria-pressed", String(this.chart.isOpen));
     this.performances.hidden = !this.performance.isPossible;
@@ -192,7 +193,7 @@ export class Clips {
     this.compares.hidden = !comparison.isPossible;
     this.compares.setAttribute("aria-pressed", String(comparison.wanted));
     this.compares.setAttribute("aria-busy", String(comparison.isComing));
-    const compares = this.viewer.performed ? "Performed and original side by side" : "Full and limited side by side";
+    const compares = this.viewer.playback.exposures.performed ? "Performed and original side by side" : "Full and limited side by side";
     if (this.compares.getAttribute("aria-label") !== compares) {
       this.compares.setAttribute("aria-label", compares);
       this.compares.title = `${compares} (O)`;
@@ -207,7 +208,7 @@ export class Clips {
 
   /** The length of the axis of time in seconds: the clip's, unless there is a longer chart. */
   private longest(end: number): number {
-    const { exposure, performed } = this.viewer;
+    const { current: exposure, performed } = this.viewer.playback.exposures;
     const sources = this.chart.isOpen && exposure ? exposure.sources / exposure.fps : 0;
     const facts = this.performance.isOpen ? performed?.facts.performance : undefined;
     const rows = facts && performed ? Math.max(facts.frames.performance, facts.frames.motion) / performed.fps : 0;
@@ -218,7 +219,7 @@ export class Clips {
   /** The position in the clip, in words. */
   private words(time: number): string {
     const { clip, keys } = this.player;
-    const { exposure } = this.viewer;
+    const exposure = this.viewer.playback.exposures.current;
     const seconds = `${time.toFixed(2)} s`;
     if (exposure) {
       const frame = exposure.frameAt(time);
@@ -230,7 +231,7 @@ export class Clips {
 
   /** Draws a tick for each key, or a box for each held drawing. */
   private draw(clip: AnimationClip, times: readonly number[], held: boolean): void {
-    const { exposure } = this.viewer;
+    const exposure = this.viewer.playback.exposures.current;
     const { duration } = clip;
     const { seconds } = this.axis;
     if (exposure && exposure.runs.length > 0) this.boxes = exposure.runs.map(({ start, frames }) => ({ from: start / exposure.fps, to: Math.min((start + frames) / exposure.fps, duration) }));

@@ -59,7 +59,7 @@ export class Inspector {
     });
     // The clip can only change together with the time.
     viewer.on(["model", "time"], () => {
-      if (viewer.player.clip?.name !== this.clip) this.draw();
+      if (viewer.playback.player.clip?.name !== this.clip) this.draw();
     });
     this.draw();
   }
@@ -74,7 +74,7 @@ export class Inspector {
 
   private fill(): void {
     const { selected, parts } = this.state;
-    this.clip = this.viewer.player.clip?.name;
+    this.clip = this.viewer.playback.player.clip?.name;
     this.element.dataset["empty"] = String(selected === null);
     const part = parts.get(selected);
     this.actions.hidden = !part || isAside(part);

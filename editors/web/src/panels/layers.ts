@@ -46,7 +46,7 @@ export class Layers {
 
   /** Where the planes of a part and its copies are in the model. */
   private depthInModel(name: string): number[] {
-    return this.viewer.nodesOf(name).map((node) => Number(node.getWorldPosition(new Vector3()).z.toFixed(6)));
+    return this.viewer.parts.nodesOf(name).map((node) => Number(node.getWorldPosition(new Vector3()).z.toFixed(6)));
   }
 
   /** Puts a line where the picture shows this depth. */

@@ -25,9 +25,9 @@ export class Notes {
   private words(): string {
     const { drawing } = this.state;
     if (!drawing) return "";
-    if (this.viewer.failure !== "") return `The model could not be shown: ${this.viewer.failure}`;
+    if (this.viewer.requests.failure !== "") return `The model could not be shown: ${this.viewer.requests.failure}`;
     if (drawing.gone) return this.viewer.model ? "The drawing's file is missing at the moment. This is its last model." : "The drawing's file is missing at the moment.";
-    if (this.viewer.comparison.failure !== "") return `The original clips could not be shown: ${this.viewer.comparison.failure}`;
+    if (this.viewer.playback.comparison.failure !== "") return `The original clips could not be shown: ${this.viewer.playback.comparison.failure}`;
     if (this.viewer.model) return "";
     if (!drawing.build) return "Building…";
     return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has problems." : "There is no model: the drawing has no parts.") : "";

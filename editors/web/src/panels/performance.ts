@@ -38,7 +38,7 @@ export class PerformanceChart extends ClipChart {
   }
 
   protected get sheet(): ExposureSheet | null {
-    return this.viewer.performed;
+    return this.viewer.playback.exposures.performed;
   }
 
   /** Whether the clip is performed. */
@@ -77,14 +77,14 @@ export class PerformanceChart extends ClipChart {
       facts.marks.forEach((mark, at) => {
         const points = times.curve(row, at, rows).map(([x, y]) => `${round(x)} ${round(y)}`);
         if (points.length === 0) return;
-        parts.push(colored(svg("path", { class: mark.emphasised ? "performance-curve emphasised" : "performance-curve", "data-row": row, "data-mark": mark.name, "stroke-dasharray": dashes(at), d: `M${points.join("L")}` }), mark.colour));
+        parts.push(colored(svg("path", { class: mark.emphasized ? "performance-curve emphasized" : "performance-curve", "data-row": row, "data-mark": mark.name, "stroke-dasharray": dashes(at), d: `M${points.join("L")}` }), mark.color));
       });
     }
     fill(this.picture, ...parts, ...numbers, this.line, this.head);
 
     fill(this.marks, ...facts.marks.map((mark, at) => {
       const sample = svg("svg", { class: "performance-sample", viewBox: "0 0 26 10", "aria-hidden": "true" });
-      sample.append(colored(svg("path", { class: mark.emphasised ? "performance-curve emphasised" : "performance-curve", "stroke-dasharray": dashes(at), d: "M1 5H25" }), mark.colour));
+      sample.append(colored(svg("path", { class: mark.emphasized ? "performance-curve emphasized" : "performance-curve", "stroke-dasharray": dashes(at), d: "M1 5H25" }), mark.color));
       const name = h("th", { attributes: { scope: "row" } }, sample, mark.name);
       return h("tr", {}, name, h("td", {}, mark.parts.join(", ")), h("td", { class: "number" }, mark.ratio.toFixed(2)), h("td", {}, describeEffect(mark)));
     }));
@@ -105,7 +105,7 @@ export class PerformanceChart extends ClipChart {
 
   /** The frame of the performance that is shown. */
   private get frame(): number {
-    return this.drawn?.sourceAt(this.viewer.player.time) ?? 0;
+    return this.drawn?.sourceAt(this.viewer.playback.player.time) ?? 0;
   }
 
   protected move(): void {
@@ -113,7 +113,7 @@ export class PerformanceChart extends ClipChart {
     if (!times) return;
     const motion = times.motionAt(frame);
     // Above it is where the slider is.
-    this.head.setAttribute("d", this.through(this.viewer.player.time * (this.drawn?.fps ?? 0), motion));
+    this.head.setAttribute("d", this.through(this.viewer.playback.player.time * (this.drawn?.fps ?? 0), motion));
     this.picture.dataset["frame"] = String(frame + 1);
     this.picture.dataset["motion"] = String(round(motion + 1));
   }
@@ -149,7 +149,7 @@ export class PerformanceChart extends ClipChart {
 const dashes = (mark: number): string => DASHES[mark % DASHES.length]!;
 
 /** A curve in the colour of its mark, as far as that stands out from the panel. */
-function colored<E extends SVGElement>(element: E, colour: string): E {
-  if (colour !== "") element.style.setProperty("--mark", colour);
+function colored<E extends SVGElement>(element: E, color: string): E {
+  if (color !== "") element.style.setProperty("--mark", color);
   return element;
 }

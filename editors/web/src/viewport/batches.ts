@@ -60,7 +60,7 @@ export class Batches {
     const materials = new Map<string, Material>();
     for (const [key, { material, meshes }] of looks) {
       if (meshes.length < FEW) continue;
-      const common = shared.get(key) ?? uncoloured(material);
+      const common = shared.get(key) ?? uncolored(material);
       materials.set(key, common);
       for (const part of divided(meshes)) this.build(key, common, part);
     }
@@ -145,7 +145,7 @@ export class Batches {
     const { instanceCount, maxInstanceCount } = batch.mesh;
     if (instanceCount === maxInstanceCount) batch.mesh.setInstanceCount(Math.ceil((maxInstanceCount + 1) * ROOM));
     const instance = batch.mesh.addInstance(known.id);
-    batch.mesh.setColorAt(instance, colourOf(mesh));
+    batch.mesh.setColorAt(instance, colorOf(mesh));
     batch.mesh.setMatrixAt(instance, mesh.matrixWorld);
     this.places.set(mesh, { batch, instance, geometry });
     mesh.layers.mask = LAYERS.batched;
@@ -192,13 +192,13 @@ function lookOf(mesh: Mesh): Look | null {
 }
 
 /** A material whose surfaces have the colours of their instances. */
-function uncoloured(material: Material): Material {
+function uncolored(material: Material): Material {
   const common = material.clone();
   if (common instanceof MeshStandardMaterial || common instanceof MeshBasicMaterial) common.color.setScalar(1);
   return common;
 }
 
-function colourOf({ material }: Mesh): Color {
+function colorOf({ material }: Mesh): Color {
   return material instanceof MeshStandardMaterial || material instanceof MeshBasicMaterial ? material.color : new Color();
 }
 

@@ -3,6 +3,7 @@
 
 import type { SideBySide } from "./side-by-side";
 import type { Player } from "./clips";
+import type { Exposures } from "./exposures";
 import { Latest } from "./latest";
 import type { Model } from "./model";
 import { readFile } from "./model-file";
@@ -21,11 +22,11 @@ interface Shown {
   readonly player: Player;
   readonly pose: Pose;
   readonly view: View;
-  /** The performed clip that is shown. */
-  readonly performed: unknown;
+  readonly exposures: Exposures;
 }
 
-interface Around {
+/** Where the files of original clips are from, and who is told of the copy. */
+export interface ComparisonHost {
   read(address: string): Promise<ArrayBuffer>;
   /** Whether the host of this connection can be asked. */
   mayAsk(connection: number): boolean;
@@ -47,10 +48,10 @@ export class Comparison {
   /** Why there is no copy although the comparison is on, as a message. */
   failure = "";
 
-  constructor(private readonly sideBySide: SideBySide, private readonly shown: Shown, private readonly around: Around) {
+  constructor(private readonly sideBySide: SideBySide, private readonly shown: Shown, private readonly host: ComparisonHost) {
     this.fetching = new Latest(
       async (source) => {
-        const originals = await readFile(await around.read(source.originals ?? ""));
+        const originals = await readFile(await host.read(source.originals ?? ""));
         if (source === this.fetched) sideBySide.originals = originals;
       },
       (_, source) => {
@@ -60,9 +61,9 @@ export class Comparison {
         if (source !== this.fetched) return;
         this.fetched = null;
         // If the host is gone, the page reports that already.
-        if (!around.mayAsk(source.connection)) return;
+        if (!host.mayAsk(source.connection)) return;
         this.failure = error instanceof Error ? error.message : String(error);
-        around.changed();
+        host.changed();
       },
     );
   }
@@ -106,7 +107,7 @@ export class Comparison {
     if (!this.sideBySide.copy || !player.clip) return;
     if (this.arranged === player.clip) return this.sideBySide.seek(player.time, player.clip.duration);
     this.arrange();
-    this.around.changed();
+    this.host.changed();
     this.shown.view.frame();
   }
 
@@ -116,7 +117,7 @@ export class Comparison {
     if (source.originals === null) return this.remove();
     this.put();
     if (this.fetched?.originals === source.originals && this.fetched.connection === source.connection) return;
-    if (!this.around.mayAsk(source.connection)) return;
+    if (!this.host.mayAsk(source.connection)) return;
     this.fetched = source;
     this.fetching.want(source);
   }
@@ -131,7 +132,7 @@ export class Comparison {
     this.sideBySide.put(model, originals);
     this.arrange();
     pose.apply();
-    this.around.changed();
+    this.host.changed();
     if (first) view.frame();
   }
 
@@ -141,7 +142,7 @@ export class Comparison {
     if (!model) return;
     const { time } = player;
     this.arranged = player.clip;
-    this.sideBySide.choose(player.clip, this.shown.performed ? "same" : "together", (at) => player.seek(at), model);
+    this.sideBySide.choose(player.clip, this.shown.exposures.performed ? "same" : "together", (at) => player.seek(at), model);
     player.waitFor(this.sideBySide.waits);
     player.seek(time);
     if (player.clip) this.sideBySide.seek(time, player.clip.duration);
@@ -150,7 +151,7 @@ export class Comparison {
   private remove(): void {
     this.sideBySide.remove();
     this.shown.player.waitFor(0);
-    this.around.changed();
+    this.host.changed();
     this.back?.();
     this.back = null;
   }

@@ -107,7 +107,7 @@ export function describeExposure({ runs, frames, facts }: ExposureSheet): string
   const drawings = facts.drawings || runs.length;
   words.push(`${drawings} ${drawings === 1 ? "drawing" : "drawings"}`);
   if (facts.omitted.length > 0) words.push(`${facts.omitted.length} in-${facts.omitted.length === 1 ? "between" : "betweens"} omitted`);
-  if (facts.held > 0) words.push(`${facts.held} held`);
+  if (facts.held.length > 0) words.push(`${facts.held.length} held`);
   return words.join(", ");
 }
 

@@ -52,18 +52,18 @@ export class Ground {
   /** Fits the ground to a model with this bounding box. */
   fit(box: Box3): void {
     const size = box.getSize(new Vector3());
-    const centre = box.getCenter(new Vector3());
+    const center = box.getCenter(new Vector3());
     const reach = Math.max(size.x, size.y, size.z, 1e-6);
     const cell = 10 ** Math.round(Math.log10(reach / 5));
     // Slightly below the feet, so that soles and ground do not flicker.
     const level = box.min.y - reach * 0.001;
     this.group.position.set(0, level, 0);
-    this.grid.position.set(Math.round(centre.x / cell) * cell, 0, Math.round(centre.z / cell) * cell);
+    this.grid.position.set(Math.round(center.x / cell) * cell, 0, Math.round(center.z / cell) * cell);
     this.grid.scale.setScalar(cell);
-    this.shadow.position.set(centre.x, 0, centre.z);
+    this.shadow.position.set(center.x, 0, center.z);
     this.shadow.scale.setScalar(reach * 2 * ROOM);
-    this.sun.position.set(centre.x, level + size.y + reach, centre.z);
-    this.sun.target.position.set(centre.x, level, centre.z);
+    this.sun.position.set(center.x, level + size.y + reach, center.z);
+    this.sun.target.position.set(center.x, level, center.z);
     const camera = this.sun.shadow.camera;
     camera.left = camera.bottom = -reach * ROOM;
     camera.right = camera.top = reach * ROOM;

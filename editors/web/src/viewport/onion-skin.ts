@@ -5,6 +5,7 @@ import { clone } from "three/addons/utils/SkeletonUtils.js";
 import { LAYERS } from "./batches";
 import type { Player } from "./clips";
 import type { ExposureSheet } from "./exposure-sheet";
+import type { Exposures } from "./exposures";
 import { isOverlay, type Model } from "./model";
 import type { Pose } from "./pose";
 import { isHidden } from "./visibility";
@@ -21,7 +22,7 @@ const MOST_MESHES = 2_000;
 const NEAR = 1e-4;
 
 /** The times of the drawings, or of the keys, before and after the one at a time; null where the clip ends. */
-export function neighbours({ keys, time }: Pick<Player, "keys" | "time">, exposure: Pick<ExposureSheet, "runs" | "frames" | "fps" | "frameAt" | "drawingIn"> | null): readonly [before: number | null, after: number | null] {
+export function neighbors({ keys, time }: Pick<Player, "keys" | "time">, exposure: Pick<ExposureSheet, "runs" | "frames" | "fps" | "frameAt" | "drawingIn"> | null): readonly [before: number | null, after: number | null] {
   if (exposure && exposure.runs.length > 0) {
     const at = exposure.drawingIn(exposure.frameAt(time));
     const begin = (drawing: number): number | null => {
@@ -41,7 +42,7 @@ interface Shown {
   readonly model: Model | null;
   readonly player: Player;
   readonly pose: Pose;
-  readonly exposure: ExposureSheet | null;
+  readonly exposures: Exposures;
 }
 
 export class OnionSkin {
@@ -65,10 +66,10 @@ export class OnionSkin {
 
   /** Follows time, clip, model and hidden parts. True if anything changed. */
   follow(hidden: ReadonlySet<string>): boolean {
-    const { model, player, pose, exposure } = this.shown;
+    const { model, player, pose, exposures } = this.shown;
     const { clip, time } = player;
     if (!model || !clip || !this.wanted || player.playing || model.meshes.length > MOST_MESHES) return this.clear();
-    const times = neighbours(player, exposure);
+    const times = neighbors(player, exposures.current);
     const made = JSON.stringify([clip.name, times, [...hidden]]);
     if (model === this.model && made === this.made) return false;
     this.clear();

@@ -90,8 +90,8 @@ export function describeFilming({ filming, nearest }: PerformanceFacts): string 
 }
 
 /** What a mark does to its parts, in words. */
-export function describeEffect({ emphasised, damped }: PerformanceFacts["marks"][number]): string {
-  return emphasised ? "emphasised" : damped ? "damped" : "not damped";
+export function describeEffect({ emphasized, damped }: PerformanceFacts["marks"][number]): string {
+  return emphasized ? "emphasised" : damped ? "damped" : "not damped";
 }
 
 /** The value on one side of a polyline through points with ascending coordinates, for a value on the other side. Without points both are equal. */

@@ -27,7 +27,7 @@ export class Pointer {
     this.posing = new Posing(viewer.pose, viewer.view, canvas, (name, degrees) => {
       const node = viewer.model?.node(name);
       viewer.posed();
-      turned(node ? viewer.partOf(node) : name, degrees);
+      turned(node ? viewer.parts.nameOf(node) : name, degrees);
     });
     // Before the orbit controls, which listen on the canvas: a press on a limb must not turn the view too.
     canvas.parentElement!.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
@@ -89,7 +89,7 @@ export class Pointer {
     this.stop();
     if (!clicked || event.target !== this.viewer.canvas) return;
     const hit = this.hit(event.clientX, event.clientY);
-    const part = hit && this.viewer.partOf(hit.node);
+    const part = hit && this.viewer.parts.nameOf(hit.node);
     this.state.select(part);
     if (part) this.picked(part);
   }
@@ -114,7 +114,7 @@ export class Pointer {
     this.over = null;
     if (!over) return false;
     const hit = this.hit(over.x, over.y);
-    this.state.hover(hit && this.viewer.partOf(hit.node));
+    this.state.hover(hit && this.viewer.parts.nameOf(hit.node));
     return false;
   }
 

@@ -149,8 +149,8 @@ export class View {
   }
 
   private frameFrom(direction: Vector3, points: readonly Vector3[], moves: boolean): void {
-    const centre = new Box3().setFromPoints([...points]).getCenter(new Vector3());
-    this.go(direction, centre, this.distanceFor(direction, centre, points), moves);
+    const center = new Box3().setFromPoints([...points]).getCenter(new Vector3());
+    this.go(direction, center, this.distanceFor(direction, center, points), moves);
   }
 
   /** Remembers target and distance. The returned function goes back to them, from the direction of that time. */
@@ -232,7 +232,7 @@ export class View {
   }
 
   /** The smallest distance at which all points are in the picture. */
-  private distanceFor(direction: Vector3, centre: Vector3, points: readonly Vector3[]): number {
+  private distanceFor(direction: Vector3, center: Vector3, points: readonly Vector3[]): number {
     const turn = new PerspectiveCamera();
     turn.position.copy(direction);
     turn.lookAt(0, 0, 0);
@@ -240,7 +240,7 @@ export class View {
     const up = Math.tan((FIELD * Math.PI) / 360) / MARGIN;
     let distance = 1e-6;
     for (const point of points) {
-      const at = point.clone().sub(centre).applyQuaternion(inverse);
+      const at = point.clone().sub(center).applyQuaternion(inverse);
       distance = Math.max(distance, at.z + Math.abs(at.y) / up, at.z + Math.abs(at.x) / (up * this.aspect));
     }
     return distance;
@@ -330,8 +330,8 @@ export class View {
   /** Sets the near and far planes around the model and its ground. */
   private changed(): void {
     const reach = this.box.getSize(new Vector3()).length();
-    const centre = this.box.getCenter(new Vector3());
-    const away = this.camera.position.distanceTo(centre);
+    const center = this.box.getCenter(new Vector3());
+    const away = this.camera.position.distanceTo(center);
     this.camera.far = away + reach * 10;
     // The parallel camera also shows what is behind it: it may be inside a wide model. The other one's near plane is as far away as the
     // least distance from the target allows: depth is the coarser the nearer it is, and the regions of characters are close together.

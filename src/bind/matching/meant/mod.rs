@@ -1,7 +1,6 @@
 //! Which shape a text means: the one that its beginning, middle or end lies on or is nearest to, all texts together
 //! (figure.md, Binding, rule 4).
 
-mod assignment;
 mod units;
 
 use std::sync::Arc;
@@ -12,8 +11,8 @@ use rustc_hash::FxHashMap;
 use super::nearest::{AssignmentProblem, DistanceMode, Target};
 use super::parts::MatchedPart;
 use super::stacking::Stacking;
+use crate::assignment::{self, Assignment};
 use crate::memo::{Bits, Memo};
-use assignment::{Assignment, assign};
 use units::{Candidate, Candidates, Units};
 pub(in crate::bind::matching) use units::{Scope, TextPlace};
 
@@ -21,6 +20,8 @@ pub(in crate::bind::matching) use units::{Scope, TextPlace};
 const NEAREST: usize = 8;
 /// How much cheaper, in font sizes, a group of another text must be for it to be opened.
 const OPENS: f64 = 2.0;
+/// What it costs to leave a text without a unit: more than any unit may cost in sum with what it displaces.
+const UNBOUND: f64 = 1e7;
 /// How many candidates all texts have at most; where more texts compete for the units in one place, the rest get the nearest free ones.
 const MAX_CANDIDATES: usize = 1 << 17;
 /// A binding is uncertain if all texts together would cost less than this more without it, font sizes.
@@ -37,7 +38,7 @@ pub(super) struct Meant {
     pub(super) opened: Vec<usize>,
 }
 
-/// Finds what texts mean. `scope` tells for a main part which texts may mean its unit.
+/// Finds what texts mean, by an assignment whose rows are the texts and whose columns are the units. `scope` tells for a main part which texts may mean its unit.
 pub(super) fn find(
     texts: &[TextPlace],
     stacking: &Arc<Stacking>,
@@ -52,10 +53,14 @@ pub(super) fn find(
     let (candidates, assignment) = loop {
         let each = texts.iter().copied().zip(wanted.iter().copied());
         let candidates = units.candidates(each, memo);
-        let assignment = assign(&candidates, units.units.len());
+        let costs = |text: usize| {
+            let candidates = candidates[text].iter();
+            candidates.map(|candidate| (candidate.unit, candidate.cost))
+        };
+        let assignment = assignment::cheapest(texts.len(), units.units.len(), UNBOUND, costs);
         let mut sum: usize = wanted.iter().sum();
         let mut widened = false;
-        for (text, unit) in assignment.unit_of.iter().enumerate() {
+        for (text, unit) in assignment.column_of.iter().enumerate() {
             if unit.is_none() && wanted[text] < count(text) && sum < MAX_CANDIDATES {
                 sum += wanted[text];
                 wanted[text] *= 2;
@@ -69,7 +74,7 @@ pub(super) fn find(
     let mut assignment = assignment;
     share_out_rest(texts, &units, parts, &mut assignment);
     let main = |unit: usize| units.units[unit].members[0];
-    let found = assignment.unit_of.iter().enumerate();
+    let found = assignment.column_of.iter().enumerate();
     let found = found.map(|(text, unit)| {
         let rival = rival(&candidates, &assignment, text);
         unit.map(|unit| (main(unit), rival.map(main)))
@@ -91,7 +96,7 @@ fn share_out_rest(
     // In the order of their first texts.
     let mut rest: Vec<(Scope, Vec<usize>)> = Vec::new();
     let mut places: FxHashMap<Scope, usize> = FxHashMap::default();
-    for (text, unit) in assignment.unit_of.iter().enumerate() {
+    for (text, unit) in assignment.column_of.iter().enumerate() {
         if unit.is_none() {
             let scope = texts[text].scope;
             let place = *places.entry(scope).or_insert(rest.len());
@@ -103,7 +108,7 @@ fn share_out_rest(
     }
     for (scope, rest) in rest {
         let is_free = |unit: &usize| {
-            units.units[*unit].scope == Some(scope) && assignment.text_of[*unit].is_none()
+            units.units[*unit].scope == Some(scope) && assignment.row_of[*unit].is_none()
         };
         let free: Vec<usize> = (0..units.units.len()).filter(is_free).collect();
         let target = |unit: &usize| Target::of(&parts[units.units[*unit].members[0]]);
@@ -115,8 +120,8 @@ fn share_out_rest(
         };
         for (text, found) in rest.iter().zip(problem.solve()) {
             if let Some(unit) = found.target.map(|target| free[target]) {
-                assignment.unit_of[*text] = Some(unit);
-                assignment.text_of[unit] = Some(*text);
+                assignment.column_of[*text] = Some(unit);
+                assignment.row_of[unit] = Some(*text);
             }
         }
     }
@@ -134,12 +139,12 @@ fn cheapest<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Option<&'a C
 /// The unit that a text would have if it could not have its own, if all texts together would hardly cost more: the text that
 /// has that one may take any other, but none beyond that is displaced.
 fn rival(candidates: &[Candidates], assignment: &Assignment, text: usize) -> Option<usize> {
-    let own = candidate(&candidates[text], assignment.unit_of[text]?)?;
+    let own = candidate(&candidates[text], assignment.column_of[text]?)?;
     let increase = |rival: &Candidate| {
-        let displaced = assignment.text_of[rival.unit].map_or(0.0, |other| {
+        let displaced = assignment.row_of[rival.unit].map_or(0.0, |other| {
             let costs = &candidates[other];
             let can_have = |candidate: &&Candidate| {
-                candidate.unit == own.unit || assignment.text_of[candidate.unit].is_none()
+                candidate.unit == own.unit || assignment.row_of[candidate.unit].is_none()
             };
             let next = cheapest(costs.iter().filter(can_have));
             let now = candidate(costs, rival.unit);
@@ -165,9 +170,9 @@ fn opened(candidates: &[Candidates], assignment: &Assignment, units: &Units) -> 
         let Some(best) = cheapest(candidates.iter()) else {
             continue;
         };
-        let has = assignment.unit_of[text].and_then(|unit| candidate(candidates, unit));
+        let has = assignment.column_of[text].and_then(|unit| candidate(candidates, unit));
         let has = has.map_or(f64::INFINITY, |has| has.cost);
-        let is_taken = assignment.text_of[best.unit].is_some_and(|other| other != text);
+        let is_taken = assignment.row_of[best.unit].is_some_and(|other| other != text);
         let is_group = units.units[best.unit].members.len() > 1;
         if is_group && is_taken && has >= best.cost + OPENS {
             opened.push(best.unit);

@@ -1,0 +1,41 @@
+//! A figure as it is drawn: its parts, without what they look like.
+
+use glam::DVec2;
+
+/// A figure: connected parts.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Figure {
+    /// The parts, in any order.
+    pub parts: Vec<FigurePart>,
+}
+
+/// A part of a figure. Points are in the drawing's plane, x to the drawing's right, y up, in any one unit; the figure faces the
+/// viewer.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FigurePart {
+    /// Its name.
+    pub name: String,
+    /// Index of its parent. Several parts may have none.
+    pub parent: Option<usize>,
+    /// Where it turns.
+    pub joint: DVec2,
+    /// The far end of its axis.
+    pub tip: DVec2,
+    /// The lower left and the upper right corner of its bounding box.
+    pub bounds: [DVec2; 2],
+    /// Its place in the drawing order: parts with a greater number were drawn later and lie nearer to the viewer.
+    pub drawing_order: usize,
+    /// The joints that its string names with `Bone`; empty if it names none.
+    pub bones: Vec<String>,
+    /// What its string says with `Carry`, if it is a limb; `None` if it says nothing.
+    pub carry: Option<Carry>,
+}
+
+/// What a limb takes over from a motion, as a string says with `Carry`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carry {
+    /// The direction of its bone.
+    Direction,
+    /// By how much its bone turns.
+    Change,
+}

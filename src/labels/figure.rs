@@ -1,0 +1,185 @@
+//! Labels the parts of a figure: by name, and where names say nothing by shape (`by_shape`).
+
+use super::part_tree::PartTree;
+use super::placement::{self, Front};
+use super::{Class, Facing, Label, Piece, Side, by_shape, pieces};
+use crate::anatomy::{self, Term};
+use crate::labels::Figure;
+
+/// What is known of a part so far.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PartDraft {
+    pub(super) class: Option<Class>,
+    pub(super) side: Option<Side>,
+    /// What its name says about it.
+    pub(super) terms: Vec<Term>,
+    /// Whether its name gives its class.
+    pub(super) named: bool,
+    /// Worn, held or part of a face: it follows its parent.
+    pub(super) detail: bool,
+    pub(super) piece: Option<Piece>,
+    pub(super) pair: usize,
+    /// The reasons for its class and for its side.
+    pub(super) why: [String; 2],
+}
+
+impl PartDraft {
+    pub(super) fn says(&self, wanted: &[Term]) -> bool {
+        self.terms.iter().any(|term| wanted.contains(term))
+    }
+
+    pub(super) fn set(&mut self, class: Class, why: String) {
+        self.class = Some(class);
+        self.why[0] = why;
+    }
+}
+
+/// Labels the parts of a figure; `None` for a part that follows its parent.
+///
+/// Class by word. Otherwise a child of a limb is its next piece, what stands on the ground is a leg, the topmost part is the
+/// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, since it
+/// faces the viewer. If the head lies more beside the body than above it, the figure is seen in profile, and limbs drawn later
+/// are on its near side.
+pub fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
+    label_drawn(figure).labels
+}
+
+/// A labelled figure.
+#[derive(Debug)]
+pub(crate) struct LabelledFigure {
+    /// Per part its label; `None` for a part that follows its parent.
+    pub(crate) labels: Vec<Option<Label>>,
+    /// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
+    /// there are three pairs or more, or a foot that is attached to the trunk.
+    pub(crate) splayed: Vec<bool>,
+    /// The direction that the figure faces.
+    pub(crate) facing: Facing,
+}
+
+/// Labels a figure's parts, and tells how it is drawn.
+pub(crate) fn label_drawn(figure: &Figure) -> LabelledFigure {
+    let tree = PartTree::new(figure);
+    let mut drafts = by_names(figure);
+    details(&tree, &mut drafts);
+    by_shape::trunk(&tree, &mut drafts);
+    by_shape::patches(&tree, &mut drafts);
+    by_shape::head(&tree, &mut drafts);
+    by_shape::limbs(&tree, &mut drafts);
+    by_shape::hips(&tree, &mut drafts);
+    let facing = Front::of(&tree, &drafts);
+    let limbs = pieces::limbs(&tree, &drafts);
+    placement::sides(&tree, &facing, &limbs, &mut drafts);
+    placement::pairs(&tree, &facing, &limbs, &mut drafts);
+    pieces::name(&tree, &limbs, &mut drafts);
+    let splayed = pieces::splayed(&tree, &limbs, &drafts);
+    let label = |draft: PartDraft| {
+        let class = draft.class?;
+        let [class_why, side_why] = draft.why;
+        Some(Label {
+            class,
+            side: draft.side.filter(|_| class.is_limb()),
+            piece: draft.piece.unwrap_or(Piece::Whole),
+            pair: draft.pair,
+            why: class_why + &side_why,
+        })
+    };
+    LabelledFigure {
+        labels: drafts.into_iter().map(label).collect(),
+        splayed,
+        facing: facing.facing(),
+    }
+}
+
+/// What the names say.
+fn by_names(figure: &Figure) -> Vec<PartDraft> {
+    let parts = &figure.parts;
+    let mut drawn: Vec<usize> = (0..parts.len()).collect();
+    drawn.sort_by_key(|part| parts[*part].drawing_order);
+    let names = drawn.iter().map(|part| anatomy::terms(&parts[*part].name));
+    let mut names: Vec<Vec<Term>> = names.collect();
+    anatomy::dress(&mut names);
+    let mut drafts = vec![PartDraft::default(); parts.len()];
+    for (part, terms) in drawn.into_iter().zip(names) {
+        drafts[part] = by_name(&parts[part].name, terms);
+    }
+    drafts
+}
+
+fn by_name(name: &str, terms: Vec<Term>) -> PartDraft {
+    use Term as T;
+    let mut draft = PartDraft {
+        terms,
+        ..PartDraft::default()
+    };
+    draft.side = match (draft.says(&[T::Left]), draft.says(&[T::Right])) {
+        (true, false) => Some(Side::Left),
+        (false, true) => Some(Side::Right),
+        _ => None,
+    };
+    let sided = draft.side.is_some();
+    // A collar without a side is a dog's or a shirt's.
+    draft.detail = draft.says(&[T::Detail]) || draft.says(&[T::Collar]) && !sided;
+    if draft.detail {
+        return draft;
+    }
+    let class = if draft.says(&[T::Arm, T::UpperArm, T::LowerArm, T::Hand]) {
+        Some(Class::Arm)
+    } else if draft.says(&[T::Leg, T::Thigh, T::Shin, T::Foot]) {
+        Some(Class::Leg)
+    } else if sided && draft.says(&[T::Shoulder, T::Collar]) {
+        Some(Class::Arm)
+    } else if sided && draft.says(&[T::Hip, T::Toe]) {
+        Some(Class::Leg)
+    } else if draft.says(&[T::Head, T::Face]) {
+        Some(Class::Head)
+    } else if draft.says(&[T::Neck]) {
+        Some(Class::Neck)
+    } else if draft.says(&[T::Tail]) {
+        Some(Class::Tail)
+    } else if draft.says(&[T::Hips, T::Hip, T::Waist])
+        || draft.says(&[T::Lower]) && draft.says(&[T::Body])
+    {
+        Some(Class::Hips)
+    } else if draft.says(&[T::Body, T::Chest, T::Belly]) {
+        Some(Class::Body)
+    } else {
+        None
+    };
+    if let Some(class) = class {
+        draft.named = true;
+        draft.set(
+            class,
+            format!("`{name}` is {} by its name", with_article(class)),
+        );
+    }
+    draft
+}
+
+/// What is worn, or a feature of something else, follows it: a shoe on a foot, a face on a head.
+fn details(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
+    for part in 0..drafts.len() {
+        let Some(parent) = tree.parents[part] else {
+            continue;
+        };
+        let is_face = drafts[parent].class == Some(Class::Head) && drafts[part].says(&[Term::Face]);
+        let is_worn =
+            drafts[part].says(&[Term::Worn]) && drafts[parent].says(&[Term::Hand, Term::Foot]);
+        if is_face || is_worn {
+            drafts[part].class = None;
+            drafts[part].detail = true;
+        }
+    }
+}
+
+pub(super) fn is_trunk(class: Option<Class>) -> bool {
+    matches!(class, Some(Class::Body | Class::Hips))
+}
+
+/// The name of a class with its article.
+fn with_article(class: Class) -> String {
+    match class {
+        Class::Arm => "an arm".to_owned(),
+        Class::Hips => "the hips".to_owned(),
+        _ => format!("a {}", class.name()),
+    }
+}

@@ -1,0 +1,241 @@
+//! Finds the limbs of a skeleton by the names of its joints.
+
+use super::joint_tree::JointTree;
+use super::skeleton::plain_names;
+use super::{Class, Piece, Side};
+use crate::anatomy::{self, Term, name_words};
+use crate::mocap::Skeleton;
+
+/// How many limbs of one name are tried; meaningful names do not repeat so often.
+const MAX_STARTS: usize = 16;
+
+/// What a joint's name says, before its neighbours are considered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum JointName {
+    /// Twist, share, finger, face and end joints: not used to drive parts.
+    Helper,
+    Hips,
+    Spine,
+    Neck,
+    Head,
+    Tail,
+    Limb(LimbWord, Side),
+}
+
+/// The word for a limb's piece in the name of a joint that has a side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LimbWord {
+    Collar,
+    Shoulder,
+    Arm,
+    UpperArm,
+    LowerArm,
+    Hand,
+    Hip,
+    Leg,
+    Thigh,
+    Shin,
+    Foot,
+    Toe,
+}
+
+/// The joints of a limb as far as they are known.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct LimbJoints {
+    pub(super) collar: Option<usize>,
+    pub(super) upper: Option<usize>,
+    pub(super) lower: Option<usize>,
+    pub(super) end: Option<usize>,
+    pub(super) toe: Option<usize>,
+}
+
+/// What the names of all joints say.
+pub(super) fn named(skeleton: &Skeleton) -> Vec<Option<JointName>> {
+    plain_names(skeleton).into_iter().map(name).collect()
+}
+
+fn name(name: &str) -> Option<JointName> {
+    use Term as T;
+    // MakeHuman names helper joints, which only offset their child, like `__UpLeg_L`.
+    if name.starts_with("__") {
+        return Some(JointName::Helper);
+    }
+    let terms = anatomy::terms(name);
+    let has = |term: Term| terms.contains(&term);
+    let any = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
+    let finger = has(T::Middle) && !any(&[T::Body, T::Chest, T::Belly, T::Back, T::Neck]);
+    let worn = any(&[T::BodyWear, T::HeadWear, T::HipWear]);
+    if any(&[T::Helper, T::Detail, T::Face]) || worn || finger {
+        return Some(JointName::Helper);
+    }
+    let side = match (has(T::Left), has(T::Right)) {
+        (true, false) => Some(Side::Left),
+        (false, true) => Some(Side::Right),
+        _ => None,
+    };
+    if let Some(side) = side {
+        return limb_word(&terms).map(|word| JointName::Limb(word, side));
+    }
+    if any(&[T::Hips, T::Hip]) || has(T::Lower) && has(T::Body) {
+        Some(JointName::Hips)
+    } else if has(T::Head) {
+        Some(JointName::Head)
+    } else if has(T::Neck) {
+        Some(JointName::Neck)
+    } else if has(T::Tail) {
+        Some(JointName::Tail)
+    } else if any(&[T::Body, T::Chest, T::Belly, T::Back, T::Waist]) {
+        Some(JointName::Spine)
+    } else {
+        None
+    }
+}
+
+fn limb_word(terms: &[Term]) -> Option<LimbWord> {
+    use Term as T;
+    let has = |term: Term| terms.contains(&term);
+    let low = has(T::Lower);
+    Some(if has(T::Toe) || has(T::Fore) && has(T::Foot) {
+        LimbWord::Toe
+    } else if has(T::Foot) {
+        LimbWord::Foot
+    } else if has(T::Hand) {
+        LimbWord::Hand
+    } else if has(T::LowerArm) || has(T::Arm) && (low || has(T::Fore)) {
+        LimbWord::LowerArm
+    } else if has(T::UpperArm) || has(T::Arm) && has(T::Upper) {
+        LimbWord::UpperArm
+    } else if has(T::Shin) || has(T::Leg) && low {
+        LimbWord::Shin
+    } else if has(T::Thigh) || has(T::Leg) && has(T::Upper) {
+        LimbWord::Thigh
+    } else if has(T::Arm) {
+        LimbWord::Arm
+    } else if has(T::Leg) {
+        LimbWord::Leg
+    } else if has(T::Collar) {
+        LimbWord::Collar
+    } else if has(T::Shoulder) {
+        LimbWord::Shoulder
+    } else if has(T::Hip) {
+        LimbWord::Hip
+    } else {
+        return None;
+    })
+}
+
+/// The limb of a class and side by name; of several the one with the most bones.
+pub(super) fn limb(
+    tree: &JointTree,
+    names: &[&str],
+    named: &[Option<JointName>],
+    class: Class,
+    side: Side,
+) -> Option<LimbJoints> {
+    let pieces = pieces(tree, named, class, side);
+    let start = (0..tree.len())
+        .filter(|joint| matches!(pieces[*joint], Some(Piece::Upper)))
+        .filter(|joint| !continues(tree, names, *joint))
+        .take(MAX_STARTS)
+        .map(|joint| (joint, limb_joints(tree, &pieces, joint)))
+        // Of equal ones the first, nearest to the root.
+        .reduce(|best, other| {
+            let bones = |found: &LimbJoints| {
+                usize::from(found.lower.is_some()) + usize::from(found.end.is_some())
+            };
+            let better =
+                (bones(&other.1), tree.depths[best.0]) > (bones(&best.1), tree.depths[other.0]);
+            if better { other } else { best }
+        })?;
+    Some(start.1)
+}
+
+/// Whether a joint continues a run of joints with one name and increasing numbers: `UpArm2` below `UpArm1`.
+fn continues(tree: &JointTree, names: &[&str], joint: usize) -> bool {
+    let plain = |joint: usize| {
+        let mut words = name_words::split(names[joint]);
+        words.retain(|word| !name_words::is_number(word));
+        words
+    };
+    tree.parents[joint].is_some_and(|parent| {
+        names[parent] != names[joint]
+            && !names[parent].starts_with("__")
+            && plain(parent) == plain(joint)
+    })
+}
+
+/// Which bones of a limb begin at each joint.
+fn pieces(
+    tree: &JointTree,
+    named: &[Option<JointName>],
+    class: Class,
+    side: Side,
+) -> Vec<Option<Piece>> {
+    let word = |joint: usize| match named[joint] {
+        Some(JointName::Limb(word, its)) if its == side => Some(word),
+        _ => None,
+    };
+    let follows = |wanted: &[LimbWord]| {
+        let mut below = vec![false; tree.len()];
+        for joint in (0..tree.len()).rev() {
+            if let Some(parent) = tree.parents[joint] {
+                below[parent] |=
+                    below[joint] || word(joint).is_some_and(|word| wanted.contains(&word));
+            }
+        }
+        below
+    };
+    let arm_follows = follows(&[LimbWord::Arm, LimbWord::UpperArm]);
+    let thigh_follows = follows(&[LimbWord::Thigh]);
+    let upper_arm = (0..tree.len()).any(|joint| word(joint) == Some(LimbWord::UpperArm));
+    let hip_is_thigh = |joint: usize| !thigh_follows[joint];
+    let thigh = (0..tree.len()).any(|joint| match word(joint) {
+        Some(LimbWord::Thigh) => true,
+        Some(LimbWord::Hip) => hip_is_thigh(joint),
+        _ => false,
+    });
+    (0..tree.len())
+        .map(|joint| {
+            let word = word(joint)?;
+            Some(match (class, word) {
+                (Class::Arm, LimbWord::Collar) => Piece::Collar,
+                (Class::Arm, LimbWord::Shoulder) if arm_follows[joint] => Piece::Collar,
+                (Class::Arm, LimbWord::Shoulder | LimbWord::UpperArm) => Piece::Upper,
+                (Class::Arm, LimbWord::Arm) if upper_arm => Piece::Lower,
+                (Class::Arm, LimbWord::Arm) => Piece::Upper,
+                (Class::Arm, LimbWord::LowerArm) => Piece::Lower,
+                (Class::Arm, LimbWord::Hand) => Piece::End,
+                (Class::Leg, LimbWord::Hip) if !hip_is_thigh(joint) => Piece::Collar,
+                (Class::Leg, LimbWord::Hip | LimbWord::Thigh) => Piece::Upper,
+                (Class::Leg, LimbWord::Leg) if thigh => Piece::Lower,
+                (Class::Leg, LimbWord::Leg) => Piece::Upper,
+                (Class::Leg, LimbWord::Shin) => Piece::Lower,
+                (Class::Leg, LimbWord::Foot) => Piece::End,
+                (Class::Leg, LimbWord::Toe) => Piece::Beyond,
+                _ => return None,
+            })
+        })
+        .collect()
+}
+
+/// The joints of the limb whose upper bone begins at `upper`.
+fn limb_joints(tree: &JointTree, pieces: &[Option<Piece>], upper: usize) -> LimbJoints {
+    let first_below = |above: usize, piece: Piece| {
+        let inside = tree.branch(above);
+        (above + 1..tree.len())
+            .filter(|joint| inside[*joint] && pieces[*joint] == Some(piece))
+            .min_by_key(|joint| (tree.depths[*joint], *joint))
+    };
+    let lower = first_below(upper, Piece::Lower);
+    let end = first_below(lower.unwrap_or(upper), Piece::End);
+    LimbJoints {
+        collar: tree
+            .upward(upper)
+            .skip(1)
+            .find(|joint| pieces[*joint] == Some(Piece::Collar)),
+        upper: Some(upper),
+        lower,
+        end,
+        toe: first_below(end.or(lower).unwrap_or(upper), Piece::Beyond),
+    }
+}

@@ -1,0 +1,221 @@
+//! Labels for the joints of a skeleton and the parts of a figure: head, arm or leg, which side, which piece of it.
+//!
+//! Both are labelled by name first, and by shape where names say nothing: [`label_skeleton`] and [`label_figure`]. A label
+//! keeps the reason for it. All tables of words are in `anatomy`.
+
+mod by_shape;
+mod drawn_figure;
+mod figure;
+mod joint_names;
+mod joint_tree;
+mod part_tree;
+mod pieces;
+mod placement;
+mod sides;
+mod skeleton;
+mod topology;
+mod trunk;
+
+#[cfg(test)]
+pub(crate) mod tests;
+
+use glam::DVec3;
+
+use crate::mocap::{Skeleton, Transform};
+
+pub use drawn_figure::{Carry, Figure, FigurePart};
+pub use figure::label_figure;
+pub(crate) use figure::{LabelledFigure, label_drawn};
+pub use skeleton::{Anatomy, Limb, label_clip, label_skeleton};
+
+pub(crate) use joint_tree::JointTree;
+pub(crate) use skeleton::plain_names;
+
+/// What a joint or a part belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// The head.
+    Head,
+    /// The neck.
+    Neck,
+    /// The trunk above the hips, or all of it.
+    Body,
+    /// The hips: the trunk's lower end.
+    Hips,
+    /// An arm, a wing.
+    Arm,
+    /// A leg.
+    Leg,
+    /// A tail.
+    Tail,
+}
+
+impl Class {
+    /// Its name in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Head => "head",
+            Self::Neck => "neck",
+            Self::Body => "body",
+            Self::Hips => "hips",
+            Self::Arm => "arm",
+            Self::Leg => "leg",
+            Self::Tail => "tail",
+        }
+    }
+
+    /// Whether it is an arm or a leg.
+    pub fn is_limb(self) -> bool {
+        matches!(self, Self::Arm | Self::Leg)
+    }
+}
+
+/// A side from the figure's or the actor's own point of view, not the viewer's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Side {
+    /// Left.
+    Left,
+    /// Right.
+    Right,
+}
+
+impl Side {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
+
+    /// The opposite side.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+
+    /// Its name in messages.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+}
+
+/// The direction that a figure faces.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub enum Facing {
+    /// Towards the viewer.
+    #[default]
+    Viewer,
+    /// To the drawing's left.
+    Left,
+    /// To the drawing's right.
+    Right,
+}
+
+impl Facing {
+    /// The rotation from a body's own axes (x its left, y up, z its front) to the drawing's.
+    pub fn turn(self) -> glam::DQuat {
+        match self {
+            Self::Viewer => glam::DQuat::IDENTITY,
+            Self::Left => glam::DQuat::from_rotation_y(-std::f64::consts::FRAC_PI_2),
+            Self::Right => glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
+        }
+    }
+}
+
+/// A piece of a limb.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Piece {
+    /// The whole limb, without a hand or foot that is a piece of its own.
+    Whole,
+    /// The collar bone; only in skeletons.
+    Collar,
+    /// Upper arm, thigh.
+    Upper,
+    /// Forearm, shin.
+    Lower,
+    /// Hand, foot.
+    End,
+    /// What follows the hand or foot: fingers, toes.
+    Beyond,
+}
+
+impl Piece {
+    /// Its name in messages, for a limb of this class.
+    pub fn name(self, class: Class) -> &'static str {
+        match (self, class) {
+            (Self::Collar, Class::Arm) => "collar bone",
+            (Self::Upper, Class::Arm) => "upper arm",
+            (Self::Lower, Class::Arm) => "forearm",
+            (Self::End, Class::Arm) => "hand",
+            (Self::Beyond, Class::Arm) => "fingers",
+            (Self::Collar, Class::Leg) => "hip bone",
+            (Self::Upper, Class::Leg) => "thigh",
+            (Self::Lower, Class::Leg) => "shin",
+            (Self::End, Class::Leg) => "foot",
+            (Self::Beyond, Class::Leg) => "toes",
+            (_, class) => class.name(),
+        }
+    }
+}
+
+/// What a joint or a part is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// What it belongs to.
+    pub class: Class,
+    /// The side of a limb.
+    pub side: Option<Side>,
+    /// Which piece of a limb; [`Piece::Whole`] for everything else.
+    pub piece: Piece,
+    /// Which limb of its class and side: 0 is the rearmost or lowest. In a figure also which piece of the trunk, counted from
+    /// the hips, and of neck and tail, counted from the trunk.
+    pub pair: usize,
+    /// The reason, for people to read: "`Rarm` is a right arm by its name".
+    pub why: String,
+}
+
+impl Label {
+    /// A short description: `right arm, upper`.
+    pub fn describe(&self) -> String {
+        let side = self.side.map_or("", Side::name);
+        let space = if side.is_empty() { "" } else { " " };
+        let piece = match self.piece {
+            Piece::Whole => "",
+            Piece::Collar => ", collar",
+            Piece::Upper => ", upper",
+            Piece::Lower => ", lower",
+            Piece::End => ", end",
+            Piece::Beyond => ", beyond",
+        };
+        format!("{side}{space}{}{piece}", self.class.name())
+    }
+}
+
+/// The far end of a chain of bones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Tip {
+    /// A joint.
+    Joint(usize),
+    /// The end of a bone that leads to no joint.
+    End {
+        /// The joint that the bone begins at.
+        joint: usize,
+        /// Its index in [`Joint::ends`](crate::mocap::Joint::ends).
+        end: usize,
+    },
+}
+
+impl Tip {
+    /// Its position in a pose of the skeleton.
+    pub(crate) fn place(self, skeleton: &Skeleton, pose: &[Transform]) -> DVec3 {
+        match self {
+            Self::Joint(joint) => pose[joint].position,
+            Self::End { joint, end } => {
+                let placed = pose[joint];
+                placed.rotation * skeleton.joints[joint].ends[end] + placed.position
+            }
+        }
+    }
+}

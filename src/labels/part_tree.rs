@@ -1,0 +1,226 @@
+//! A figure as a tree of bounding boxes: parents, children, and what stands on the ground.
+
+use glam::DVec2;
+use rustc_hash::FxHashSet;
+
+use crate::labels::{Figure, FigurePart};
+
+/// Parts whose lowest point is at most this share of the figure's height above the ground stand on it.
+const GROUND: f64 = 0.12;
+
+/// Centres that differ by at most about this share of the figure's height mirror each other.
+const MIRRORED: f64 = 0.06;
+/// The least share of the parts beside the axis that a symmetric figure mirrors, and the least number of them.
+const SYMMETRIC: f64 = 0.9;
+const FEWEST_MIRRORED: usize = 4;
+
+/// The parts of a figure as a tree.
+#[derive(Debug)]
+pub(super) struct PartTree<'a> {
+    pub(super) parts: &'a [FigurePart],
+    /// Parents; a part that would be its own ancestor has none.
+    pub(super) parents: Vec<Option<usize>>,
+    pub(super) children: Vec<Vec<usize>>,
+    /// All parts, parents before children.
+    pub(super) order: Vec<usize>,
+    /// Per part the number of its descendants.
+    pub(super) descendants: Vec<usize>,
+    /// Per part the lowest point of itself and its descendants.
+    lowest: Vec<f64>,
+    ground: f64,
+    pub(super) height: f64,
+}
+
+impl<'a> PartTree<'a> {
+    pub(super) fn new(figure: &'a Figure) -> Self {
+        let parts = figure.parts.as_slice();
+        let parents = parents(parts);
+        let mut children = vec![Vec::new(); parts.len()];
+        for (index, parent) in parents.iter().enumerate() {
+            if let Some(parent) = parent {
+                children[*parent].push(index);
+            }
+        }
+        let mut order: Vec<usize> = (0..parts.len())
+            .filter(|part| parents[*part].is_none())
+            .collect();
+        let mut next = 0;
+        while let Some(part) = order.get(next) {
+            order.extend(&children[*part]);
+            next += 1;
+        }
+        let mut descendants = vec![0; parts.len()];
+        let mut lowest: Vec<f64> = parts.iter().map(|part| corners(part)[0].y).collect();
+        for part in order.iter().rev() {
+            if let Some(parent) = parents[*part] {
+                descendants[parent] += descendants[*part] + 1;
+                lowest[parent] = lowest[parent].min(lowest[*part]);
+            }
+        }
+        let ground = parts
+            .iter()
+            .map(|part| corners(part)[0].y)
+            .fold(f64::INFINITY, f64::min);
+        let top = parts
+            .iter()
+            .map(|part| corners(part)[1].y)
+            .fold(f64::NEG_INFINITY, f64::max);
+        Self {
+            parts,
+            parents,
+            children,
+            order,
+            descendants,
+            lowest,
+            ground,
+            height: top - ground,
+        }
+    }
+
+    /// Whether a part or one of its descendants stands on the figure's ground.
+    pub(super) fn stands(&self, part: usize) -> bool {
+        self.lowest[part] <= self.ground + GROUND * self.height
+    }
+
+    /// The height of a point above the ground by a share of the figure's height.
+    pub(super) fn above_ground(&self, share: f64) -> f64 {
+        self.ground + share * self.height
+    }
+
+    /// A part's name.
+    pub(super) fn name(&self, part: usize) -> &'a str {
+        &self.parts[part].name
+    }
+
+    /// Width and height of a part's bounding box.
+    pub(super) fn size(&self, part: usize) -> DVec2 {
+        let [low, high] = corners(&self.parts[part]);
+        high - low
+    }
+
+    /// Whether at least this share of a part's bounding box lies within another box. A box without area lies there with its
+    /// centre.
+    pub(super) fn is_over(&self, part: usize, [low, high]: [DVec2; 2], share: f64) -> bool {
+        let own = corners(&self.parts[part]);
+        let shared = (own[1].min(high) - own[0].max(low)).max(DVec2::ZERO);
+        let middle = self.middle(part);
+        match self.size(part).element_product() {
+            area if area > 0.0 => shared.element_product() >= share * area,
+            _ => middle.cmpge(low).all() && middle.cmple(high).all(),
+        }
+    }
+
+    /// Whether a part can be the head that wears a hat: their boxes touch, and the head is no detail of the hat.
+    pub(super) fn may_wear(&self, part: usize, hat: usize) -> bool {
+        let [own, hats] = [part, hat].map(|part| corners(&self.parts[part]));
+        let touches = own[0].cmple(hats[1]).all() && hats[0].cmple(own[1]).all();
+        touches && self.size(part).element_product() * 2.0 >= self.size(hat).element_product()
+    }
+
+    /// Per part the length of the longest chain of parts that begins with it.
+    pub(super) fn reaches(&self) -> Vec<f64> {
+        let own = |part: usize| self.joint(part).distance(self.tip(part));
+        let mut reaches: Vec<f64> = (0..self.parts.len()).map(own).collect();
+        for part in self.order.iter().rev() {
+            let longest = self.children[*part].iter().map(|child| reaches[*child]);
+            reaches[*part] += longest.fold(0.0, f64::max);
+        }
+        reaches
+    }
+
+    /// Whether most parts beside an upright axis have another part as their mirror image.
+    pub(super) fn is_symmetric(&self, axis: f64) -> bool {
+        let cell = (MIRRORED * self.height).max(f64::MIN_POSITIVE);
+        let cells = |part: usize| {
+            let middle = self.middle(part);
+            [
+                ((middle.x - axis) / cell).round() as i64,
+                (middle.y / cell).round() as i64,
+            ]
+        };
+        let beside: Vec<[i64; 2]> = (0..self.parts.len())
+            .map(cells)
+            .filter(|[x, _]| x.unsigned_abs() > 1)
+            .collect();
+        let all: FxHashSet<[i64; 2]> = beside.iter().copied().collect();
+        let near = |at: i64| [at.saturating_sub(1), at, at.saturating_add(1)];
+        let is_mirrored = |[x, y]: &&[i64; 2]| {
+            let xs = near(x.saturating_neg()).into_iter();
+            let mut cells = xs.flat_map(|x| near(*y).map(|y| [x, y]));
+            cells.any(|cell| all.contains(&cell))
+        };
+        let mirrored = beside.iter().filter(is_mirrored).count();
+        mirrored >= FEWEST_MIRRORED && mirrored as f64 >= SYMMETRIC * beside.len() as f64
+    }
+
+    /// Whether a part lies on the ground and is wider than high, as a penguin's foot is.
+    pub(super) fn is_foot_on_ground(&self, part: usize) -> bool {
+        let size = self.size(part);
+        let top = corners(&self.parts[part])[1].y;
+        size.x > size.y && top <= self.above_ground(GROUND)
+    }
+
+    /// The bounding box of some parts; an empty box at the origin if there are none.
+    pub(super) fn around(&self, parts: impl Iterator<Item = usize>) -> [DVec2; 2] {
+        parts
+            .map(|part| corners(&self.parts[part]))
+            .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+            .unwrap_or_default()
+    }
+
+    /// The centre of a part's bounding box.
+    pub(super) fn middle(&self, part: usize) -> DVec2 {
+        let [low, high] = corners(&self.parts[part]);
+        low.midpoint(high)
+    }
+
+    /// Where a part turns.
+    pub(super) fn joint(&self, part: usize) -> DVec2 {
+        finite(self.parts[part].joint)
+    }
+
+    /// The far end of a part.
+    pub(super) fn tip(&self, part: usize) -> DVec2 {
+        finite(self.parts[part].tip)
+    }
+}
+
+/// A part's bounding box, lower left corner first, with finite numbers.
+fn corners(part: &FigurePart) -> [DVec2; 2] {
+    let [a, b] = part.bounds.map(finite);
+    [a.min(b), a.max(b)]
+}
+
+fn finite(point: DVec2) -> DVec2 {
+    /// Beyond every drawing; sums and products of such numbers stay finite.
+    const FAR: f64 = 1e100;
+    DVec2::from_array(point.to_array().map(|number| {
+        if number.is_nan() {
+            0.0
+        } else {
+            number.clamp(-FAR, FAR)
+        }
+    }))
+}
+
+fn parents(parts: &[FigurePart]) -> Vec<Option<usize>> {
+    let mut parents: Vec<Option<usize>> = parts
+        .iter()
+        .map(|part| part.parent.filter(|parent| *parent < parts.len()))
+        .collect();
+    // The walk that visited a part last: 0 for none, else the index of its start plus one.
+    let mut seen = vec![0; parts.len()];
+    for start in 0..parts.len() {
+        let mut part = start;
+        while seen[part] == 0 {
+            seen[part] = start + 1;
+            match parents[part] {
+                // Back on the same walk: a cycle, cut where it closes.
+                Some(parent) if seen[parent] == start + 1 => parents[part] = None,
+                Some(parent) => part = parent,
+                None => break,
+            }
+        }
+    }
+    parents
+}

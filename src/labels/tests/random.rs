@@ -1,0 +1,215 @@
+//! Skeletons and figures that nobody would make.
+
+use std::time::{Duration, Instant};
+
+use glam::{DVec2, DVec3};
+use proptest::prelude::*;
+
+use crate::labels::{Anatomy, label_figure, label_skeleton};
+use crate::labels::{Figure, FigurePart};
+use crate::mocap::{Joint, Skeleton};
+use crate::retarget::{MatchedPart, match_figure};
+
+fn name() -> impl Strategy<Value = String> {
+    let words = prop::sample::select(vec![
+        "",
+        "Hips",
+        "LeftArm",
+        "LeftArm1",
+        "rShldr",
+        "L",
+        "__UpLeg_L",
+        "UpLeg_L",
+        "Spine",
+        "Neck",
+        "Head",
+        "Tail",
+        "左足",
+        "LeftFoot",
+        "RightLeg",
+        "a:b:",
+        ":",
+        "_",
+        "x_Left",
+        "ﾋｼﾞ",
+        "Skirt",
+        "hat",
+    ]);
+    prop_oneof![words.prop_map(str::to_owned), "\\PC{0,12}"]
+}
+
+fn number() -> impl Strategy<Value = f64> {
+    prop_oneof![4 => -100.0..100.0, 1 => Just(0.0), 1 => Just(1.0), 1 => any::<f64>(), 1 => Just(f64::NAN)]
+}
+
+fn skeleton() -> impl Strategy<Value = Skeleton> {
+    let joint = (
+        name(),
+        any::<prop::sample::Index>(),
+        any::<bool>(),
+        [number(), number(), number()],
+        0..3_usize,
+    );
+    prop::collection::vec(joint, 0..60).prop_map(|joints| {
+        let joints =
+            joints
+                .into_iter()
+                .enumerate()
+                .map(|(index, (name, parent, root, offset, ends))| Joint {
+                    name,
+                    parent: (index > 0 && !root).then(|| parent.index(index)),
+                    offset: DVec3::from_array(offset),
+                    ends: vec![DVec3::from_array(offset); ends],
+                    ..Joint::default()
+                });
+        Skeleton {
+            joints: joints.collect(),
+        }
+    })
+}
+
+fn figure() -> impl Strategy<Value = Figure> {
+    let point = || [number(), number()].prop_map(DVec2::from_array);
+    let part = (
+        name(),
+        prop::option::of(0..40_usize),
+        point(),
+        point(),
+        [point(), point()],
+        prop::collection::vec(name(), 0..4),
+    );
+    prop::collection::vec(part, 0..30).prop_map(|parts| {
+        let parts = parts.into_iter().enumerate().map(
+            |(drawn, (name, parent, joint, tip, bounds, bones))| FigurePart {
+                name,
+                parent,
+                joint,
+                tip,
+                bounds,
+                drawing_order: drawn / 2,
+                bones,
+                carry: None,
+            },
+        );
+        Figure {
+            parts: parts.collect(),
+        }
+    })
+}
+
+fn joints_are_there(anatomy: &Anatomy, joints: usize) {
+    let limbs = anatomy.limbs.iter().flat_map(|limb| {
+        [
+            limb.collar,
+            Some(limb.upper),
+            limb.lower,
+            limb.end,
+            limb.toe,
+        ]
+    });
+    let trunk = [anatomy.hips, anatomy.head]
+        .into_iter()
+        .chain(limbs)
+        .flatten();
+    let all = trunk.chain(
+        anatomy
+            .spine
+            .iter()
+            .chain(&anatomy.neck)
+            .chain(&anatomy.tail)
+            .copied(),
+    );
+    assert!(all.into_iter().all(|joint| joint < joints));
+}
+
+proptest! {
+    #[test]
+    fn any_skeleton_and_any_figure(skeleton in skeleton(), figure in figure()) {
+        let anatomy = label_skeleton(&skeleton);
+        prop_assert_eq!(anatomy.labels.len(), skeleton.joints.len());
+        joints_are_there(&anatomy, skeleton.joints.len());
+        let matching = match_figure(&figure, &skeleton, &anatomy);
+        prop_assert_eq!(matching.parts.len(), figure.parts.len());
+        for MatchedPart { drive, why, .. } in &matching.parts {
+            prop_assert!(!why.is_empty());
+            prop_assert!(drive.as_ref().is_none_or(|drive| drive.joint < skeleton.joints.len()));
+        }
+        prop_assert_eq!(matching, match_figure(&figure, &skeleton, &label_skeleton(&skeleton)));
+    }
+}
+
+/// A skeleton of many joints; `parent` gives the parent of a joint.
+fn many(count: usize, name: impl Fn(usize) -> String, parent: impl Fn(usize) -> usize) -> Skeleton {
+    let joints = (0..count).map(|index| Joint {
+        name: name(index),
+        parent: (index > 0).then(|| parent(index)),
+        offset: DVec3::ONE,
+        ..Joint::default()
+    });
+    Skeleton {
+        joints: joints.collect(),
+    }
+}
+
+#[test]
+fn many_joints_in_any_shape() {
+    const JOINTS: usize = 20_000;
+    let names: [fn(usize) -> String; 3] = [
+        |_| String::new(),
+        |_| "LeftArm".to_owned(),
+        |index| format!("x_{index}"),
+    ];
+    let parents: [fn(usize) -> usize; 5] = [
+        |index| index - 1,
+        |_| 0,
+        |index| (index - 1) / 2,
+        |index| (index - 1) & !1,
+        |index| (index - 1) / 100,
+    ];
+    let start = Instant::now();
+    for name in names {
+        for parent in parents {
+            let skeleton = many(JOINTS, name, parent);
+            let anatomy = label_skeleton(&skeleton);
+            assert_eq!(anatomy.labels.len(), JOINTS);
+        }
+    }
+    // Far above what it takes, far below what work in the square of the joints would.
+    assert!(
+        start.elapsed() < Duration::from_secs(60),
+        "{:?}",
+        start.elapsed()
+    );
+}
+
+#[test]
+fn cycles_and_parents_out_of_range() {
+    let part = |name: &str, parent| FigurePart {
+        name: name.to_owned(),
+        parent: Some(parent),
+        tip: DVec2::Y,
+        ..FigurePart::default()
+    };
+    let figure = Figure {
+        parts: vec![
+            part("a", 1),
+            part("Rarm", 2),
+            part("b", 0),
+            part("c", 3),
+            part("d", 99),
+            part("e", 0),
+        ],
+    };
+    assert_eq!(label_figure(&figure).len(), 6);
+    // A root with children is a trunk.
+    assert!(label_figure(&figure)[1].is_some());
+}
+
+#[test]
+fn parents_after_their_children_are_ignored() {
+    let mut skeleton = many(5, |_| "Head".to_owned(), |index| index - 1);
+    skeleton.joints[0].parent = Some(3);
+    skeleton.joints[2].parent = Some(99);
+    skeleton.joints[3].parent = Some(3);
+    assert_eq!(label_skeleton(&skeleton).labels.len(), 5);
+}

@@ -1,0 +1,236 @@
+//! Diagnostics for programs: `check --format json`.
+//!
+//! The schema is stable: members may be added, but none is renamed or removed. `version` counts breaking changes.
+
+use serde::Serialize;
+
+use super::pretty;
+use crate::diagnostic::{Diagnostic, Edit, Fix, Related};
+use crate::source::LineIndex;
+use crate::source::Span;
+
+/// A drawing with its diagnostics, ready to be reported.
+#[derive(Debug, Clone, Copy)]
+pub struct Findings<'a> {
+    /// The path as the user wrote it.
+    pub path: &'a str,
+    /// Its text, which the spans refer to.
+    pub text: &'a str,
+    /// The diagnostics.
+    pub diagnostics: &'a [Diagnostic],
+    /// How the model looks from the front, if that was asked for.
+    pub look: Option<Likeness>,
+}
+
+/// How the model looks from the front, compared with the drawing.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Likeness {
+    /// The share of the pixels that show the right color, 0 to 1.
+    pub right: f64,
+    /// The number of pixels that were compared.
+    pub pixels: usize,
+}
+
+/// The findings as JSON, with a line feed at the end.
+///
+/// Lines and columns count from 1, columns in characters; `start` and `end` are bytes of the drawing's
+/// text. Ends are exclusive.
+pub fn findings_json(drawings: &[Findings]) -> String {
+    let report = Report {
+        version: 1,
+        drawings: drawings.iter().map(drawing).collect(),
+    };
+    pretty(&report)
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    version: u32,
+    drawings: Vec<Drawing<'a>>,
+}
+
+#[derive(Serialize)]
+struct Drawing<'a> {
+    drawing: &'a str,
+    diagnostics: Vec<Finding<'a>>,
+    /// With `--look`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    look: Option<Likeness>,
+}
+
+#[derive(Serialize)]
+struct Finding<'a> {
+    code: &'static str,
+    severity: &'static str,
+    message: &'a str,
+    #[serde(flatten)]
+    place: Place,
+    /// Where on the page the text or the shape is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on_page: Option<&'static str>,
+    label: Option<&'a str>,
+    help: Option<&'a str>,
+    related: Vec<RelatedEntry<'a>>,
+    fixes: Vec<FixEntry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Place {
+    line: usize,
+    column: usize,
+    end_line: usize,
+    end_column: usize,
+    start: usize,
+    end: usize,
+}
+
+#[derive(Serialize)]
+struct RelatedEntry<'a> {
+    message: &'a str,
+    #[serde(flatten)]
+    place: Place,
+}
+
+#[derive(Serialize)]
+struct FixEntry<'a> {
+    title: &'a str,
+    edits: Vec<Change<'a>>,
+}
+
+#[derive(Serialize)]
+struct Change<'a> {
+    text: &'a str,
+    #[serde(flatten)]
+    place: Place,
+}
+
+fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
+    let places = LineIndex::new(findings.text);
+    let diagnostics = findings.diagnostics.iter();
+    Drawing {
+        drawing: findings.path,
+        diagnostics: diagnostics.map(|one| finding(one, &places)).collect(),
+        look: findings.look.map(|look| Likeness {
+            right: (look.right * 1e4).floor() / 1e4,
+            ..look
+        }),
+    }
+}
+
+fn finding<'a>(diagnostic: &'a Diagnostic, places: &LineIndex<&str>) -> Finding<'a> {
+    let related = |related: &'a Related| RelatedEntry {
+        message: &related.message,
+        place: place(related.span, places),
+    };
+    let change = |edit: &'a Edit| Change {
+        text: &edit.text,
+        place: place(edit.span, places),
+    };
+    let fix = |fix: &'a Fix| FixEntry {
+        title: &fix.title,
+        edits: fix.edits.iter().map(change).collect(),
+    };
+    Finding {
+        code: diagnostic.code.id(),
+        severity: diagnostic.severity().name(),
+        message: &diagnostic.message,
+        place: place(diagnostic.span, places),
+        on_page: diagnostic.place,
+        label: diagnostic.label.as_deref(),
+        help: diagnostic.help.as_deref(),
+        related: diagnostic.related.iter().map(related).collect(),
+        fixes: diagnostic.fixes.iter().map(fix).collect(),
+    }
+}
+
+fn place(span: Span, places: &LineIndex<&str>) -> Place {
+    let (line, column) = places.line_column(span.start);
+    let (end_line, end_column) = places.line_column(span.end);
+    Place {
+        line,
+        column,
+        end_line,
+        end_column,
+        start: span.start,
+        end: span.end,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{DRAWING, at, misspelt};
+    use super::*;
+
+    #[test]
+    fn the_schema_is_what_it_was() {
+        let finding = misspelt(DRAWING).related(at(DRAWING, "頭"), "the parent");
+        let one = Findings {
+            path: "a.svg",
+            text: DRAWING,
+            diagnostics: &[finding],
+            look: None,
+        };
+        let none = Findings {
+            path: "b.svg",
+            text: "",
+            diagnostics: &[],
+            look: None,
+        };
+        insta::assert_snapshot!(findings_json(&[one, none]), @r#"
+        {
+          "version": 1,
+          "drawings": [
+            {
+              "drawing": "a.svg",
+              "diagnostics": [
+                {
+                  "code": "E101",
+                  "severity": "error",
+                  "message": "unknown keyword `Shap`",
+                  "line": 2,
+                  "column": 21,
+                  "end_line": 2,
+                  "end_column": 25,
+                  "start": 26,
+                  "end": 30,
+                  "label": "not a keyword",
+                  "help": "`okoshi explain` lists the keywords",
+                  "related": [
+                    {
+                      "message": "the parent",
+                      "line": 7,
+                      "column": 12,
+                      "end_line": 7,
+                      "end_column": 13,
+                      "start": 82,
+                      "end": 85
+                    }
+                  ],
+                  "fixes": [
+                    {
+                      "title": "write `Shape`",
+                      "edits": [
+                        {
+                          "text": "Shape",
+                          "line": 2,
+                          "column": 21,
+                          "end_line": 2,
+                          "end_column": 25,
+                          "start": 26,
+                          "end": 30
+                        }
+                      ]
+                    }
+                  ]
+                }
+              ]
+            },
+            {
+              "drawing": "b.svg",
+              "diagnostics": []
+            }
+          ]
+        }
+    "#);
+    }
+}

@@ -1,0 +1,26 @@
+//! All parts, landscapes, characters and clips of a drawing: `inspect --json`.
+
+use serde::Serialize;
+
+use super::{Billboard, Clip, Part, Terrain, billboards, clips, parts, pretty, terrain};
+use crate::compile::Compiled;
+
+#[derive(Serialize)]
+struct Inspection<'a> {
+    drawing: &'a str,
+    parts: Vec<Part<'a>>,
+    terrain: Vec<Terrain<'a>>,
+    billboards: Vec<Billboard<'a>>,
+    clips: Vec<Clip<'a>>,
+}
+
+/// A drawing's content as JSON, with a line feed at the end. `path` is as the user wrote it, `text` what was compiled.
+pub fn inspection_json(path: &str, compiled: &Compiled, text: &str) -> String {
+    pretty(&Inspection {
+        drawing: path,
+        parts: parts(compiled, text),
+        terrain: terrain(compiled),
+        billboards: billboards(compiled),
+        clips: clips(compiled),
+    })
+}

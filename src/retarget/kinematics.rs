@@ -1,0 +1,60 @@
+//! Forward kinematics: where a rig's parts are, given their rotations.
+
+use glam::{DQuat, DVec3};
+
+use super::Rig;
+use super::rotations::Rotations;
+use crate::mocap::Transform;
+
+/// The parts' nodes in one pose, with the root part's node at the origin.
+pub(super) struct ForwardKinematics {
+    pub(super) transforms: Vec<Transform>,
+    /// Per part the position of its joint, in its parent's frame and in its own.
+    joints: Vec<[DVec3; 2]>,
+}
+
+impl ForwardKinematics {
+    pub(super) fn new(rig: &Rig) -> Self {
+        let joints = rig.parts.iter().map(|part| {
+            let above = part
+                .parent
+                .map(|parent| rig.parts[parent].node.to_local(part.joint));
+            [above.unwrap_or_default(), part.node.to_local(part.joint)]
+        });
+        let identity = Transform {
+            rotation: DQuat::IDENTITY,
+            position: DVec3::ZERO,
+        };
+        Self {
+            transforms: vec![identity; rig.parts.len()],
+            joints: joints.collect(),
+        }
+    }
+
+    pub(super) fn pose(&mut self, rig: &Rig, rotations: &Rotations, order: &[usize], frame: usize) {
+        for part in order.iter().copied() {
+            let rotation = rotations.at(part, frame);
+            let [above, own] = self.joints[part];
+            let position = match rig.parts[part].parent {
+                Some(parent) => {
+                    let parent = self.transforms[parent];
+                    parent.rotation * above + parent.position - rotation * own
+                }
+                None => DVec3::ZERO,
+            };
+            self.transforms[part] = Transform { rotation, position };
+        }
+    }
+
+    /// The points of a part's surface.
+    pub(super) fn surface<'a>(
+        &self,
+        rig: &'a Rig,
+        part: usize,
+    ) -> impl Iterator<Item = DVec3> + use<'a> {
+        let own = &rig.parts[part];
+        let placed = self.transforms[part];
+        let surface = own.surface.iter();
+        surface.map(move |point| placed.apply(own.node.to_local(*point)))
+    }
+}

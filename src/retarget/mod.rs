@@ -1,0 +1,168 @@
+//! Retargets a clip to a figure: which joint drives which part, how parts turn, and where the figure goes.
+//!
+//! All results are in the drawing's axes: x to the drawing's right, y up, z towards the viewer, in the figure's unit. The body
+//! axes of the clip's first frame are mapped to them, so the figure starts in the direction in which it is drawn.
+
+mod axes;
+mod carried;
+mod contacts;
+mod ground;
+mod kinematics;
+mod matching;
+mod planting;
+mod rest_pose;
+mod root_motion;
+mod rotations;
+mod spline;
+mod swing;
+mod turns;
+
+use glam::{DQuat, DVec3};
+
+use crate::labels::Facing;
+use crate::mocap::{Clip, Transform};
+
+pub use axes::Landmarks;
+pub use matching::{
+    Drive, Follow, MatchedPart, Matching, Problem, bent_arms, joints_named, match_figure,
+};
+pub use rest_pose::RestSource;
+pub use turns::Turns;
+
+/// A figure as motion sees it: its nodes at rest, and the joints that drive them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Rig {
+    /// The parts, in any order; parents are indices.
+    pub parts: Vec<RigPart>,
+    /// The direction that it faces.
+    pub facing: Facing,
+}
+
+impl Rig {
+    /// The parts, parents before children; those in cycles are missing.
+    pub(crate) fn order(&self) -> Vec<usize> {
+        let count = self.parts.len();
+        let mut children = vec![Vec::new(); count];
+        let mut order: Vec<usize> = Vec::with_capacity(count);
+        for (index, part) in self.parts.iter().enumerate() {
+            match part.parent {
+                Some(parent) => children[parent].push(index),
+                None => order.push(index),
+            }
+        }
+        let mut next = 0;
+        while let Some(part) = order.get(next) {
+            order.extend_from_slice(&children[*part]);
+            next += 1;
+        }
+        order
+    }
+}
+
+/// A part of a rig.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigPart {
+    /// Its parent. One part has none: the root, whose travel is the figure's.
+    pub parent: Option<usize>,
+    /// Whether its node is a child of the model's root and not of its parent's node: parts that are connected only because they
+    /// touch.
+    pub is_rooted: bool,
+    /// Its node at rest.
+    pub node: Transform,
+    /// Where it turns. The node of a rooted part is elsewhere, in the middle of the part.
+    pub joint: DVec3,
+    /// Its far end.
+    pub tip: DVec3,
+    /// Points around its surface and around what moves with it, which the ground holds up.
+    pub surface: Vec<DVec3>,
+    /// Whether it is the end of a leg, on which the figure stands.
+    pub stands: bool,
+    /// The joint that drives it.
+    pub drive: Option<Drive>,
+    /// Whether it belongs to a leg and follows a bone or chain.
+    pub is_leg: bool,
+    /// Whether it swings, and how stiff it is: 1 is like hair, 4 returns twice as fast.
+    pub swing: Option<f64>,
+}
+
+/// A clip retargeted to a rig, frame by frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RetargetedClip {
+    /// Per part the rotation of its node in its parent's frame, of rooted nodes in the drawing's axes; `None` if it does not
+    /// change.
+    pub rotations: Vec<Option<Vec<DQuat>>>,
+    /// Per part the position of its node; for rooted nodes only.
+    pub translations: Vec<Option<Vec<DVec3>>>,
+    /// Per frame whether a foot is in contact with the ground, and none takes over from another.
+    pub grounded: Vec<bool>,
+    /// The rest pose from which the clip's rotations were measured.
+    pub rest: RestSource,
+}
+
+impl RetargetedClip {
+    /// The node of a part in a frame, in the drawing's axes, given that of its parent in `placed`.
+    pub(crate) fn node(
+        &self,
+        rig: &Rig,
+        part: usize,
+        frame: usize,
+        placed: &[Transform],
+    ) -> Transform {
+        let own = &rig.parts[part];
+        let turn = self.rotations[part].as_ref().map(|turns| turns[frame]);
+        match own.parent.filter(|_| !own.is_rooted) {
+            Some(parent) => {
+                let (above, rest) = (placed[parent], &rig.parts[parent].node);
+                let drawn = || rest.rotation.inverse() * own.node.rotation;
+                Transform {
+                    rotation: above.rotation * turn.unwrap_or_else(drawn),
+                    position: above.apply(rest.to_local(own.node.position)),
+                }
+            }
+            None => {
+                let place = self.translations[part].as_ref().map(|places| places[frame]);
+                Transform {
+                    rotation: turn.unwrap_or(own.node.rotation),
+                    position: place.unwrap_or(own.node.position),
+                }
+            }
+        }
+    }
+}
+
+/// Retargets a clip to a rig. Every index in `rig` and `landmarks` must be valid. Nothing moves if no part is driven; parts
+/// whose parents form a cycle stay in place.
+pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip {
+    Turns::new(clip, rig, landmarks).travel()
+}
+
+/// From a clip's world to the axes of a drawing whose figure faces in a direction: y up, z towards the viewer. The front of the body is
+/// that of the first frame.
+pub fn to_drawing(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> DQuat {
+    axes::Axes::of(clip, landmarks, facing).first.inverse()
+}
+
+/// The poses of a clip, of which the one that was used last is stored.
+struct PoseBuffer<'a> {
+    clip: &'a Clip,
+    frame: Option<usize>,
+    pose: Vec<Transform>,
+}
+
+impl<'a> PoseBuffer<'a> {
+    fn new(clip: &'a Clip) -> Self {
+        Self {
+            clip,
+            frame: None,
+            pose: Vec::new(),
+        }
+    }
+
+    fn at(&mut self, frame: usize) -> &[Transform] {
+        if self.frame != Some(frame) {
+            self.clip.pose_into(frame, &mut self.pose);
+            self.frame = Some(frame);
+        }
+        &self.pose
+    }
+}

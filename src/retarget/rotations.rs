@@ -1,0 +1,288 @@
+//! The rotations of a rig's parts.
+
+use glam::{DQuat, DVec3};
+
+use super::axes::{Axes, Landmarks};
+use super::rest_pose::RestPose;
+use super::{PoseBuffer, Rig, RigPart};
+use crate::mocap::resample::TimeMap;
+use crate::mocap::turns::{continuous, damp};
+use crate::mocap::{Clip, Transform};
+use crate::retarget::{Drive, Follow};
+
+/// The rotations of parts in the drawing's axes, frame by frame.
+pub(super) struct Rotations {
+    /// Per part; `None` if it turns with its parent.
+    own: Vec<Option<Vec<DQuat>>>,
+    /// Per part the nearest ancestor (or itself) that turns on its own, and the part's rotation in that ancestor's frame.
+    carrier: Vec<(Option<usize>, DQuat)>,
+}
+
+impl Rotations {
+    /// Whether a part turns on its own, and not only with its parent.
+    pub(super) fn is_own(&self, part: usize) -> bool {
+        self.own[part].is_some()
+    }
+
+    /// The rotations of all parts that turn on their own.
+    pub(super) fn all(&self) -> impl Iterator<Item = &[DQuat]> {
+        self.own.iter().flatten().map(Vec::as_slice)
+    }
+
+    /// Lets a part turn on its own, and what hangs on it with it.
+    pub(super) fn set(&mut self, rig: &Rig, order: &[usize], part: usize, turns: Vec<DQuat>) {
+        self.own[part] = Some(turns);
+        self.carry(rig, order);
+    }
+
+    fn carry(&mut self, rig: &Rig, order: &[usize]) {
+        for part in order {
+            let drawn = rig.parts[*part].node.rotation;
+            self.carrier[*part] = match (self.is_own(*part), rig.parts[*part].parent) {
+                (true, _) => (Some(*part), DQuat::IDENTITY),
+                (false, None) => (None, drawn),
+                (false, Some(parent)) => {
+                    let (carrier, inner) = self.carrier[parent];
+                    let above = rig.parts[parent].node.rotation;
+                    (carrier, inner * above.inverse() * drawn)
+                }
+            };
+        }
+    }
+
+    /// The same rotations, played along a map of time.
+    pub(super) fn timed(self, map: &TimeMap) -> Self {
+        let timed = |turns: Vec<DQuat>| map.apply(&turns, DQuat::slerp);
+        Self {
+            own: self.own.into_iter().map(|own| own.map(timed)).collect(),
+            carrier: self.carrier,
+        }
+    }
+
+    /// The rotation of a part in the frame of its parent.
+    pub(super) fn local(&self, part: usize, parent: usize, frame: usize) -> DQuat {
+        (self.at(parent, frame).inverse() * self.at(part, frame)).normalize()
+    }
+
+    /// Damps the rotations of parts in their parents' frames, from those of the first frame on. What hangs on a damped part turns
+    /// with it.
+    pub(super) fn damp(&mut self, rig: &Rig, order: &[usize], ratios: &[Option<f64>]) {
+        let ratio = |part: usize| {
+            ratios
+                .get(part)
+                .copied()
+                .flatten()
+                .filter(|ratio| *ratio != 1.0)
+        };
+        let mut is_changed = vec![false; rig.parts.len()];
+        let mut changed: Vec<Option<Vec<DQuat>>> = vec![None; rig.parts.len()];
+        for part in order {
+            let parent = rig.parts[*part].parent;
+            let is_above = parent.is_some_and(|parent| is_changed[parent]);
+            let own = self.own[*part].as_ref();
+            is_changed[*part] = is_above || own.is_some() && ratio(*part).is_some();
+            let Some(turns) = own.filter(|_| is_changed[*part]) else {
+                continue;
+            };
+            let locals = (0..turns.len()).map(|frame| match parent {
+                Some(parent) => self.local(*part, parent, frame),
+                None => turns[frame],
+            });
+            let mut locals = continuous(locals.collect());
+            if let Some(ratio) = ratio(*part) {
+                damp(&mut locals, ratio);
+            }
+            let turns = locals.into_iter().enumerate().map(|(frame, local)| {
+                let above = parent.map_or(DQuat::IDENTITY, |parent| {
+                    let (carrier, inner) = self.carrier[parent];
+                    let turns = carrier.and_then(|carrier| {
+                        changed[carrier].as_ref().or(self.own[carrier].as_ref())
+                    });
+                    turns.map_or(inner, |turns| turns[frame] * inner)
+                });
+                (above * local).normalize()
+            });
+            changed[*part] = Some(turns.collect());
+        }
+        for (own, changed) in self.own.iter_mut().zip(changed) {
+            if changed.is_some() {
+                *own = changed;
+            }
+        }
+    }
+
+    /// The rotation of any part in a frame.
+    pub(super) fn at(&self, part: usize, frame: usize) -> DQuat {
+        let (carrier, inner) = self.carrier[part];
+        let outer = carrier.and_then(|carrier| self.own[carrier].as_ref());
+        outer.map_or(inner, |rotations| rotations[frame] * inner)
+    }
+}
+
+pub(super) fn rotations(
+    clip: &Clip,
+    rig: &Rig,
+    landmarks: &Landmarks,
+    axes: &Axes,
+    rest: &RestPose,
+    poses: &mut PoseBuffer<'_>,
+    order: &[usize],
+) -> Rotations {
+    let count = rig.parts.len();
+    let means = mean_references(clip, rig, landmarks, axes, poses);
+    let solver = |part: &usize| {
+        let drive = rig.parts[*part].drive?;
+        let reference = match means[*part] {
+            Some(mean) => mean,
+            None => Reference::at_rest(clip, &drive, rest),
+        };
+        let rotation = PartRotation::new(&rig.parts[*part], drive, axes, reference);
+        Some((*part, rotation))
+    };
+    let solvers: Vec<(usize, PartRotation)> = order.iter().filter_map(solver).collect();
+    let mut own: Vec<Option<Vec<DQuat>>> = vec![None; count];
+    for (part, _) in &solvers {
+        own[*part] = Some(Vec::with_capacity(clip.frames()));
+    }
+    for frame in 0..clip.frames() {
+        let pose = poses.at(frame);
+        for (part, solver) in &solvers {
+            if let Some(rotations) = &mut own[*part] {
+                rotations.push(solver.at(clip, pose));
+            }
+        }
+    }
+    let mut rotations = Rotations {
+        own,
+        carrier: vec![(None, DQuat::IDENTITY); count],
+    };
+    rotations.carry(rig, order);
+    rotations
+}
+
+/// What a joint's rotations are measured from.
+#[derive(Debug, Clone, Copy)]
+struct Reference {
+    /// From the drawing's axes to the joint's own: Rⱼ(r)ᵀ · Cᵣ.
+    turn: DQuat,
+    /// The direction of the chain, if the part follows one, in the drawing's axes: Cᵣᵀ · d(r).
+    direction: Option<DVec3>,
+}
+
+impl Reference {
+    fn at_rest(clip: &Clip, drive: &Drive, rest: &RestPose) -> Self {
+        Self::of(clip, drive, rest.axes, &rest.pose)
+    }
+
+    /// A pose as the reference, in which the body has these axes.
+    fn of(clip: &Clip, drive: &Drive, axes: DQuat, pose: &[Transform]) -> Self {
+        let direction = drive.direction(&clip.skeleton, pose);
+        Self {
+            turn: pose[drive.joint].rotation.inverse() * axes,
+            direction: direction.map(|direction| axes.inverse() * direction),
+        }
+    }
+}
+
+/// Per part the mean over all frames, for limbs that keep their drawn pose: wings are drawn as they are on average, not as the arms
+/// of a T-pose. `None` for all others, and for limbs that point everywhere.
+fn mean_references(
+    clip: &Clip,
+    rig: &Rig,
+    landmarks: &Landmarks,
+    axes: &Axes,
+    poses: &mut PoseBuffer<'_>,
+) -> Vec<Option<Reference>> {
+    /// The length of the mean of the directions, below which a limb has no main direction.
+    const MAIN: f64 = 0.2;
+
+    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = vec![None; rig.parts.len()];
+    for (part, sum) in rig.parts.iter().zip(&mut sums) {
+        let keeps_pose = |drive: &Drive| drive.follow == Follow::Change && drive.tip.is_some();
+        let none = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        *sum = part
+            .drive
+            .filter(keeps_pose)
+            .map(|drive| (drive, none, DVec3::ZERO));
+    }
+    if sums.iter().all(Option::is_none) {
+        return vec![None; rig.parts.len()];
+    }
+    for frame in 0..clip.frames() {
+        let pose = poses.at(frame);
+        let body = axes.at(landmarks, pose);
+        for (drive, turns, directions) in sums.iter_mut().flatten() {
+            let own = Reference::of(clip, drive, body, pose);
+            let is_opposite = turns.dot(own.turn) < 0.0;
+            *turns += if is_opposite { -own.turn } else { own.turn };
+            *directions += own.direction.unwrap_or_default();
+        }
+    }
+    let mean = |(_, turns, directions): (Drive, DQuat, DVec3)| {
+        let frames = clip.frames() as f64;
+        let is_clear = turns.length() > MAIN * frames && directions.length() > MAIN * frames;
+        is_clear.then(|| Reference {
+            turn: turns.normalize(),
+            direction: directions.try_normalize(),
+        })
+    };
+    sums.into_iter().map(|sum| sum.and_then(mean)).collect()
+}
+
+/// Computes the rotations of one part.
+struct PartRotation {
+    drive: Drive,
+    reference: Reference,
+    /// From the clip's world to the drawing's axes: C₀ᵀ.
+    to_drawing: DQuat,
+    /// The rotation that the joint's change is applied to: A · D for limbs, D for bodies.
+    drawn: DQuat,
+    /// The viewer's axis in the clip's world.
+    viewer: DVec3,
+}
+
+impl PartRotation {
+    fn new(part: &RigPart, drive: Drive, axes: &Axes, reference: Reference) -> Self {
+        let axis = (part.tip - part.joint).try_normalize();
+        let align = match (drive.follow, axis, reference.direction) {
+            (Follow::Direction, Some(axis), Some(direction)) => arc(axis, direction, DVec3::Z),
+            _ => DQuat::IDENTITY,
+        };
+        Self {
+            drive,
+            reference,
+            to_drawing: axes.first.inverse(),
+            drawn: align * part.node.rotation,
+            viewer: axes.first * DVec3::Z,
+        }
+    }
+
+    /// G(k) · D with G(k) = C₀ᵀ · S(k) · Rⱼ(k) · Rⱼ(r)ᵀ · Cᵣ · A; A is the identity for parts that keep the drawn pose, S for those
+    /// that follow no chain.
+    fn at(&self, clip: &Clip, pose: &[Transform]) -> DQuat {
+        let turn = pose[self.drive.joint].rotation * self.reference.turn;
+        let now = self.drive.direction(&clip.skeleton, pose);
+        let straighten = match (self.reference.direction, now) {
+            (Some(rest), Some(now)) => arc(turn * rest, now, self.viewer),
+            _ => DQuat::IDENTITY,
+        };
+        (self.to_drawing * straighten * turn * self.drawn).normalize()
+    }
+}
+
+/// The shortest rotation from one direction to another, both unit vectors; a half turn goes about `about`.
+pub(super) fn arc(from: DVec3, to: DVec3, about: DVec3) -> DQuat {
+    /// Below this cosine the axis of the shortest rotation is undefined.
+    const HALF_TURN: f64 = -1.0 + 1e-12;
+
+    if from.dot(to) > HALF_TURN {
+        // Not `from_rotation_arc`, which switches to a half turn some hundredths of a degree too early.
+        let cross = from.cross(to);
+        return DQuat::from_xyzw(cross.x, cross.y, cross.z, 1.0 + from.dot(to)).normalize();
+    }
+    let axis = about.reject_from(from).try_normalize();
+    DQuat::from_axis_angle(
+        axis.unwrap_or_else(|| from.any_orthonormal_vector()),
+        std::f64::consts::PI,
+    )
+}

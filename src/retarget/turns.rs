@@ -1,0 +1,172 @@
+//! How the parts of a rig turn in a clip, before it is known where the figure goes.
+//!
+//! Retargeting has two stages, because a performance changes how parts turn, and the ground holds up the result: the turns, with what
+//! the clip's feet do, and then the travel, so that feet in contact stay in place whatever became of the legs.
+
+use glam::{DQuat, DVec3};
+
+use super::axes::Axes;
+use super::contacts::Walk;
+use super::rotations::{self, Rotations};
+use super::{
+    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, kinematics, rest_pose, root_motion,
+    swing,
+};
+use crate::mocap::Clip;
+use crate::mocap::resample::TimeMap;
+use crate::mocap::turns::continuous;
+
+/// How the parts of a rig turn in a clip, frame by frame, and when its feet are in contact with the ground.
+pub struct Turns<'a> {
+    rig: &'a Rig,
+    /// The parts, parents before children.
+    order: Vec<usize>,
+    /// `None` if nothing moves.
+    moving: Option<Moving>,
+    frames: usize,
+    frame_time: f64,
+}
+
+struct Moving {
+    rotations: Rotations,
+    walk: Walk,
+    /// The lengths of the clip's legs and of the figure's.
+    legs: [f64; 2],
+    rest: RestSource,
+}
+
+impl<'a> Turns<'a> {
+    /// The turns of a rig in a clip. Every index in `rig` and `landmarks` must be valid. Nothing moves if no part is driven; parts whose
+    /// parents form a cycle stay in place.
+    pub fn new(clip: &Clip, rig: &'a Rig, landmarks: &Landmarks) -> Self {
+        let order = rig.order();
+        let is_still = rig.parts.iter().all(|part| part.drive.is_none()) || order.is_empty();
+        let moving = (!is_still).then(|| {
+            let mut poses = PoseBuffer::new(clip);
+            let axes = Axes::of(clip, landmarks, rig.facing);
+            let rest = rest_pose::choose(clip, rig, landmarks, &axes, &mut poses);
+            let rotations =
+                rotations::rotations(clip, rig, landmarks, &axes, &rest, &mut poses, &order);
+            let legs = root_motion::leg_lengths(clip, rig, landmarks, &mut poses);
+            let walk = Walk::of(clip, rig, landmarks, &axes, legs[0], &mut poses);
+            Moving {
+                rotations,
+                walk,
+                legs,
+                rest: rest.source,
+            }
+        });
+        Self {
+            rig,
+            order,
+            moving,
+            frames: clip.frames(),
+            frame_time: clip.frame_time,
+        }
+    }
+
+    /// The same turns, played along a map of time, which shows no frame beyond the last one.
+    #[must_use]
+    pub fn timed(mut self, map: &TimeMap) -> Self {
+        self.frames = map.frames();
+        self.moving = self.moving.map(|moving| Moving {
+            rotations: moving.rotations.timed(map),
+            walk: moving.walk.timed(map),
+            ..moving
+        });
+        self
+    }
+
+    /// The same turns, some of them damped: per part the ratio R of its turns that is left, relative to its parent and to the first
+    /// frame; `None` and 1 leave the part as it is.
+    ///
+    /// Source: Manya & Matsuda, equation 1, Fᵢ = B + (Fᵢ − B)·R, with slerp for the sum of angles.
+    #[must_use]
+    pub fn damped(mut self, ratios: &[Option<f64>]) -> Self {
+        if let Some(moving) = &mut self.moving {
+            moving.rotations.damp(self.rig, &self.order, ratios);
+        }
+        self
+    }
+
+    /// Where the figure goes, how what hangs on it swings, and all of that in the frames of the nodes.
+    pub fn travel(self) -> RetargetedClip {
+        let count = self.rig.parts.len();
+        let Some(moving) = self.moving else {
+            return RetargetedClip {
+                rotations: vec![None; count],
+                translations: vec![None; count],
+                grounded: vec![false; self.frames],
+                rest: RestSource::default(),
+            };
+        };
+        let mut rotations = moving.rotations;
+        let root_motion =
+            root_motion::root_motion(self.rig, &self.order, &rotations, &moving.walk, moving.legs);
+        swing::swing(
+            self.rig,
+            &self.order,
+            &root_motion.path,
+            self.frame_time,
+            &mut rotations,
+        );
+        RetargetedClip {
+            rotations: node_rotations(self.rig, &self.order, &rotations, self.frames),
+            translations: node_translations(self.rig, &self.order, &rotations, &root_motion.path),
+            grounded: root_motion.grounded,
+            rest: moving.rest,
+        }
+    }
+}
+
+/// Per part the rotations of its node in its parent's frame, of rooted nodes in the drawing's axes.
+fn node_rotations(
+    rig: &Rig,
+    order: &[usize],
+    rotations: &Rotations,
+    frames: usize,
+) -> Vec<Option<Vec<DQuat>>> {
+    let mut local = vec![None; rig.parts.len()];
+    for part in order {
+        let own = &rig.parts[*part];
+        let turned: Vec<DQuat> = match own.parent.filter(|_| !own.is_rooted) {
+            None => (0..frames)
+                .map(|frame| rotations.at(*part, frame))
+                .collect(),
+            Some(parent) if rotations.is_own(*part) => (0..frames)
+                .map(|frame| rotations.local(*part, parent, frame))
+                .collect(),
+            Some(_) => continue,
+        };
+        local[*part] = Some(continuous(turned));
+    }
+    local
+}
+
+/// Per part the positions of its node, for the root part and for nodes that are children of the model's root.
+fn node_translations(
+    rig: &Rig,
+    order: &[usize],
+    rotations: &Rotations,
+    path: &[DVec3],
+) -> Vec<Option<Vec<DVec3>>> {
+    let mut translations = vec![None; rig.parts.len()];
+    let is_moving = |part: &usize| Some(part) == order.first() || rig.parts[*part].is_rooted;
+    let moving: Vec<usize> = order.iter().copied().filter(is_moving).collect();
+    for part in &moving {
+        translations[*part] = Some(Vec::with_capacity(path.len()));
+    }
+    let mut kinematics = kinematics::ForwardKinematics::new(rig);
+    for (frame, root) in path.iter().enumerate() {
+        // The root part itself is at the origin.
+        if moving.len() > 1 {
+            kinematics.pose(rig, rotations, order, frame);
+        }
+        for part in &moving {
+            if let Some(places) = &mut translations[*part] {
+                places.push(*root + kinematics.transforms[*part].position);
+            }
+        }
+    }
+    translations
+}
