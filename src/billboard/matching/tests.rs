@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -188,9 +190,9 @@ fn square(at: [f64; 2], half: f64, color: [f64; 3]) -> Region {
     ];
     Region {
         name: None,
-        outline: Outline {
+        outline: Arc::new(Outline {
             polygons: vec![Polygon { rings: vec![ring] }],
-        },
+        }),
         color: [color[0], color[1], color[2], 1.0],
         container: None,
     }
