@@ -340,7 +340,7 @@ fn every_drawing_becomes_closed_solids() {
 
 #[test]
 fn every_string_compiles() {
-    let seen = RefCell::new(BTreeSet::new());
+    let seen = RefCell::new(BTreeSet::<&Keyword>::new());
     let inputs = (prop::collection::vec(word(), 0..24), any::<bool>());
     check(inputs, |(words, desc)| {
         let of_table = Keyword::ALL

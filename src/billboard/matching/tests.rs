@@ -138,7 +138,8 @@ fn a_drawings_place_and_size_do_not_matter() {
             let moved = |p: &DVec2| *p * 3.0 + DVec2::new(900.0, -70.0);
             region.outline = region
                 .outline
-                .map_rings(|ring| ring.iter().map(moved).collect());
+                .map_rings(|ring| ring.iter().map(moved).collect())
+                .into();
         }
         let after = match_regions(&views, &frames(&views));
         assert_eq!(before.tracks, after.tracks, "seed {seed}");
