@@ -1,6 +1,7 @@
 //! Incremental compiling gives what compiling from scratch gives, whatever was edited before.
 
 mod common;
+mod histories;
 
 use std::cell::Cell;
 use std::fs;

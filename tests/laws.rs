@@ -2,13 +2,17 @@
 
 mod common;
 
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
 use base64::Engine;
 use okoshi::compile::Compiled;
 use okoshi::diagnostic::{Code, Severity};
+use okoshi::lang::keyword::Keyword;
 use okoshi::resolver::MemoryResolver;
 use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
 
 /// How long a drawing of a few megabytes may take, in a build without optimisation.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -58,7 +62,7 @@ fn escaped(text: &str) -> String {
 
 // ---- generated drawings
 
-/// Words of strings, valid and invalid.
+/// Words of strings, valid and invalid, all keywords among them.
 fn word() -> impl Strategy<Value = String> {
     let words = [
         "A",
@@ -75,7 +79,6 @@ fn word() -> impl Strategy<Value = String> {
         "@A",
         "@B",
         "$Shape",
-        "Shape",
         "roundv",
         "roundh",
         "round",
@@ -91,15 +94,10 @@ fn word() -> impl Strategy<Value = String> {
         "-d",
         "-c",
         "-sd",
-        "Offset",
-        "Origin",
         "start",
         "end",
         "center",
-        "Axis",
-        "Segments",
         "4",
-        "Smooth",
         "0",
         "-90",
         "90",
@@ -109,11 +107,8 @@ fn word() -> impl Strategy<Value = String> {
         "1e3",
         "1e30",
         "1e-30",
-        "Color",
         "red",
         "#abc",
-        "Alpha",
-        "Let",
         "x",
         "(x + 1)",
         "(1 / 0)",
@@ -121,30 +116,23 @@ fn word() -> impl Strategy<Value = String> {
         ")",
         "\"",
         "\"a b\"",
-        "Scale",
-        "Axes",
         "+x",
         "+y",
         "-z",
-        "Ground",
         "page",
-        "Bind",
         "outline",
-        "Strokes",
         "all",
         "lines",
-        "Metallic",
-        "Emissive",
-        "View",
-        "Tiles",
         "\n",
         "＄",
         "＠",
         "Ｓｈａｐｅ",
         "腕",
     ];
+    let keywords = Keyword::ALL.iter().map(|keyword| keyword.name());
+    let words: Vec<&str> = words.into_iter().chain(keywords).collect();
     prop_oneof![
-        8 => prop::sample::select(words.to_vec()).prop_map(str::to_owned),
+        8 => prop::sample::select(words).prop_map(str::to_owned),
         1 => any::<char>().prop_map(|c| c.to_string()),
     ]
 }
@@ -194,6 +182,14 @@ fn string() -> impl Strategy<Value = String> {
         " Alpha 0.4",
         " Metallic 1",
     ]);
+    // What the table shows of each keyword, for a part of the drawing.
+    let example = |keyword: &Keyword| {
+        keyword
+            .row()
+            .example
+            .trim_start_matches(|c| c != '$' && c != '%')
+    };
+    let examples = prop::sample::select(Keyword::ALL.iter().map(example).collect::<Vec<_>>());
     prop_oneof![
         6 => (names(), prop::option::of(names()), kinds, more).prop_map(|(name, parent, kind, more)| {
             let parent = parent.map_or(String::new(), |parent| format!("@{parent}"));
@@ -202,7 +198,11 @@ fn string() -> impl Strategy<Value = String> {
         1 => Just("* unused".to_owned()),
         1 => Just("$Shape roundv Color blue".to_owned()),
         1 => Just("% Strokes all Segments 5".to_owned()),
-        2 => prop::collection::vec(word(), 0..12).prop_map(|words| words.join(" ")),
+        1 => (names(), examples).prop_map(|(name, example)| match example.starts_with('%') {
+            true => example.to_owned(),
+            false => format!("{name}{example}"),
+        }),
+        1 => prop::collection::vec(word(), 0..12).prop_map(|words| words.join(" ")),
     ]
 }
 
@@ -303,26 +303,66 @@ fn drawing() -> impl Strategy<Value = String> {
     })
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+/// Checks a law for random inputs. It returns whether it said all that it can say about an input; gives the number of inputs,
+/// and of those among them.
+fn check<S: Strategy>(
+    inputs: S,
+    law: impl Fn(S::Value) -> Result<bool, TestCaseError>,
+) -> [usize; 2] {
+    let config = ProptestConfig {
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    let count = [const { Cell::new(0) }; 2];
+    let found = TestRunner::new(config).run(&inputs, |input| {
+        let is_whole = law(input)?;
+        count[0].set(count[0].get() + 1);
+        count[1].set(count[1].get() + usize::from(is_whole));
+        Ok(())
+    });
+    if let Err(error) = found {
+        panic!("{error}");
+    }
+    count.map(Cell::into_inner)
+}
 
-    #[test]
-    fn every_drawing_becomes_closed_solids(text in drawing()) {
+#[test]
+fn every_drawing_becomes_closed_solids() {
+    let [all, right] = check(drawing(), |text| {
         let compiled = laws(&text).map_err(TestCaseError::fail)?;
         // Deterministic.
         prop_assert_eq!(common::glb(&compiled), common::glb(&compile(&text)));
-    }
+        Ok(!compiled.has_errors())
+    });
+    // Only without errors must the names of nodes differ.
+    assert!(8 * right > all, "{right} of {all} have no errors");
+}
 
-    #[test]
-    fn every_string_compiles(words in prop::collection::vec(word(), 0..24), desc in any::<bool>()) {
+#[test]
+fn every_string_compiles() {
+    let seen = RefCell::new(BTreeSet::<&Keyword>::new());
+    let inputs = (prop::collection::vec(word(), 0..24), any::<bool>());
+    check(inputs, |(words, desc)| {
+        let of_table = Keyword::ALL
+            .iter()
+            .filter(|keyword| words.iter().any(|word| word == keyword.name()));
+        seen.borrow_mut().extend(of_table);
         let string = escaped(&words.join(" "));
         let text = if desc {
             format!("<rect width=\"30\" height=\"50\"><desc>{string}</desc></rect>")
         } else {
             format!("<rect width=\"30\" height=\"50\"/><text x=\"9\" y=\"9\">{string}</text>")
         };
-        laws(&svg(&format!("{text}<rect x=\"60\" width=\"9\" height=\"20\"/>"))).map_err(TestCaseError::fail)?;
-    }
+        let compiled = laws(&svg(&format!(
+            "{text}<rect x=\"60\" width=\"9\" height=\"20\"/>"
+        )));
+        Ok(!compiled.map_err(TestCaseError::fail)?.has_errors())
+    });
+    assert_eq!(seen.into_inner().len(), Keyword::ALL.len(), "keywords");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn truncated_files_are_errors(at in 1_usize..7000) {

@@ -1,5 +1,7 @@
 //! What closes the gaps between regions (billboard.md, Result: Backing).
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::drawn::DrawnView;
@@ -23,7 +25,7 @@ pub(super) fn backings(
     frames: &[Frame],
     tracks: &[Track],
     placed: &[Placed],
-) -> Vec<Option<Vec<Outline>>> {
+) -> Vec<Option<Vec<Arc<Outline>>>> {
     let covers = |view: usize, track: usize| {
         let region = &views[view].view.regions[tracks[track].regions[view]?];
         (region.color[3] >= OPAQUE).then_some(&region.outline)
@@ -37,7 +39,7 @@ pub(super) fn backings(
         let mut grows = false;
         let of_view = |view: usize| {
             let Some(region) = tracks[track].regions[view] else {
-                return Outline::default();
+                return Arc::default();
             };
             let own = &views[view].view.regions[region].outline;
             let height = frames[view].height;
@@ -47,15 +49,16 @@ pub(super) fn backings(
             let neighbours = in_front
                 .filter_map(|other| covers(view, other))
                 .filter(|other| overlap(&grown, other));
-            let all: Vec<Outline> = [own].into_iter().chain(neighbours).cloned().collect();
+            let all = [own].into_iter().chain(neighbours);
+            let all: Vec<Outline> = all.map(|outline| Outline::clone(outline)).collect();
             let hidden = offset(&union(&all), -MARGIN * height);
             let backing = intersect(&grown, &hidden);
             // The margin makes it smaller where nothing is in front.
             let inner = intersect(&backing, own);
             grows |= area(&backing) - area(&inner) > LEAST_GROWTH * area(own);
-            backing
+            Arc::new(backing)
         };
-        let outlines: Vec<Outline> = (0..views.len()).map(of_view).collect();
+        let outlines: Vec<Arc<Outline>> = (0..views.len()).map(of_view).collect();
         grows.then_some(outlines)
     };
     (0..tracks.len()).into_par_iter().map(backing).collect()

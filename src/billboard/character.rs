@@ -1,5 +1,7 @@
 //! Characters: views that belong together, their regions matched, placed and given one mesh each.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
@@ -159,7 +161,7 @@ fn character(
 ) -> Character {
     let views: Vec<View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
     let frames = frames(&views);
-    let matching = keys::matched(&views, &frames, memo);
+    let matching = keys::matched(&views, memo);
     diagnostics::report(drawing, bindings, name, &drawn, &matching, diagnostics);
     let depths: Vec<Vec<Option<f64>>> = drawn
         .iter()
@@ -213,7 +215,7 @@ struct Sources<'a> {
     memo: &'a Memo,
     features: &'a OfRegion,
     /// The outlines of its backing.
-    backing: Option<&'a [Outline]>,
+    backing: Option<&'a [Arc<Outline>]>,
     /// How far back the backings of the character are, heights.
     behind: f64,
 }
@@ -240,15 +242,15 @@ impl Sources<'_> {
             .collect();
         let region = |(view, region): &(usize, usize)| &self.drawn[*view].view.regions[*region];
         let drawn = |(view, region): &(usize, usize)| &self.drawn[*view].drawn[*region];
-        let outlines: Vec<Outline> = (0..self.drawn.len())
+        let outlines: Vec<Arc<Outline>> = (0..self.drawn.len())
             .map(|view| {
                 let found = shown.iter().find(|(v, _)| *v == view);
-                found.map_or_else(Outline::default, |found| region(found).outline.clone())
+                found.map_or_else(Arc::default, |found| Arc::clone(&region(found).outline))
             })
             .collect();
         let mut area = match self.open_line(&shown) {
             Some(line) => line,
-            None => keys::morphed(&outlines, self.features, self.memo),
+            None => keys::morphed(outlines, self.features, self.memo),
         };
         let lines = shown.iter().filter_map(|at| Some((at.0, drawn(at).line?)));
         let lines: Vec<(usize, DrawnLine)> = lines.collect();
@@ -256,7 +258,7 @@ impl Sources<'_> {
         self.shrink(&mut area);
         let first = shown.first();
         let backing = self.backing.map(|outlines| {
-            let mut morph = keys::morphed(outlines, self.features, self.memo);
+            let mut morph = keys::morphed(outlines.to_vec(), self.features, self.memo);
             self.shrink(&mut morph);
             Piece {
                 morph,

@@ -1,8 +1,10 @@
 //! The views of a character in a drawing: which shapes, or which areas of a picture, are its regions.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
+use image::DynamicImage;
 use rayon::prelude::*;
 
 use super::diagnostics::too_many;
@@ -17,10 +19,10 @@ use crate::geometry::{Outline, area, bounds, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
 use crate::memo::Memo;
-use crate::svg::{Drawing, LARGE, PictureSource};
+use crate::svg::{Drawing, LARGE};
 
 /// Pixels along the longer side of an SVG picture in a view.
-const SVG_SIDE: u32 = 1024;
+pub(super) const SVG_SIDE: u32 = 1024;
 /// How far the middle of a line may deviate, in its width.
 const LINE_TOLERANCE: f64 = 0.02;
 /// The largest number of regions of a view: any two of two views are compared.
@@ -146,11 +148,9 @@ pub(super) fn read(
         diagnostics.push(too_many(bindings, layer, all.len()));
         return None;
     }
-    for (region, container) in keys::contained(&all, memo, containers)
-        .into_iter()
-        .enumerate()
-    {
-        all[region].container = container;
+    let containers = keys::contained(&all, memo);
+    for (region, container) in all.iter_mut().zip(containers) {
+        region.container = container;
     }
     Some(DrawnView {
         layer,
@@ -184,10 +184,10 @@ fn of_shape(
                 width: stroke.width(),
                 color: srgb(stroke.paint.color, shape.opacity),
             };
-            (Outline::clone(&shape.outline), Some(line))
+            (Arc::clone(&shape.outline), Some(line))
         }
-        Some(stroke) => (stroke.outline(), None),
-        None => (Outline::clone(&shape.outline), None),
+        Some(stroke) => (Arc::new(stroke.outline()), None),
+        None => (Arc::clone(&shape.outline), None),
     };
     if outline.polygons.is_empty() {
         return None;
@@ -228,10 +228,11 @@ fn of_shape(
 }
 
 /// The width and height of a picture, pixels, and its regions.
-type Segmented = Result<(DVec2, RasterView), (Code, String)>;
+pub(super) type Segmented = Result<(DVec2, RasterView), (Code, String)>;
 
-fn segmented(picture: &PictureSource) -> Segmented {
-    let pixels = picture.pixels(SVG_SIDE)?.into_rgba8();
+/// The regions of a picture that has these pixels.
+pub(super) fn segmented(pixels: Result<DynamicImage, (Code, String)>) -> Segmented {
+    let pixels = pixels?.into_rgba8();
     let size = DVec2::new(pixels.width().into(), pixels.height().into());
     Ok((size, raster::regions(&pixels)))
 }
@@ -245,7 +246,7 @@ fn of_picture(
     let Some(picture) = &drawing.shapes[index].picture else {
         return Ok(Vec::new());
     };
-    let found = keys::segmented(picture, memo, segmented);
+    let found = keys::segmented(picture, memo);
     let (size, found) = (*found).as_ref().map_err(Clone::clone)?;
     let place = picture.place() * DAffine2::from_scale(size.recip());
     let scale = place.matrix2.determinant().abs().sqrt();
@@ -255,7 +256,7 @@ fn of_picture(
     };
     let region = |outline: &Outline, color, container| Region {
         name: None,
-        outline: moved(outline),
+        outline: Arc::new(moved(outline)),
         color,
         container,
     };
@@ -280,14 +281,15 @@ fn of_picture(
 }
 
 /// The container of each region; of those that have none yet, the smallest one drawn before it that covers nearly all of it.
-fn containers(regions: &[Region]) -> Vec<Option<usize>> {
-    let areas: Vec<f64> = regions.iter().map(|r| area(&r.outline)).collect();
-    let boxes: Vec<_> = regions.iter().map(|r| bounds(&r.outline)).collect();
+pub(super) fn containers(regions: &[(Arc<Outline>, Option<usize>)]) -> Vec<Option<usize>> {
+    let outline = |region: usize| &*regions[region].0;
+    let areas: Vec<f64> = regions.iter().map(|(outline, _)| area(outline)).collect();
+    let boxes: Vec<_> = regions.iter().map(|(outline, _)| bounds(outline)).collect();
     (0..regions.len())
         .into_par_iter()
         .map(|inner| {
-            if regions[inner].container.is_some() {
-                return regions[inner].container;
+            if let Some(container) = regions[inner].1 {
+                return Some(container);
             }
             let (low, high) = boxes[inner]?;
             let mut outer: Vec<usize> = (0..inner)
@@ -298,7 +300,7 @@ fn containers(regions: &[Region]) -> Vec<Option<usize>> {
                 .collect();
             outer.sort_by(|a, b| areas[*a].total_cmp(&areas[*b]));
             outer.into_iter().find(|outer| {
-                let common = intersect(&regions[*outer].outline, &regions[inner].outline);
+                let common = intersect(outline(*outer), outline(inner));
                 area(&common) >= CONTAINED * areas[inner]
             })
         })

@@ -1,5 +1,7 @@
 //! The closed regions of a character's views.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 
 use crate::geometry::{Outline, bounds};
@@ -28,7 +30,7 @@ pub struct Region {
     /// The name that a string gives it.
     pub name: Option<String>,
     /// Its area, drawing units, y down. Holes that other regions make are filled.
-    pub outline: Outline,
+    pub outline: Arc<Outline>,
     /// Its mean colour, sRGB with straight alpha, each from 0 to 1.
     pub color: [f64; 4],
     /// The index of the smallest region of the view in which it lies.

@@ -9,7 +9,7 @@ use super::diagnostics::{self, MatchProblems};
 use super::figure_clip::{self, FigureClip};
 use super::figures::FigureGroup;
 use super::performed::{self, Channels, Performed};
-use super::rigging::{self, RestNodes, RetargetKey};
+use super::rigging::{self, RestNodes};
 use super::tracks::AnimatedNodes;
 use crate::bind::{ClipLimits, ClipRequest, PerformanceRequest, SetBy};
 use crate::clips::{BuiltIn, Legs};
@@ -18,7 +18,7 @@ use crate::labels::{Class, Figure};
 use crate::limited::Measured;
 use crate::limited::{self, Cut, Exposure, Length};
 use crate::mark_tracks::MarkTracks;
-use crate::memo::{Memo, Same};
+use crate::memo::{Exactly, Memo, Same};
 use crate::mocap::travel::travel;
 use crate::performance::{Filmed, Plan};
 use crate::prepare::{self, PreparedClip};
@@ -26,13 +26,28 @@ use crate::retarget::{Matching, bent_arms, match_figure};
 use crate::retarget::{RetargetedClip, Rig, Turns};
 use crate::scene::Scene;
 
+/// A motion on a rig, as it is performed: what a [`RetargetedClip`] is computed from.
+#[derive(PartialEq, Eq, Hash)]
+struct RetargetKey {
+    rig: Exactly<Arc<Rig>>,
+    motion: Same<PreparedClip>,
+    plan: Option<Same<Plan>>,
+    /// Per part the ratio of its turns that is left.
+    ratios: Exactly<Vec<Option<f64>>>,
+}
+
 /// A figure's motion, as the key of the cached one in place.
 #[derive(PartialEq, Eq, Hash)]
-struct InPlaceKey(Same<RetargetedClip>);
+struct InPlaceKey {
+    retargeted: Same<RetargetedClip>,
+    /// The part whose travel is taken away from all.
+    root: usize,
+    motion: Same<PreparedClip>,
+}
 
 /// A figure's motion, as the key of its cached [`Measured`] points.
 #[derive(PartialEq, Eq, Hash)]
-struct MeasuredKey(Same<RetargetedClip>);
+struct MeasuredKey(Exactly<Arc<Rig>>, Same<RetargetedClip>);
 
 /// A figure's motion, the numbers of drawings to omit and frames to hold, and the frame that must stay, as the key of a cached [`Cut`].
 #[derive(PartialEq, Eq, Hash)]
@@ -162,13 +177,13 @@ impl<'a> ClipBuilder<'a> {
             performance,
         } = requested;
         let group = &matched.group;
-        let rig = rigging::rig(
+        let rig = Arc::new(rigging::rig(
             self.context,
             &matched.figure,
             group,
             &matched.matching,
             self.rest,
-        );
+        ));
         let retargeted = self.retargeted(request, matched, motion, &rig, performance.as_ref());
         let measured = self.measured(&rig, &retargeted);
         let frames = retargeted.grounded.len();
@@ -235,35 +250,46 @@ impl<'a> ClipBuilder<'a> {
         request: &ClipRequest<'_>,
         matched: &MatchedFigure,
         motion: &Arc<PreparedClip>,
-        rig: &Rig,
+        rig: &Arc<Rig>,
         performance: Option<&FoundPerformance<'_>>,
     ) -> Arc<RetargetedClip> {
         let ratios = performance.map(|found| found.channels.ratios(&found.plan, matched, rig));
         let ratios = ratios.unwrap_or_default();
         let plan = performance.map(|found| &found.plan);
-        let key = RetargetKey::new(rig, motion, plan.map(|plan| (plan, ratios.as_slice())));
-        let mut retargeted = self.memo.get(key, |_| {
-            let mut turns = Turns::new(&motion.clip, rig, &motion.landmarks());
-            if let Some(timing) = plan.and_then(|plan| plan.timing.as_ref()) {
+        let key = RetargetKey {
+            rig: Exactly(Arc::clone(rig)),
+            motion: Same(Arc::clone(motion)),
+            plan: plan.map(|plan| Same(Arc::clone(plan))),
+            ratios: Exactly(ratios),
+        };
+        let retargeted = self.memo.get(key, |key| {
+            let motion = &key.motion.0;
+            let mut turns = Turns::new(&motion.clip, &key.rig.0, &motion.landmarks());
+            if let Some(timing) = key.plan.as_ref().and_then(|plan| plan.0.timing.as_ref()) {
                 turns = turns.timed(timing);
             }
-            Arc::new(turns.damped(&ratios).travel())
+            Arc::new(turns.damped(&key.ratios.0).travel())
         });
-        if request.is_in_place {
-            let group = &matched.group;
-            let root = group.parts.iter().position(|part| *part == group.root);
-            let key = InPlaceKey(Same(Arc::clone(&retargeted)));
-            retargeted = self.memo.get(key, |_| {
-                Arc::new(in_place(&retargeted, root.unwrap_or(0), motion))
-            });
+        if !request.is_in_place {
+            return retargeted;
         }
-        retargeted
+        let group = &matched.group;
+        let root = group.parts.iter().position(|part| *part == group.root);
+        let key = InPlaceKey {
+            retargeted: Same(retargeted),
+            root: root.unwrap_or(0),
+            motion: Same(Arc::clone(motion)),
+        };
+        self.memo.get(key, |key| {
+            Arc::new(in_place(&key.retargeted.0, key.root, &key.motion.0))
+        })
     }
 
-    fn measured(&self, rig: &Rig, retargeted: &Arc<RetargetedClip>) -> Arc<Measured> {
-        let key = MeasuredKey(Same(Arc::clone(retargeted)));
-        let measure = |_: &MeasuredKey| Arc::new(Measured::of_figure(rig, retargeted));
-        self.memo.get(key, measure)
+    fn measured(&self, rig: &Arc<Rig>, retargeted: &Arc<RetargetedClip>) -> Arc<Measured> {
+        let key = MeasuredKey(Exactly(Arc::clone(rig)), Same(Arc::clone(retargeted)));
+        self.memo.get(key, |MeasuredKey(rig, retargeted)| {
+            Arc::new(Measured::of_figure(&rig.0, &retargeted.0))
+        })
     }
 
     fn cut(
@@ -273,16 +299,17 @@ impl<'a> ClipBuilder<'a> {
         key_frame: Option<usize>,
     ) -> Arc<Cut> {
         let key = CutKey(Same(Arc::clone(measured)), amounts, key_frame);
-        self.memo.get(key, |_| {
-            let [omit, hold] = amounts;
-            let options = limited::Options {
-                omit,
-                hold,
-                length: Length::Kept,
-            };
-            let poses = measured.poses().keeping(key_frame);
-            Arc::new(limited::limit(poses, &options))
-        })
+        self.memo
+            .get(key, |CutKey(measured, [omit, hold], key_frame)| {
+                let (omit, hold) = (*omit, *hold);
+                let options = limited::Options {
+                    omit,
+                    hold,
+                    length: Length::Kept,
+                };
+                let poses = measured.0.poses().keeping(*key_frame);
+                Arc::new(limited::limit(poses, &options))
+            })
     }
 
     /// The limits of all clips of a figure that have none of their own.

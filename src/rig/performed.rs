@@ -198,7 +198,8 @@ impl Channels {
         };
         memo.get(key, |key| {
             let marks: Vec<usize> = key.channels.iter().map(|(mark, _)| *mark).collect();
-            let input = mark_movements(tracks, &marks, 1.0 / motion.clip.frame_time);
+            let motion = &key.motion.0;
+            let input = mark_movements(&key.tracks.0, &marks, 1.0 / motion.clip.frame_time);
             let drives = key.channels.iter().map(|(_, drives)| drives.as_slice());
             let hips = motion.landmarks().hips;
             let steps = drives.map(|drives| drive_steps(&motion.clip, drives, hips));

@@ -1,7 +1,5 @@
 //! Builds rigs from the figures of a drawing.
 
-use std::sync::Arc;
-
 use glam::{DQuat, DVec2, DVec3};
 
 use super::Context;
@@ -11,10 +9,8 @@ use crate::bind;
 use crate::geometry::{Frame, y_up};
 use crate::labels::{Carry, Figure, FigurePart};
 use crate::labels::{Class, Facing};
-use crate::memo::{Bits, Same};
+use crate::memo::exact;
 use crate::mocap::Transform;
-use crate::performance::Plan;
-use crate::prepare::PreparedClip;
 use crate::retarget::{Drive, Matching};
 use crate::retarget::{Rig, RigPart};
 
@@ -188,61 +184,9 @@ impl RestNodes {
     }
 }
 
-/// A motion and a rig with its numbers as bits, as the key of a cached [`RetargetedClip`](crate::retarget::RetargetedClip).
-#[derive(PartialEq, Eq, Hash)]
-pub(super) struct RetargetKey {
-    motion: Same<PreparedClip>,
-    facing: Facing,
-    parts: Vec<PartKey>,
-    /// The performance, and per part the ratio of its turns that is left.
-    performance: Option<(Same<Plan>, Ratios)>,
+exact! {
+    Rig { parts, facing }
+    RigPart { parent, is_rooted, node, joint, tip, surface, stands, drive, is_leg, swing }
+    Transform { rotation, position }
 }
-
-/// Per part the ratio of its turns that is left.
-type Ratios = Vec<Option<Bits<f64>>>;
-
-#[derive(PartialEq, Eq, Hash)]
-struct PartKey {
-    parent: Option<usize>,
-    is_rooted: bool,
-    is_leg: bool,
-    drive: Option<Drive>,
-    rotation: Bits<[f64; 4]>,
-    stands: bool,
-    swing: Option<Bits<f64>>,
-    /// The positions of node, joint and tip, and the points of the surface.
-    points: Vec<Bits<[f64; 3]>>,
-}
-
-fn bits(ratios: &[Option<f64>]) -> Ratios {
-    ratios.iter().map(|ratio| ratio.map(Bits)).collect()
-}
-
-impl RetargetKey {
-    pub(super) fn new(
-        rig: &Rig,
-        motion: &Arc<PreparedClip>,
-        performance: Option<(&Arc<Plan>, &[Option<f64>])>,
-    ) -> Self {
-        let part = |part: &RigPart| PartKey {
-            parent: part.parent,
-            is_rooted: part.is_rooted,
-            is_leg: part.is_leg,
-            stands: part.stands,
-            swing: part.swing.map(Bits),
-            drive: part.drive,
-            rotation: Bits(part.node.rotation.to_array()),
-            points: [part.node.position, part.joint, part.tip]
-                .iter()
-                .chain(&part.surface)
-                .map(|point| Bits(point.to_array()))
-                .collect(),
-        };
-        Self {
-            motion: Same(Arc::clone(motion)),
-            facing: rig.facing,
-            parts: rig.parts.iter().map(part).collect(),
-            performance: performance.map(|(plan, ratios)| (Same(Arc::clone(plan)), bits(ratios))),
-        }
-    }
-}
+exact!(Facing, Drive);

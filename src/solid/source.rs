@@ -8,7 +8,7 @@ use glam::{DAffine2, DVec2};
 use rustc_hash::FxHasher;
 
 use super::inflate::{Field, Mesh};
-use super::{Options, Profile, build, half_extents};
+use super::{Options, Placement, Profile, build, half_extents};
 use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 
@@ -104,30 +104,46 @@ impl Solid {
     }
 
     fn hash_into(&self, hasher: &mut dyn Hasher) {
-        hasher.write_u8(self.sides as u8);
+        let Self {
+            outline,
+            to_frame,
+            profile,
+            options,
+            sides,
+            texture,
+        } = self;
+        hasher.write_u8(*sides as u8);
         let mut hasher = hasher;
-        std::mem::discriminant(&self.profile).hash(&mut hasher);
+        std::mem::discriminant(profile).hash(&mut hasher);
+        hasher.write_u8(texture.is_some().into());
         let mut number = |number: f64| hasher.write_u64(number.to_bits());
-        let polygons = self.outline.polygons.iter();
-        for ring in polygons.flat_map(|polygon| &polygon.rings) {
-            number(ring.len() as f64);
-            let coordinates = ring.iter().flat_map(DVec2::to_array);
-            coordinates.for_each(&mut number);
+        for polygon in &outline.polygons {
+            number(polygon.rings.len() as f64);
+            for ring in &polygon.rings {
+                number(ring.len() as f64);
+                let coordinates = ring.iter().flat_map(DVec2::to_array);
+                coordinates.for_each(&mut number);
+            }
         }
         let Options {
             segments,
             crease,
             placement,
-        } = self.options;
+        } = *options;
+        let Placement {
+            rotation,
+            translation,
+            scale,
+        } = placement;
         number(f64::from(segments));
         number(crease);
-        number(placement.rotation);
-        let translation = placement.translation.to_array().into_iter();
+        number(rotation);
+        let translation = translation.to_array().into_iter();
         translation.for_each(&mut number);
-        number(placement.scale);
-        let transforms = [self.to_frame].into_iter().chain(self.texture);
+        number(scale);
+        let transforms = [*to_frame].into_iter().chain(*texture);
         let transforms = transforms.flat_map(|transform| transform.to_cols_array());
-        let numbers = transforms.chain(self.profile.numbers());
+        let numbers = transforms.chain(profile.numbers());
         numbers.for_each(&mut number);
     }
 

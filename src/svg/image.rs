@@ -88,10 +88,7 @@ impl PictureSource {
     /// If the picture passes a limit or cannot be read.
     pub fn pixels(&self, side: u32) -> Result<image::DynamicImage, (Code, String)> {
         match &self.file {
-            Contents::Pixels(bytes) => {
-                let (pixels, _) = texture::pixels(bytes).map_err(unreadable)?;
-                Ok(pixels)
-            }
+            Contents::Pixels(bytes) => pixels_of(bytes),
             Contents::Drawing(tree) => {
                 let pixels = texture::render_tree(tree, side).map_err(undrawn)?;
                 Ok(pixels.into())
@@ -177,6 +174,16 @@ impl PictureSource {
             Contents::Drawing(_) => None,
         }
     }
+}
+
+/// The pixels of a PNG, JPEG, GIF or WebP file, top row first.
+///
+/// # Errors
+///
+/// If the picture passes a limit or cannot be read.
+pub fn pixels_of(file: &[u8]) -> Result<image::DynamicImage, (Code, String)> {
+    let (pixels, _) = texture::pixels(file).map_err(unreadable)?;
+    Ok(pixels)
 }
 
 fn unreadable(error: PictureError) -> (Code, String) {

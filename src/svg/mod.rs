@@ -36,7 +36,7 @@ use glam::DVec2;
 
 pub(crate) use entities::character;
 pub use excerpts::{Excerpts, excerpts};
-pub use image::PictureSource;
+pub use image::{PictureSource, pixels_of};
 pub use incremental::TextEdit;
 pub(crate) use links::broken_link;
 pub use oklab::oklab;

@@ -70,10 +70,11 @@ pub(super) fn reach(far: f64) -> f64 {
 
 impl Gradient {
     pub(super) fn key(&self, key: &mut Vec<u64>) {
-        key.push(self.spread as u64);
-        for stop in &self.stops {
-            key.push(stop.offset.to_bits());
-            key.extend(stop.color.map(f64::to_bits));
+        let Self { stops, spread } = self;
+        key.push(*spread as u64);
+        for Stop { offset, color } in stops {
+            key.push(offset.to_bits());
+            key.extend(color.map(f64::to_bits));
         }
     }
 

@@ -168,15 +168,22 @@ impl PaintServer {
 impl Plan {
     /// The key of this plan.
     pub fn key(&self) -> PlanKey {
+        let Self {
+            source,
+            reach,
+            size,
+            work,
+        } = self;
         let mut key = Vec::new();
-        match &self.source {
+        match source {
             Source::Linear(gradient) => {
                 key.push(0);
                 gradient.key(&mut key);
             }
             Source::Radial(gradient, focus) => {
-                key.extend([1, self.reach.to_bits()]);
-                key.extend([focus.x, focus.y, focus.radius].map(f64::to_bits));
+                let Focus { x, y, radius } = focus;
+                key.extend([1, reach.to_bits()]);
+                key.extend([x, y, radius].map(|number| number.to_bits()));
                 gradient.key(&mut key);
             }
             // Patterns and pictures are compared by address, which does not influence the output.
@@ -184,12 +191,17 @@ impl Plan {
                 key.extend([2, Arc::as_ptr(pattern).addr() as u64]);
             }
             Source::Picture(picture, filter) => {
-                let place = picture.bytes.as_ptr().addr() as u64;
-                key.extend([3, place, *filter as u64]);
+                let Picture {
+                    media_type,
+                    bytes,
+                    alpha,
+                } = picture;
+                let place = bytes.as_ptr().addr() as u64;
+                key.extend([3, place, *filter as u64, *media_type as u64, *alpha as u64]);
             }
         }
-        key.extend(self.size.map(u64::from));
-        key.push(u64::from(self.work.is_infinite()));
+        key.extend(size.map(u64::from));
+        key.push(u64::from(work.is_infinite()));
         PlanKey(key)
     }
 

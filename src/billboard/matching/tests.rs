@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use glam::DVec2;
 use proptest::prelude::*;
 
@@ -136,7 +138,8 @@ fn a_drawings_place_and_size_do_not_matter() {
             let moved = |p: &DVec2| *p * 3.0 + DVec2::new(900.0, -70.0);
             region.outline = region
                 .outline
-                .map_rings(|ring| ring.iter().map(moved).collect());
+                .map_rings(|ring| ring.iter().map(moved).collect())
+                .into();
         }
         let after = match_regions(&views, &frames(&views));
         assert_eq!(before.tracks, after.tracks, "seed {seed}");
@@ -188,9 +191,9 @@ fn square(at: [f64; 2], half: f64, color: [f64; 3]) -> Region {
     ];
     Region {
         name: None,
-        outline: Outline {
+        outline: Arc::new(Outline {
             polygons: vec![Polygon { rings: vec![ring] }],
-        },
+        }),
         color: [color[0], color[1], color[2], 1.0],
         container: None,
     }

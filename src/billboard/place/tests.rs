@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
@@ -291,11 +293,11 @@ fn square(at: [f64; 2], half: f64, container: Option<usize>) -> Region {
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
     Region {
         name: None,
-        outline: Outline {
+        outline: Arc::new(Outline {
             polygons: vec![Polygon {
                 rings: vec![corners.map(|(x, y)| corner(x, y)).to_vec()],
             }],
-        },
+        }),
         color: [0.5, 0.5, 0.5, 1.0],
         container,
     }

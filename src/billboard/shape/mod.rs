@@ -14,6 +14,8 @@ mod simplify;
 mod triangles;
 mod unite;
 
+use std::borrow::Borrow;
+
 use glam::DVec2;
 
 pub(super) use contour::Ends;
@@ -38,7 +40,10 @@ pub struct Morph {
 /// whose name is in all views belong together. What has no partner in a view shrinks to a point there: a polygon of the region
 /// to a point inside another, a hole to a point inside its polygon. In a view whose outline is empty all points are at the
 /// middle of the first one that is not.
-pub(super) fn morph(outlines: &[Outline], features: &[Vec<(String, DVec2)>]) -> Morph {
+pub(super) fn morph(
+    outlines: &[impl Borrow<Outline>],
+    features: &[Vec<(String, DVec2)>],
+) -> Morph {
     let Some(plane) = rings::Plane::new(outlines) else {
         return Morph {
             points: vec![Vec::new(); outlines.len()],

@@ -1,5 +1,7 @@
 //! A region's rings in all views, point for point.
 
+use std::borrow::Borrow;
+
 use glam::DVec2;
 
 use super::contour::{Contour, Ends};
@@ -52,8 +54,8 @@ pub(super) struct Piece {
 
 impl Plane {
     /// `None` if no view has an area.
-    pub(super) fn new(outlines: &[Outline]) -> Option<Self> {
-        let mut views: Vec<Vec<Vec<Ring>>> = outlines.iter().map(finite).collect();
+    pub(super) fn new(outlines: &[impl Borrow<Outline>]) -> Option<Self> {
+        let mut views: Vec<Vec<Vec<Ring>>> = outlines.iter().map(|outline| finite(outline.borrow())).collect();
         let boxes: Vec<Option<(DVec2, DVec2)>> = views
             .iter()
             .map(|polygons| bounds(polygons.iter().filter_map(|rings| rings.first())))

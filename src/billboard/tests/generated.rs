@@ -137,7 +137,7 @@ impl Character {
                 };
                 drawn.view.regions.push(Region {
                     name: None,
-                    outline,
+                    outline: outline.into(),
                     color: self.items[*item].color,
                     container: None,
                 });

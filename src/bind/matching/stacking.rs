@@ -58,9 +58,15 @@ pub(in crate::bind) struct Facts {
 /// What stacking is computed from.
 #[derive(Debug, PartialEq, Eq, Hash)]
 struct StackingKey {
-    /// Per part its outline, and whether it takes part.
-    parts: Long<(Same<Outline>, bool)>,
+    parts: Long<PartKey>,
     page: Bits<[f64; 4]>,
+}
+
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct PartKey {
+    outline: Same<Outline>,
+    bounds: Bits<[[f64; 2]; 2]>,
+    takes_part: bool,
 }
 
 /// Memory that is used again for the next part.
@@ -80,27 +86,28 @@ impl Stacking {
         takes_part: impl Fn(&MatchedPart) -> bool,
         memo: &Memo,
     ) -> Arc<Self> {
-        let part = |part: &MatchedPart| (Same(Arc::clone(&part.outline)), takes_part(part));
+        let part = |part: &MatchedPart| PartKey {
+            outline: Same(Arc::clone(&part.outline)),
+            bounds: Bits(<[DVec2; 2]>::from(part.measure.bounds).map(|corner| corner.to_array())),
+            takes_part: takes_part(part),
+        };
         let key = StackingKey {
             parts: parts.iter().map(part).collect(),
             page: Bits([page.0.x, page.0.y, page.1.x, page.1.y]),
         };
-        let bounds = |part: usize| parts[part].measure.bounds;
-        memo.get(key, |key| Arc::new(Self::new(&key.parts.0, page, bounds)))
+        memo.get(key, |key| Arc::new(Self::new(key)))
     }
 
-    fn new(
-        parts: &[(Same<Outline>, bool)],
-        page: (DVec2, DVec2),
-        bounds: impl Fn(usize) -> (DVec2, DVec2) + Sync,
-    ) -> Self {
-        let stacked = parts.par_iter().enumerate().with_min_len(GRAIN);
+    fn new(key: &StackingKey) -> Self {
+        let [x, y, width, height] = key.page.0;
+        let page = (DVec2::new(x, y), DVec2::new(width, height));
+        let stacked = key.parts.0.par_iter().with_min_len(GRAIN);
         let parts: Vec<StackedPart> = stacked
-            .map(|(index, (outline, takes_part))| StackedPart {
-                outline: Arc::clone(&outline.0),
-                bounds: bounds(index),
-                ranges: EdgeRanges::new(&outline.0),
-                takes_part: *takes_part,
+            .map(|part| StackedPart {
+                outline: Arc::clone(&part.outline.0),
+                bounds: part.bounds.0.map(DVec2::from).into(),
+                ranges: EdgeRanges::new(&part.outline.0),
+                takes_part: part.takes_part,
             })
             .collect();
         let boxes = parts.iter().enumerate().filter(|(_, part)| part.takes_part);
@@ -128,6 +135,16 @@ impl Stacking {
             .map(Option::unwrap_or_default)
             .collect();
         stacking
+    }
+
+    /// The outline of a part.
+    pub(super) fn outline(&self, part: usize) -> &Arc<Outline> {
+        &self.parts[part].outline
+    }
+
+    /// The corners of a part's bounding box, the smallest coordinates first.
+    pub(super) fn bounds(&self, part: usize) -> (DVec2, DVec2) {
+        self.parts[part].bounds
     }
 
     /// Whether a part is ground: one of the back-most parts, which fill the page.

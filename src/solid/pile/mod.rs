@@ -216,34 +216,57 @@ impl Pile {
     /// A hash of all that the surface of a body is made from; those of earlier bodies, and of the solids by themselves, are known.
     fn key_of(&self, body: usize) -> u128 {
         let place = |hasher: &mut dyn Hasher, index: usize| {
-            let body = &self.bodies[index];
+            let Body {
+                solid: _,
+                to_plane,
+                depth,
+                node_depth,
+                flattened,
+                is_given,
+                is_detail,
+                lay: _,
+            } = &self.bodies[index];
             hasher.write_u128(self.solids[index]);
-            let numbers = body.to_plane.to_cols_array().into_iter();
-            let numbers = numbers.chain([body.depth, body.node_depth, body.flattened]);
+            let numbers = to_plane.to_cols_array().into_iter();
+            let numbers = numbers.chain([*depth, *node_depth, *flattened]);
             numbers.for_each(|number| hasher.write_u64(number.to_bits()));
+            hasher.write_u8((*is_given).into());
+            hasher.write_u8((*is_detail).into());
         };
         long_hash(|hasher| {
             place(hasher, body);
             let Some(lay) = &self.bodies[body].lay else {
                 return;
             };
-            hasher.write_u64(lay.step.to_bits());
+            // Of how little of it is seen, only the tolerance matters that follows from it.
+            let Lay {
+                below,
+                wraps,
+                behind,
+                clips,
+                step,
+                invisible: _,
+                bulge,
+                segments,
+                form,
+                is_line,
+            } = lay;
+            hasher.write_u64(step.to_bits());
             hasher.write_u64(lay.tolerance().to_bits());
-            hasher.write_u64(lay.bulge.to_bits());
-            hasher.write_u32(lay.segments.unwrap_or_default());
+            hasher.write_u64(bulge.to_bits());
+            hasher.write_u8(segments.is_some().into());
+            hasher.write_u32(segments.unwrap_or_default());
             hasher.write_usize(self.more_points);
-            hasher.write_u8(lay.form as u8);
-            hasher.write_u8(lay.clips.into());
-            hasher.write_u8(lay.is_line.into());
-            for list in [&lay.below, &lay.wraps] {
+            hasher.write_u8(*form as u8);
+            hasher.write_u8((*clips).into());
+            hasher.write_u8((*is_line).into());
+            for list in [below, wraps] {
                 hasher.write_usize(list.len());
                 for other in list {
-                    hasher.write_u8(self.bodies[*other].is_given.into());
-                    hasher.write_u8(self.bodies[*other].is_detail.into());
                     hasher.write_u128(self.keys[*other]);
                 }
             }
-            for later in &lay.behind {
+            for later in behind {
                 place(hasher, *later);
             }
         })

@@ -1,5 +1,7 @@
 //! Characters between two views, beside what is truly seen there.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -10,7 +12,7 @@ use crate::billboard::region::{Direction, Region, View};
 use crate::billboard::shape::{Morph, morph};
 use crate::billboard::tests::generated::{Character, Drawn, character};
 use crate::billboard::turn::between;
-use crate::geometry::{Outline, Ring};
+use crate::geometry::Ring;
 
 /// How many characters are measured.
 const CHARACTERS: u64 = 200;
@@ -120,9 +122,9 @@ fn model_picture(drawn: &[Drawn; 2], frame: &Frame, direction: Direction) -> Lab
 /// The shape of a track.
 fn shape_of(track: &Track, views: &[View]) -> Morph {
     let outline = |(region, view): (&Option<usize>, &View)| {
-        region.map_or_else(Outline::default, |r| view.regions[r].outline.clone())
+        region.map_or_else(Arc::default, |r| Arc::clone(&view.regions[r].outline))
     };
-    let outlines: Vec<Outline> = track.regions.iter().zip(views).map(outline).collect();
+    let outlines: Vec<_> = track.regions.iter().zip(views).map(outline).collect();
     morph(&outlines, &[])
 }
 

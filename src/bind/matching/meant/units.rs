@@ -137,12 +137,12 @@ impl Units {
             stacking: Same(Arc::clone(stacking)),
             parts: parts.iter().enumerate().map(part).collect(),
         };
-        memo.get(key, |key| Arc::new(Self::new(key, parts)))
+        memo.get(key, |key| Arc::new(Self::new(key)))
     }
 
-    fn new(key: &UnitsKey, parts: &[MatchedPart]) -> Self {
+    fn new(key: &UnitsKey) -> Self {
         let stacking = &key.stacking.0;
-        let mut of_part = vec![usize::MAX; parts.len()];
+        let mut of_part = vec![usize::MAX; key.parts.0.len()];
         let mut members: Vec<Vec<usize>> = Vec::new();
         for (index, (main, _)) in key.parts.0.iter().enumerate() {
             // The main part is the back-most of its node.
@@ -159,7 +159,7 @@ impl Units {
         let units = members.into_par_iter().with_min_len(GRAIN);
         let units: Vec<Unit> = units
             .map(|members| {
-                let bounds = members.iter().map(|part| parts[*part].measure.bounds);
+                let bounds = members.iter().map(|part| stacking.bounds(*part));
                 let (low, high) = bounds
                     .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
                     .unwrap_or_default();
@@ -180,11 +180,11 @@ impl Units {
         for (index, unit) in units.iter().enumerate() {
             let Some(scope) = unit.scope else { continue };
             let members = unit.members.iter().map(|part| {
-                let (low, high) = parts[*part].measure.bounds;
+                let (low, high) = stacking.bounds(*part);
                 Member {
                     unit: index,
                     envelope: AABB::from_corners(low.to_array(), high.to_array()),
-                    outline: Arc::clone(&parts[*part].outline),
+                    outline: Arc::clone(stacking.outline(*part)),
                 }
             });
             leaves.entry(scope).or_default().extend(members);

@@ -1,0 +1,351 @@
+//! Histories of small drawings that have inputs of every kind: all keywords, motions, tracks of marks, characters, landscapes,
+//! linked models and pictures, and files that change.
+
+mod files;
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
+
+use okoshi::compile::{Compiled, Compiler, Options, compile};
+use okoshi::lang::keyword::Keyword;
+use okoshi::lang::value::Setting;
+use okoshi::memo::Memo;
+use proptest::prelude::*;
+use proptest::sample::Index;
+use proptest::test_runner::{FileFailurePersistence, TestRunner};
+
+use super::{all, common, described, written};
+use files::{Files, LINKS};
+
+/// A small drawing with places for strings, each `{}`, and what is written there.
+struct Subject {
+    drawing: &'static str,
+    strings: &'static [&'static [&'static str]],
+}
+
+const SUBJECTS: &[Subject] = &[
+    // Solids, materials, and settings of the whole drawing.
+    Subject {
+        drawing: r##"<svg xmlns="http://www.w3.org/2000/svg" width="90" height="90">
+<rect x="30" y="20" width="30" height="40" fill="#c86"/><text x="40" y="30" font-size="4">Body{}</text>
+<rect x="58" y="24" width="25" height="9" fill="none" stroke="#222"/><circle cx="45" cy="10" r="9" fill="#eca"/><text x="43" y="11" font-size="4">Head@Body{}</text>
+<rect x="58" y="36" width="25" height="9" fill="#36c"/><text x="64" y="41" font-size="4">Arm@Body{}</text>
+<text x="2" y="80" font-size="4">%{}</text></svg>"##,
+        strings: &[
+            &[
+                "",
+                "$Color 1 0.8 0.6",
+                "$Shape -cd default 20 30",
+                "$Shape roundh -20 90 Segments 5",
+                "$Metallic 1 Roughness 0.3",
+                "$Stack 0.5 Offset 3",
+                "$Texture \"picture.png\"",
+                "$Shape model model.glb",
+            ],
+            &[
+                "",
+                "$Offset 12",
+                "$Stack 0.5",
+                "$Axis 90",
+                "$Roughness 0.1",
+                "$Emissive 1 0.9 0.5",
+                "$Alpha 0.3",
+                "$Shape round Smooth 0",
+            ],
+            &[
+                "",
+                "$Origin start Shape cone",
+                "$Texture \"picture.png\"",
+                "$Shape -s model model.glb",
+                "$Segments 8",
+                "$Smooth 0 Shape inflate 4",
+                "$Depth 14",
+            ],
+            &[
+                "Segments 8",
+                "Smooth 0",
+                "Scale 2",
+                "Axes +x +z -y",
+                "Ground 20 80",
+                "Let thick 20 Let half (thick / 2) Shape default 0 (half)",
+                "Bind center",
+                "Bind outline",
+                "Strokes all",
+            ],
+        ],
+    },
+    // A figure with motions, performed, limited and swinging, from files and built in.
+    Subject {
+        drawing: r##"<svg xmlns="http://www.w3.org/2000/svg" width="120" height="160">
+<rect x="40" y="40" width="20" height="50"/><text x="50" y="65" font-size="4">Body{}</text>
+<rect x="42" y="18" width="16" height="21"/><text x="50" y="28.5" font-size="4">Head@Body{}</text>
+<rect x="12" y="44" width="30" height="8"/><text x="27" y="48" font-size="4">Rarm@Body{}</text>
+<rect x="58" y="44" width="30" height="8"/><text x="73" y="48" font-size="4">Larm@Body{}</text>
+<rect x="40" y="91" width="8" height="54"/><text x="44" y="118" font-size="4">Rleg@Body</text>
+<rect x="52" y="91" width="8" height="54"/><text x="56" y="118" font-size="4">Lleg@Body</text>
+<text x="5" y="10" font-size="5">%{}</text></svg>"##,
+        strings: &[
+            &[
+                "",
+                "$Motion \"motion.bvh\" loop",
+                "$Motion \"motion.bvh\" Perform \"marks.csv\" Limited 1 4",
+                "$Stand 40 -120",
+                "$Stand 40 -120 Size 1.5",
+                "$Walk 40",
+                "$Pose 1.5",
+            ],
+            &["", "$Swing 2", "$Carry change", "$Mark green"],
+            &[
+                "$Mark red",
+                "$Mark red Follow Head",
+                "$Bone RightArm RightForeArm",
+                "",
+            ],
+            &["", "$Mark green", "$Swing 3", "$Shape roundh"],
+            &[
+                "Motion \"motion.bvh\"",
+                "Motion \"motion.bvh\" in-place Limited 1 4",
+                "Perform \"marks.csv\" Motion \"motion.bvh\"",
+                "Perform \"marks.csv\" Motion punch Limited 2 12",
+                "Motion walk Limited 4 30",
+                "Limited 4 30 Motion punch",
+            ],
+        ],
+    },
+    // A character that is drawn twice.
+    Subject {
+        drawing: r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100">
+<g><rect x="10" y="10" width="60" height="60" fill="#ecb"/><circle cx="40" cy="40" r="9" fill="#c42"/><circle cx="20" cy="25" r="5" fill="#246"/>
+<text x="36" y="42" font-size="4">Nose{}</text><text x="18" y="26" font-size="4">Eye</text><text x="10" y="90" font-size="6">Boy{}</text></g>
+<g><rect x="120" y="10" width="40" height="60" fill="#ecb"/><circle cx="152" cy="40" r="9" fill="#c42"/><circle cx="140" cy="25" r="4" fill="#246"/>
+<text x="149" y="42" font-size="4">Nose</text><text x="138" y="26" font-size="4">Eye{}</text><text x="120" y="90" font-size="6">Boy{}</text></g></svg>"##,
+        strings: &[
+            &["", "$Depth 14", "$Depth -3"],
+            &["$View 0 0", "$View 0 0 Backing", "$View 15 0"],
+            &["", "$Hidden", "$Depth 2"],
+            &["$View 45 0", "$View 45 0 Backing", "$View 40 10"],
+        ],
+    },
+    // A character in two pictures.
+    Subject {
+        drawing: r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100">
+<g><image x="10" y="10" width="48" height="48" href="front.png"/><text x="10" y="90" font-size="6">Bird{}</text></g>
+<g><image x="110" y="10" width="48" height="48" href="side.png"/><text x="110" y="90" font-size="6">Bird{}</text></g></svg>"##,
+        strings: &[
+            &["$View 0 0", "$View 0 0 Backing", "$View 5 0"],
+            &["$View 30 0", "$View 45 0", "$View 0 30"],
+        ],
+    },
+    // A landscape, drawn and in a picture.
+    Subject {
+        drawing: r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="100">
+<g><rect width="40" height="30" fill="#4caf50"/><rect y="30" width="40" height="10" fill="#8d6e63"/><rect x="60" width="10" height="10" fill="#4caf50"/>
+<text x="62" y="6" font-size="4">{}</text><text y="80" font-size="6">Land{}</text></g>
+<g><image x="100" width="40" height="40" href="picture.png"/><text x="100" y="80" font-size="6">Map{}</text></g></svg>"##,
+        strings: &[
+            &["$Tile green", "$Tile green Color #88bb44", "* sample"],
+            &[
+                "$Tiles 10",
+                "$Tiles 10 Bevel 0.2",
+                "$Tiles 10 Roof 0.5",
+                "$Tiles 5",
+            ],
+            &["$Tiles 10", "$Tiles 8 Bevel 0.1", ""],
+        ],
+    },
+];
+
+/// A step of a history.
+#[derive(Debug, Clone)]
+enum Step {
+    /// Writes another string at a place.
+    Choose(Index, Index),
+    /// Removes characters from a string, or types some.
+    Type(Index, Index, usize, &'static str),
+    /// Changes a linked file, or removes it.
+    File(Index, usize),
+    Undo,
+    Tolerance(bool),
+}
+
+fn step() -> impl Strategy<Value = Step> {
+    let index = any::<Index>;
+    let typed = prop::sample::select(vec!["", "1", " ", "$", "e", "@Body", ".5", "\""]);
+    prop_oneof![
+        6 => (index(), index()).prop_map(|(place, string)| Step::Choose(place, string)),
+        4 => (index(), index(), 0..3_usize, typed)
+            .prop_map(|(place, at, gone, typed)| Step::Type(place, at, gone, typed)),
+        3 => (index(), 0..files::VERSIONS).prop_map(|(file, version)| Step::File(file, version)),
+        2 => Just(Step::Undo),
+        1 => any::<bool>().prop_map(Step::Tolerance),
+    ]
+}
+
+/// The drawing with these strings.
+fn text(drawing: &str, strings: &[String]) -> String {
+    let mut pieces = drawing.split("{}");
+    let mut text = pieces.next().unwrap_or_default().to_owned();
+    for (piece, string) in pieces.zip(strings) {
+        text += string;
+        text += piece;
+    }
+    text
+}
+
+/// What the histories have seen.
+#[derive(Default)]
+struct Seen {
+    compiles: Cell<usize>,
+    partial: Cell<usize>,
+    without_errors: Cell<usize>,
+    /// The keywords that were bound in drawings without errors.
+    keywords: RefCell<BTreeSet<Keyword>>,
+    /// The links to files whose change changed the model.
+    files: RefCell<BTreeSet<&'static str>>,
+}
+
+impl Seen {
+    fn note(&self, compiled: &Compiled) {
+        if compiled.has_errors() {
+            return;
+        }
+        self.without_errors.set(self.without_errors.get() + 1);
+        let bindings = &compiled.bindings;
+        let own = bindings.strings.iter().flat_map(|string| &string.settings);
+        let defaults = bindings.defaults.iter().map(|(_, setting)| setting);
+        let mut keywords = self.keywords.borrow_mut();
+        for setting in own.chain(defaults) {
+            let inner = [&setting.limited, &setting.performance];
+            let inner = inner.into_iter().flatten().map(|inner| &**inner);
+            let found = inner
+                .chain([setting])
+                .map(|setting: &Setting| setting.keyword);
+            keywords.extend(found);
+        }
+    }
+}
+
+/// Follows a history and checks after each step that both ways to compile agree in everything.
+fn agree(
+    subject: &Subject,
+    first: &[Index],
+    steps: &[Step],
+    seen: &Seen,
+) -> Result<(), TestCaseError> {
+    let mut files = Files::default();
+    let mut options = Options::default();
+    let mut compiler = Compiler::default();
+    let mut surfaces = Memo::default();
+    let chosen = subject.strings.iter().zip(first);
+    let mut strings: Vec<String> = chosen
+        .map(|(all, which)| (*which.get(all)).to_owned())
+        .collect();
+    let mut undo: Vec<Vec<String>> = Vec::new();
+    let mut last: Option<Compiled> = None;
+    for number in 0..=steps.len() {
+        let act = number.checked_sub(1).map(|number| &steps[number]);
+        let before = strings.clone();
+        let mut changed = None;
+        match act {
+            None => {}
+            Some(Step::Choose(place, which)) => {
+                let place = place.index(strings.len());
+                strings[place] = (*which.get(subject.strings[place])).to_owned();
+                undo.push(before);
+            }
+            Some(Step::Type(place, at, gone, typed)) => {
+                let string = &mut strings[place.index(before.len())];
+                let start = at.index(string.len() + 1);
+                let end = (start + gone).min(string.len());
+                string.replace_range(start..end, typed);
+                undo.push(before);
+            }
+            Some(Step::File(file, version)) => {
+                let (link, _) = *file.get(LINKS);
+                files.set(link, *version);
+                changed = Some(link);
+            }
+            Some(Step::Undo) => strings = undo.pop().unwrap_or(strings),
+            Some(Step::Tolerance(coarse)) => options.tolerance = if *coarse { 0.01 } else { 0.001 },
+        }
+        let text = text(subject.drawing, &strings);
+        let incremental = compiler.compile(&text, &options, &files);
+        let fresh = compile(&text, &options, &files);
+        prop_assert!(!fresh.has_crashed(), "{:?} made {}", act, text);
+        prop_assert_eq!(
+            described(&incremental),
+            described(&fresh),
+            "{:?} made {}",
+            act,
+            text
+        );
+        prop_assert!(all(&incremental) == all(&fresh), "{:?} made {}", act, text);
+        prop_assert!(incremental.scene == fresh.scene, "{:?} made {}", act, text);
+        if number == steps.len() {
+            let written = written(&incremental, &mut surfaces);
+            prop_assert!(written == common::glb(&fresh), "{:?} made {}", act, text);
+        } else if number % 3 == 0 {
+            written(&incremental, &mut surfaces);
+        }
+        seen.compiles.set(seen.compiles.get() + 1);
+        seen.partial
+            .set(seen.partial.get() + usize::from(compiler.last_was_partial()));
+        seen.note(&fresh);
+        if let (Some(link), Some(last)) = (changed, &last)
+            && last.scene != fresh.scene
+        {
+            seen.files.borrow_mut().insert(link);
+        }
+        // What is still held must not change; every other time it is dropped.
+        last = Some(if number % 2 == 0 { incremental } else { fresh });
+    }
+    Ok(())
+}
+
+#[test]
+fn inputs_of_every_kind_are_compiled_again_when_they_change() {
+    let config = ProptestConfig {
+        cases: 700,
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(
+            "tests/regressions/histories.txt",
+        ))),
+        ..ProptestConfig::default()
+    };
+    let seen = Seen::default();
+    let strategy = (
+        any::<Index>(),
+        prop::collection::vec(any::<Index>(), 5),
+        prop::collection::vec(step(), 1..6),
+    );
+    let found = TestRunner::new(config).run(&strategy, |(which, first, steps)| {
+        agree(which.get(SUBJECTS), &first, &steps, &seen)
+    });
+    if let Err(error) = found {
+        panic!("{error}");
+    }
+    let keywords = seen.keywords.into_inner();
+    let missing = Keyword::ALL
+        .iter()
+        .filter(|keyword| !keywords.contains(keyword));
+    let missing: Vec<_> = missing.collect();
+    assert!(
+        missing.is_empty(),
+        "never bound without an error: {missing:?}"
+    );
+    let links: BTreeSet<&str> = LINKS.iter().map(|(link, _)| *link).collect();
+    assert_eq!(
+        seen.files.into_inner(),
+        links,
+        "files whose changes were seen"
+    );
+    let (compiles, partial) = (seen.compiles.get(), seen.partial.get());
+    assert!(
+        compiles > 2000 && 5 * partial > compiles,
+        "{partial} of {compiles} only updated the drawing"
+    );
+    let right = seen.without_errors.get();
+    assert!(
+        2 * right > compiles,
+        "only {right} of {compiles} drawings have no errors"
+    );
+}
