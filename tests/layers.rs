@@ -260,6 +260,7 @@ const USES: &[(&str, &[&str])] = &[
             "billboard",
             "bind",
             "compile",
+            "diagnostic",
             "figure",
             "geometry",
             "motion",
@@ -838,7 +839,7 @@ fn features_are_named_at_modules_of_the_rim_alone() {
     let listed = RIM
         .iter()
         .map(|(module, feature)| (module.to_string(), feature.to_string()));
-    assert_eq!(found, listed.collect());
+    assert_eq!(found, listed.collect::<BTreeMap<_, _>>());
     for source in sources().iter().filter(|source| source.module != "lib") {
         let text = fs::read_to_string(src().join(&source.path)).expect("a source file");
         let path = source.path.display();
