@@ -193,7 +193,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("main", &["cli"]),
-    ("mark_tracks", &[]),
+    ("mark_tracks", &["index"]),
     ("memo", &["resolver", "threads"]),
     ("mocap", &[]),
     (
