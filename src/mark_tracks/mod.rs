@@ -16,7 +16,9 @@ mod write;
 mod tests;
 
 use glam::DVec2;
+use typed_index_collections::TiVec;
 
+use crate::index::index_type;
 use check::ticks;
 use write::TICKS;
 
@@ -28,6 +30,11 @@ pub use error::{Error, Place};
 /// The largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 256 << 20;
 
+index_type!(
+    /// A mark among those of a clip.
+    pub MarkId
+);
+
 /// The tracks of all marks of a clip.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MarkTracks {
@@ -36,7 +43,7 @@ pub struct MarkTracks {
     /// The time of each frame in seconds, ascending, from 0.
     pub times: Vec<f64>,
     /// The marks.
-    pub marks: Vec<MarkTrack>,
+    pub marks: TiVec<MarkId, MarkTrack>,
 }
 
 /// The track of one mark.
@@ -53,10 +60,9 @@ pub struct MarkTrack {
 }
 
 impl MarkTracks {
-    /// The index of the mark of this name, in small or capital letters.
-    pub fn mark_named(&self, name: &str) -> Option<usize> {
-        let mut marks = self.marks.iter();
-        marks.position(|mark| same_name(&mark.name, name))
+    /// The mark of this name, in small or capital letters.
+    pub fn mark_named(&self, name: &str) -> Option<MarkId> {
+        self.marks.position(|mark| same_name(&mark.name, name))
     }
 
     /// The tracks in a file of either format: JSON if its first character is a brace, otherwise CSV.

@@ -82,7 +82,8 @@ fn the_formats_are_as_documented() {
                 DVec2::new(9.0, 8.126),
             ],
             is_lost: vec![false, true, false],
-        }],
+        }]
+        .into(),
     };
     let json: serde_json::Value = serde_json::from_str(&tracks.to_json()).unwrap();
     let expected = serde_json::json!({
@@ -104,7 +105,9 @@ fn a_table_by_hand_needs_only_size_times_and_places() {
         (tracks.size, &tracks.times[..]),
         ([64, 48], &[0.0, 1.0, 2.0][..])
     );
-    let [mark] = &tracks.marks[..] else { panic!() };
+    let [mark] = &tracks.marks.raw[..] else {
+        panic!()
+    };
     assert_eq!((mark.name.as_str(), mark.colour), ("green", [0, 128, 0]));
     assert_eq!(mark.is_lost, [false, true, false]);
     assert_eq!(mark.points[1], DVec2::new(2.0, 4.0));
@@ -113,9 +116,9 @@ fn a_table_by_hand_needs_only_size_times_and_places() {
 #[test]
 fn a_mark_is_where_it_was_seen_next_to_the_lost_frames() {
     let tracks = read("# 64x48\ntime,a_x,a_y,b_x,b_y\n0,,,,\n1,5,6,,\n2,,,,\n");
-    assert_eq!(tracks.marks[0].points, [DVec2::new(5.0, 6.0); 3]);
-    assert_eq!(tracks.marks[1].points, [DVec2::new(32.0, 24.0); 3]);
-    assert_eq!(tracks.marks[1].is_lost, [true; 3]);
+    assert_eq!(tracks.marks.raw[0].points, [DVec2::new(5.0, 6.0); 3]);
+    assert_eq!(tracks.marks.raw[1].points, [DVec2::new(32.0, 24.0); 3]);
+    assert_eq!(tracks.marks.raw[1].is_lost, [true; 3]);
 }
 
 #[test]
@@ -145,7 +148,7 @@ fn mistakes_in_json_have_a_place() {
         "format": "okoshi track", "version": 1, "size": [64, 48], "times": [0, 1],
         "marks": [{"name": "red", "colour": "#f00", "points": [[1, 2], null], "lost": []}],
     });
-    assert_eq!(read(&good.to_string()).marks[0].is_lost, [false, true]);
+    assert_eq!(read(&good.to_string()).marks.raw[0].is_lost, [false, true]);
     let wrong = |pointer: &str, value: serde_json::Value| {
         let mut file = good.clone();
         *file.pointer_mut(pointer).unwrap() = value;

@@ -3,17 +3,17 @@
 use glam::DVec3;
 
 use crate::labels::{Class, Facing};
-use crate::mark_tracks::MarkTracks;
+use crate::mark_tracks::{MarkId, MarkTracks};
 use crate::mocap::resample;
 use crate::performance::{Limbs, Plan, Request, joint_steps, mark_movements, plan, ratios};
 use crate::prepare::PreparedClip;
 use crate::retarget::to_drawing;
 
 /// A joint that a mark performs.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JointChannel {
-    /// Index of the mark in the tracks.
-    pub mark: usize,
+    /// The mark.
+    pub mark: MarkId,
     /// Index of the joint.
     pub joint: usize,
     /// Joints that are edited along with it.
@@ -36,7 +36,7 @@ pub fn perform(
     channels: &[JointChannel],
     request: &Request,
 ) -> PerformedClip {
-    let marks: Vec<usize> = channels.iter().map(|channel| channel.mark).collect();
+    let marks: Vec<MarkId> = channels.iter().map(|channel| channel.mark).collect();
     let input = mark_movements(tracks, &marks, 1.0 / prepared.clip.frame_time);
     let count = prepared.clip.skeleton.joints.len().max(1);
     let path = |joint: usize| -> Vec<DVec3> {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::mark_tracks::{MarkTrack, MarkTracks};
+use crate::mark_tracks::{MarkId, MarkTrack, MarkTracks};
 
 /// Movement below this is that of noise: fractions of the picture's diagonal per second (0.25 % per frame at 24 frames a second).
 const NOISE: f64 = 0.0025 * 24.0;
@@ -16,10 +16,10 @@ const MAX_FRAMES: f64 = (1 << 18) as f64;
 /// The movement of some marks, brought to `fps` frames a second by their times: per mark and frame |dx| + |dy| since the frame before,
 /// in fractions of the picture's diagonal. Frames count from the first frame of the track. Steps from or to a frame in which the mark
 /// was lost are 0, and so is what noise may be. Every index in `marks` must be valid.
-pub fn mark_movements(tracks: &MarkTracks, marks: &[usize], fps: f64) -> Vec<Vec<f64>> {
+pub fn mark_movements(tracks: &MarkTracks, marks: &[MarkId], fps: f64) -> Vec<Vec<f64>> {
     let size = DVec2::new(tracks.size[0].into(), tracks.size[1].into());
     let samples = samples(&tracks.times, fps);
-    let movement = |mark: &usize| {
+    let movement = |mark: &MarkId| {
         let seen = resampled(&tracks.marks[*mark], &samples);
         let seen = smoothed(&seen);
         let step = |pair: &[Option<DVec2>]| {
@@ -123,7 +123,8 @@ mod tests {
                     .map(|point| DVec2::from_array(*point))
                     .collect(),
                 is_lost: vec![false; points.len()],
-            }],
+            }]
+            .into(),
         }
     }
 
@@ -133,7 +134,7 @@ mod tests {
             24.0,
             &[[0.0, 0.0], [10.0, 15.0], [20.0, 30.0], [30.0, 45.0]],
         );
-        let movement = &mark_movements(&track, &[0], 24.0)[0];
+        let movement = &mark_movements(&track, &[MarkId::from(0)], 24.0)[0];
         assert_eq!(movement.len(), 4);
         assert_eq!(movement[0], 0.0);
         assert!(movement[1..].iter().all(|step| (step - 0.05).abs() < 1e-12));
@@ -144,11 +145,11 @@ mod tests {
         let points: Vec<[f64; 2]> = (0..13)
             .map(|frame| [30.0 * f64::from(frame), 0.0])
             .collect();
-        let movement = &mark_movements(&track(12.0, &points), &[0], 24.0)[0];
+        let movement = &mark_movements(&track(12.0, &points), &[MarkId::from(0)], 24.0)[0];
         assert_eq!(movement.len(), 25);
         let even = movement[1..].iter().all(|step| (step - 0.03).abs() < 1e-12);
         assert!(even, "{movement:?}");
-        let slow = &mark_movements(&track(48.0, &points), &[0], 24.0)[0];
+        let slow = &mark_movements(&track(48.0, &points), &[MarkId::from(0)], 24.0)[0];
         assert_eq!(slow.len(), 7);
         assert!(slow[1..].iter().all(|step| (step - 0.12).abs() < 1e-12));
     }
@@ -160,7 +161,7 @@ mod tests {
             point[0] += [0.4, -0.4][frame % 2];
         }
         points[10] = [250.0, 30.0];
-        let movement = &mark_movements(&track(24.0, &points), &[0], 24.0)[0];
+        let movement = &mark_movements(&track(24.0, &points), &[MarkId::from(0)], 24.0)[0];
         assert!(movement.iter().all(|step| *step == 0.0), "{movement:?}");
     }
 
@@ -170,17 +171,17 @@ mod tests {
             .map(|frame| [10.0 * f64::from(frame), 0.0])
             .collect();
         let mut track = track(24.0, &points);
-        track.marks[0].is_lost[8] = true;
-        let movement = &mark_movements(&track, &[0], 24.0)[0];
+        track.marks.raw[0].is_lost[8] = true;
+        let movement = &mark_movements(&track, &[MarkId::from(0)], 24.0)[0];
         let still: Vec<usize> = (1..20).filter(|frame| movement[*frame] == 0.0).collect();
         assert_eq!(still, [8, 9]);
     }
 
     #[test]
     fn tracks_without_frames_have_no_movement() {
-        assert!(mark_movements(&track(24.0, &[]), &[0], 24.0)[0].is_empty());
+        assert!(mark_movements(&track(24.0, &[]), &[MarkId::from(0)], 24.0)[0].is_empty());
         assert_eq!(
-            mark_movements(&track(24.0, &[[1.0, 2.0]]), &[0], 24.0),
+            mark_movements(&track(24.0, &[[1.0, 2.0]]), &[MarkId::from(0)], 24.0),
             [[0.0]]
         );
     }

@@ -7,7 +7,7 @@ use super::diagnostics;
 use super::missing_files::missing_file;
 use crate::bind::PerformanceRequest;
 use crate::diagnostic::Diagnostic;
-use crate::mark_tracks::{self, MarkTracks};
+use crate::mark_tracks::{self, MarkId, MarkTracks};
 use crate::memo::Memo;
 use crate::resolver::{LinkError, Resolver};
 use crate::source::Span;
@@ -26,7 +26,7 @@ pub(super) struct Performances {
     /// The places of links that were reported, however many clips they are for.
     reported: BTreeSet<Span>,
     /// Per place of a `Perform` its file, and which marks of it parts of figures have.
-    used: BTreeMap<Span, (Arc<MarkTracks>, BTreeSet<usize>)>,
+    used: BTreeMap<Span, (Arc<MarkTracks>, BTreeSet<MarkId>)>,
 }
 
 impl Performances {
@@ -73,7 +73,7 @@ impl Performances {
         &mut self,
         request: &PerformanceRequest<'_>,
         tracks: &Arc<MarkTracks>,
-        marks: impl Iterator<Item = usize>,
+        marks: impl Iterator<Item = MarkId>,
     ) {
         let none = || (Arc::clone(tracks), BTreeSet::new());
         let (_, used) = self.used.entry(request.span).or_insert_with(none);
@@ -83,7 +83,7 @@ impl Performances {
     /// Reports the marks that no part of the drawing has.
     pub(super) fn report_unused(&self, diagnostics: &mut Vec<Diagnostic>) {
         for (span, (tracks, used)) in &self.used {
-            let unused = (0..tracks.marks.len()).filter(|mark| !used.contains(mark));
+            let unused = tracks.marks.keys().filter(|mark| !used.contains(mark));
             let unused: Vec<&str> = unused
                 .map(|mark| tracks.marks[mark].name.as_str())
                 .collect();

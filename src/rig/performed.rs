@@ -11,7 +11,7 @@ use super::figures::FigureGroup;
 use crate::bind::{Camerawork, PartMark, PerformanceRequest};
 use crate::diagnostic::{Diagnostic, nearest_word};
 use crate::labels::{Facing, Tip};
-use crate::mark_tracks::{Hsv, MarkTrack, MarkTracks, hue_difference, same_name};
+use crate::mark_tracks::{Hsv, MarkId, MarkTrack, MarkTracks, hue_difference, same_name};
 use crate::memo::{Memo, Same};
 use crate::mocap::Clip;
 use crate::performance::{
@@ -47,8 +47,8 @@ pub struct Performed {
 /// Parts of a figure that a mark performs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PerformedParts {
-    /// Index of the mark in the tracks.
-    pub mark: usize,
+    /// The mark.
+    pub mark: MarkId,
     /// Indices of the parts.
     pub parts: Vec<usize>,
 }
@@ -56,8 +56,8 @@ pub struct PerformedParts {
 /// The channels of a performance, in places of a figure's group.
 #[derive(Debug, Default)]
 pub(super) struct Channels {
-    /// Per channel the index of its mark, and the parts that the mark performs.
-    marks: Vec<(usize, Vec<usize>)>,
+    /// Per channel its mark, and the parts that the mark performs.
+    marks: Vec<(MarkId, Vec<usize>)>,
     /// Per channel the parts that are edited along with them.
     followers: Vec<Vec<usize>>,
     /// The channel that the string emphasises.
@@ -70,7 +70,7 @@ struct PlanKey {
     motion: Same<PreparedClip>,
     tracks: Same<MarkTracks>,
     /// Per channel its mark, and the drives of its parts.
-    channels: Vec<(usize, Vec<Drive>)>,
+    channels: Vec<(MarkId, Vec<Drive>)>,
     request: Request,
     facing: Facing,
 }
@@ -168,7 +168,7 @@ impl Channels {
     }
 
     /// The marks of the channels.
-    pub(super) fn marks(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn marks(&self) -> impl Iterator<Item = MarkId> + '_ {
         self.marks.iter().map(|(mark, _)| *mark)
     }
 
@@ -182,7 +182,7 @@ impl Channels {
         memo: &Memo,
     ) -> Arc<Plan> {
         let drive = |place: &usize| matched.matching.parts[*place].drive;
-        let channel = |(mark, places): &(usize, Vec<usize>)| {
+        let channel = |(mark, places): &(MarkId, Vec<usize>)| {
             (*mark, places.iter().filter_map(drive).collect())
         };
         let key = PlanKey {
@@ -197,7 +197,7 @@ impl Channels {
             facing: matched.matching.facing,
         };
         memo.get(key, |key| {
-            let marks: Vec<usize> = key.channels.iter().map(|(mark, _)| *mark).collect();
+            let marks: Vec<MarkId> = key.channels.iter().map(|(mark, _)| *mark).collect();
             let motion = &key.motion.0;
             let input = mark_movements(&key.tracks.0, &marks, 1.0 / motion.clip.frame_time);
             let drives = key.channels.iter().map(|(_, drives)| drives.as_slice());
@@ -243,7 +243,7 @@ impl Channels {
 
     /// The channels in parts of the drawing.
     pub(super) fn parts(&self, group: &FigureGroup) -> Vec<PerformedParts> {
-        let channel = |(mark, places): &(usize, Vec<usize>)| PerformedParts {
+        let channel = |(mark, places): &(MarkId, Vec<usize>)| PerformedParts {
             mark: *mark,
             parts: places.iter().map(|place| group.parts[*place]).collect(),
         };
@@ -286,17 +286,17 @@ fn drive_steps(clip: &Clip, drives: &[Drive], hips: usize) -> Vec<DVec3> {
 }
 
 /// The mark of a file that a part's `Mark` means: that of the same name, else of the same colour, else of the nearest hue.
-fn mark_of(tracks: &MarkTracks, mark: &PartMark<'_>) -> Option<usize> {
-    let position = |fits: &dyn Fn(&MarkTrack) -> bool| tracks.marks.iter().position(fits);
+fn mark_of(tracks: &MarkTracks, mark: &PartMark<'_>) -> Option<MarkId> {
+    let position = |fits: &dyn Fn(&MarkTrack) -> bool| tracks.marks.position(fits);
     let named = tracks.mark_named(mark.word);
     let exact = || position(&|track| track.colour == mark.colour);
     let near = || {
         let own = hue(mark.colour)?;
-        let off = |track: &crate::mark_tracks::MarkTrack| {
+        let off = |track: &MarkTrack| {
             let off = hue_difference(hue(track.colour)?, own).abs();
             (off <= SAME_HUE).then_some(off)
         };
-        let offs = tracks.marks.iter().enumerate();
+        let offs = tracks.marks.iter_enumerated();
         let offs = offs.filter_map(|(index, track)| Some((index, off(track)?)));
         let nearest = offs.min_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(nearest.0)
@@ -378,12 +378,13 @@ mod tests {
                 track("Red", [90, 40, 200]),
                 track("hand", [200, 60, 40]),
                 track("grey", [90, 90, 95]),
-            ],
+            ]
+            .into(),
             ..MarkTracks::default()
         };
         let find = |word: &'static str, colour| {
             let span = Span::default();
-            mark_of(&tracks, &PartMark { word, colour, span })
+            mark_of(&tracks, &PartMark { word, colour, span }).map(usize::from)
         };
         assert_eq!(find("red", [255, 0, 0]), Some(1), "names come first");
         assert_eq!(find("green", [0, 128, 0]), Some(0));

@@ -175,7 +175,7 @@ fn the_annotated_clip_shows_where_marks_are() {
         "{}",
         run.err
     );
-    let [mark] = &checked(&room, "a.json").marks[..] else {
+    let [mark] = &checked(&room, "a.json").marks.raw[..] else {
         panic!("one mark")
     };
     for (frame, at) in mark.points.iter().enumerate() {
@@ -209,7 +209,7 @@ fn videos_are_read_through_ffmpeg() {
         let tracks = MarkTracks::from_bytes(&room.read("a.json")).expect("a track");
         assert_eq!((tracks.size, tracks.times.len()), ([120, 90], FRAMES));
         assert!((tracks.times[1] - 0.1).abs() < 1e-4, "{:?}", tracks.times);
-        for (frame, point) in tracks.marks[0].points.iter().enumerate() {
+        for (frame, point) in tracks.marks.raw[0].points.iter().enumerate() {
             let apart = point.distance((scene().discs[1].path)(frame as f64));
             assert!(apart < 3.0, "frame {frame}: {apart}");
         }

@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::frame::{FrameError, Picture};
 use super::message::{FromCamera, MarkFacts, ToCamera};
-use crate::mark_tracks::{MAX_NAME, MarkTracks, hex, is_name};
+use crate::mark_tracks::{MAX_NAME, MarkId, MarkTracks, hex, is_name};
 use crate::tracking::{Learned, Learner, Mark, Sighting, Tracker, hue_name, tracks};
 
 /// The most marks.
@@ -250,7 +250,7 @@ impl Session {
         self.marks[mark] = Mark::new(name.clone(), colour).map_err(|_| Refusal::Grey)?;
         let mut answers = vec![self.facts()];
         if let Some(track) = &mut self.track
-            && let Some(mark) = track.marks.get_mut(mark)
+            && let Some(mark) = track.marks.get_mut(MarkId::from(mark))
         {
             mark.name = name;
             answers.push(ToCamera::Track {
