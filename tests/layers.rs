@@ -39,6 +39,7 @@ const USES: &[(&str, &[&str])] = &[
             "bind",
             "diagnostic",
             "geometry",
+            "index",
             "lang",
             "memo",
             "regions",

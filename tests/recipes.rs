@@ -15,7 +15,11 @@ const RECIPES: &[(&str, &str, &[&str])] = &[
     ("A new kind of shape", "coneh", &["coneh", "Coneh"]),
     ("A new clip that comes along", "sneak", &["sneak", "Sneak"]),
     ("A new exporter", "obj", &["obj", "OBJ", "Obj"]),
-    ("A new editor feature", "folding", &["folding", "folding_range", "on_folding_range"]),
+    (
+        "A new editor feature",
+        "folding",
+        &["folding", "folding_range", "on_folding_range"],
+    ),
     ("A new system", "terrain", &["terrain"]),
 ];
 
@@ -148,10 +152,15 @@ fn the_recipe_of_diagnostics_names_every_list_of_codes() {
         let place = path.strip_prefix(root().join("src")).expect("below src");
         let place = place.to_string_lossy().replace('\\', "/");
         let words = words(&text);
-        let makes = ["new", "diagnostics", "diagnostic"].iter().any(|word| words.contains(*word));
+        let makes = ["new", "diagnostics", "diagnostic"]
+            .iter()
+            .any(|word| words.contains(*word));
         if words.contains("Code") && !makes {
             lists += 1;
-            assert!(paths.contains(&place), "the recipe of diagnostics leaves out {place}");
+            assert!(
+                paths.contains(&place),
+                "the recipe of diagnostics leaves out {place}"
+            );
         }
     }
     assert!(lists > 0, "no list of codes was found");

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::drawn::DrawnView;
-use super::matching::Track;
+use super::matching::{Track, TrackId};
 use super::place::{Frame, Placed};
 use crate::geometry::{Outline, area, bounds, intersect, offset, union};
 
@@ -23,14 +24,14 @@ const LEAST_GROWTH: f64 = 1e-3;
 pub(super) fn backings(
     views: &[DrawnView],
     frames: &[Frame],
-    tracks: &[Track],
-    placed: &[Placed],
-) -> Vec<Option<Vec<Arc<Outline>>>> {
-    let covers = |view: usize, track: usize| {
+    tracks: &TiSlice<TrackId, Track>,
+    placed: &TiSlice<TrackId, Placed>,
+) -> TiVec<TrackId, Option<Vec<Arc<Outline>>>> {
+    let covers = |view: usize, track: TrackId| {
         let region = &views[view].view.regions[tracks[track].regions[view]?];
         (region.color[3] >= OPAQUE).then_some(&region.outline)
     };
-    let backing = |track: usize| {
+    let backing = |track: TrackId| {
         let mut shown = (0..views.len()).filter(|view| tracks[track].regions[*view].is_some());
         if shown.any(|view| covers(view, track).is_none()) {
             // It would show through itself.
@@ -45,7 +46,9 @@ pub(super) fn backings(
             let height = frames[view].height;
             let grown = offset(own, GROWTH * height);
             let depth = placed[track].depths[view];
-            let in_front = (0..tracks.len()).filter(|other| placed[*other].depths[view] > depth);
+            let in_front = tracks
+                .keys()
+                .filter(|other| placed[*other].depths[view] > depth);
             let neighbours = in_front
                 .filter_map(|other| covers(view, other))
                 .filter(|other| overlap(&grown, other));
@@ -61,7 +64,9 @@ pub(super) fn backings(
         let outlines: Vec<Arc<Outline>> = (0..views.len()).map(of_view).collect();
         grows.then_some(outlines)
     };
-    (0..tracks.len()).into_par_iter().map(backing).collect()
+    let all = (0..tracks.len()).into_par_iter();
+    let all: Vec<_> = all.map(|track| backing(track.into())).collect();
+    all.into()
 }
 
 /// Whether the boxes around two outlines overlap.

@@ -5,13 +5,14 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::backing::backings;
 use super::diagnostics;
 use super::drawn::{self, DrawnLine, DrawnView};
 use super::features::{self, OfRegion};
 use super::keys;
-use super::matching::{Matching, Track};
+use super::matching::{Matching, Track, TrackId};
 use super::place::{Frame, Placed, frames, place};
 use super::region::{Direction, View};
 use super::shape::{Ends, Morph, line_mesh, match_lines};
@@ -41,7 +42,7 @@ pub struct Character {
     /// Per view its centre and scale.
     pub frames: Vec<Frame>,
     /// Its regions, in the order of the first view that shows each.
-    pub regions: Vec<RegionModel>,
+    pub regions: TiVec<TrackId, RegionModel>,
     /// The regions of each view, as they are drawn.
     pub views: Vec<View>,
     /// Which regions of the views are the same; its tracks are in the order of `regions`.
@@ -175,12 +176,14 @@ fn character(
     let has_backing = drawn
         .iter()
         .any(|view| drawn::setting(bindings, view.layer, Keyword::Backing).is_some());
-    let backings = match has_backing {
-        true => backings(&drawn, &frames, tracks, &placed),
-        false => vec![None; tracks.len()],
+    let backings = if has_backing {
+        backings(&drawn, &frames, tracks, &placed)
+    } else {
+        vec![None; tracks.len()].into()
     };
     let behind = behind_all(&placed);
     let regions = (0..tracks.len()).into_par_iter().map(|index| {
+        let index = TrackId::from(index);
         let sources = Sources {
             drawn: &drawn,
             frames: &frames,
@@ -200,7 +203,7 @@ fn character(
         layers: drawn.iter().map(|view| view.layer).collect(),
         turn,
         frames,
-        regions,
+        regions: regions.into(),
         views,
         matching,
     }
@@ -221,7 +224,7 @@ struct Sources<'a> {
 }
 
 /// A distance, heights, by which something has to be moved back to lie behind all of a character at every view.
-fn behind_all(placed: &[Placed]) -> f64 {
+fn behind_all(placed: &TiSlice<TrackId, Placed>) -> f64 {
     let depths = || {
         placed
             .iter()
@@ -235,7 +238,7 @@ fn behind_all(placed: &[Placed]) -> f64 {
 }
 
 impl Sources<'_> {
-    fn model(&self, drawing: &Drawing, index: usize) -> RegionModel {
+    fn model(&self, drawing: &Drawing, index: TrackId) -> RegionModel {
         let shown = || self.track.regions.iter().enumerate();
         let shown: Vec<(usize, usize)> = shown()
             .filter_map(|(view, r)| Some((view, (*r)?)))
@@ -284,7 +287,7 @@ impl Sources<'_> {
                 let shape = first.map(|first| &drawing.shapes[drawn(first).shape]);
                 let shape = shape.filter(|shape| shape.picture.is_none());
                 match shape.map(|shape| shape.element.own_name()) {
-                    None | Some("") => format!("Region {}", index + 1),
+                    None | Some("") => format!("Region {}", usize::from(index) + 1),
                     Some(own) => own.to_owned(),
                 }
             }),

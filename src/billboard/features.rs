@@ -1,9 +1,10 @@
 //! Feature points: names beside places of outlines that belong together in all views (billboard.md, Shape).
 
 use glam::DVec2;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::drawn::DrawnView;
-use super::matching::Track;
+use super::matching::{Track, TrackId};
 use super::place::Frame;
 use crate::bind::{Bindings, StringId};
 use crate::diagnostic::{Code, Diagnostic};
@@ -90,10 +91,11 @@ pub(super) fn assign(
     bindings: &Bindings,
     views: &[DrawnView],
     frames: &[Frame],
-    tracks: &[Track],
+    tracks: &TiSlice<TrackId, Track>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<OfRegion> {
-    let mut assigned = vec![vec![Vec::new(); views.len()]; tracks.len()];
+) -> TiVec<TrackId, OfRegion> {
+    let mut assigned: TiVec<TrackId, OfRegion> =
+        vec![vec![Vec::new(); views.len()]; tracks.len()].into();
     for (view, drawn) in views.iter().enumerate() {
         for feature in &drawn.features {
             let namesakes = views.iter().map(|view| {
@@ -141,10 +143,10 @@ fn nearest(
     feature: &[Option<&FeaturePoint>],
     views: &[DrawnView],
     frames: &[Frame],
-    tracks: &[Track],
-) -> Option<(usize, Vec<Option<DVec2>>)> {
-    let mut best: Option<(f64, usize, Vec<Option<DVec2>>)> = None;
-    for (index, track) in tracks.iter().enumerate() {
+    tracks: &TiSlice<TrackId, Track>,
+) -> Option<(TrackId, Vec<Option<DVec2>>)> {
+    let mut best: Option<(f64, TrackId, Vec<Option<DVec2>>)> = None;
+    for (index, track) in tracks.iter_enumerated() {
         let mut points = vec![None; views.len()];
         let mut distances = Vec::new();
         for (view, feature) in feature.iter().enumerate() {

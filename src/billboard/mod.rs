@@ -22,6 +22,6 @@ mod tests;
 mod turn;
 
 pub use character::{Character, Fill, Piece, RegionModel, read};
-pub use matching::{Candidate, Matching, Pair, Place, Reason, Track, Unmatched};
+pub use matching::{Candidate, Matching, Pair, Place, Reason, Track, TrackId, Unmatched};
 pub use nodes::{FlatMaterial, RegionMaterials, add};
 pub use region::{Direction, Region, View};

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::hover::escaped;
 use super::{Analysis, Target};
-use crate::billboard::{Candidate, Character, Pair, Place, Reason, Unmatched};
+use crate::billboard::{Candidate, Character, Pair, Place, Reason, TrackId, Unmatched};
 use crate::bind::{LayerKind, StringId};
 use crate::source::Span;
 
@@ -28,10 +28,10 @@ impl<'a> Region<'a> {
         self.character.regions[self.track()?].shapes[self.place.view]
     }
 
-    /// Index of its track in the character's matching.
-    fn track(self) -> Option<usize> {
+    /// Its track in the character's matching.
+    fn track(self) -> Option<TrackId> {
         let Place { view, region } = self.place;
-        let mut tracks = self.character.matching.tracks.iter();
+        let tracks = &self.character.matching.tracks;
         tracks.position(|track| track.regions[view] == Some(region))
     }
 

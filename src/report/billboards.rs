@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::parts::Part;
-use crate::billboard::{Character, RegionModel};
+use crate::billboard::{Character, RegionModel, TrackId};
 use crate::compile::Compiled;
 use crate::scene::view_axes;
 
@@ -40,7 +40,7 @@ pub fn billboards(compiled: &Compiled) -> Vec<Billboard<'_>> {
         .map(|character| Billboard {
             name: &character.name,
             views: &character.turn.views,
-            regions: (0..character.regions.len())
+            regions: (character.regions.keys())
                 .map(|index| region(compiled, character, index))
                 .collect(),
         })
@@ -50,7 +50,7 @@ pub fn billboards(compiled: &Compiled) -> Vec<Billboard<'_>> {
 fn region<'a>(
     compiled: &'a Compiled,
     character: &'a Character,
-    index: usize,
+    index: TrackId,
 ) -> BillboardRegion<'a> {
     let model = &character.regions[index];
     let track = &character.matching.tracks[index];

@@ -2,8 +2,8 @@
 
 use super::cost::{Features, Turn};
 use super::{
-    Candidate, Comparison, Matching, Names, Pair, Place, Reason, Unmatched, Warning, compare,
-    nearest,
+    Candidate, Comparison, Matching, Names, Pair, Place, Reason, TrackId, Unmatched, Warning,
+    compare, nearest,
 };
 use crate::billboard::place::{angle, nearest_to_rays};
 use crate::billboard::region::View;
@@ -67,11 +67,11 @@ pub(super) fn step(
 
 /// Lists the regions that are alone, with those that fit them best.
 pub(super) fn unmatched(views: &[View], all: &[Vec<Features>], matching: &mut Matching) {
-    let mut partners: Vec<Vec<Option<usize>>> = all
+    let mut partners: Vec<Vec<Option<TrackId>>> = all
         .iter()
         .map(|regions| vec![None; regions.len()])
         .collect();
-    for (i, track) in matching.tracks.iter().enumerate() {
+    for (i, track) in matching.tracks.iter_enumerated() {
         for (view, region) in track.regions.iter().enumerate() {
             if let Some(region) = region {
                 partners[view][*region] = Some(i);

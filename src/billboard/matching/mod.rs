@@ -13,6 +13,7 @@ mod gains;
 mod tests;
 
 use glam::DVec2;
+use typed_index_collections::{TiSlice, TiVec};
 
 use cost::{Features, Turn, features, may_match};
 use exchange::{Sides, exchange};
@@ -20,13 +21,19 @@ use gains::Gains;
 
 use super::place::{Frame, angle};
 use super::region::View;
+use crate::index::index_type;
+
+index_type!(
+    /// Counts what is one thing in space: the tracks of a character, and its regions over all views.
+    pub TrackId
+);
 
 /// Regions of all views, matched.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Matching {
     /// What is one thing in space. Every region of every view is in exactly one track. Those of the first view come first, in its
     /// order.
-    pub tracks: Vec<Track>,
+    pub tracks: TiVec<TrackId, Track>,
     /// The pairs that made the tracks, view by view.
     pub pairs: Vec<Pair>,
     /// Regions that are alone in their track.
@@ -137,7 +144,7 @@ pub(super) fn match_regions(views: &[View], frames: &[Frame]) -> Matching {
             Step::new(views, &all, next, &placed, &matching.tracks).run(&mut matching);
             diagnose::step(views, &all, [nearest, next], &mut matching);
         }
-        let known = matching.tracks[..tracks].iter();
+        let known = matching.tracks.iter().take(tracks);
         let mut is_new = vec![true; all[next].len()];
         for region in known.filter_map(|t| t.regions[next]) {
             is_new[region] = false;
@@ -180,7 +187,7 @@ struct Step<'a> {
     all: &'a [Vec<Features>],
     view: usize,
     /// The track and the region that stands for it.
-    rows: Vec<(usize, Place)>,
+    rows: Vec<(TrackId, Place)>,
 }
 
 impl<'a> Step<'a> {
@@ -189,9 +196,9 @@ impl<'a> Step<'a> {
         all: &'a [Vec<Features>],
         view: usize,
         placed: &[usize],
-        tracks: &[Track],
+        tracks: &TiSlice<TrackId, Track>,
     ) -> Self {
-        let row = |(i, track): (usize, &Track)| {
+        let row = |(i, track): (TrackId, &Track)| {
             let seen = placed.iter().copied();
             let seen: Vec<_> = seen.filter(|v| track.regions[*v].is_some()).collect();
             let from = nearest(views, view, &seen)?;
@@ -202,7 +209,7 @@ impl<'a> Step<'a> {
             views,
             all,
             view,
-            rows: tracks.iter().enumerate().filter_map(row).collect(),
+            rows: tracks.iter_enumerated().filter_map(row).collect(),
         }
     }
 
@@ -212,7 +219,7 @@ impl<'a> Step<'a> {
         let mut turns: Vec<_> = self.views.iter().map(turn).collect();
         let rough = self.gains(&self.compared(&turns)).assign();
         for (view, turn) in turns.iter_mut().enumerate() {
-            let of_view = |(row, _): &(&(usize, Place), _)| row.1.view == view;
+            let of_view = |(row, _): &(&(TrackId, Place), _)| row.1.view == view;
             let pairs = self.rows.iter().zip(&rough).filter(of_view);
             let pairs = pairs.filter_map(|(row, p)| Some((self.features(row), &known[(*p)?])));
             turn.shift_by(&pairs.collect::<Vec<_>>());
@@ -221,7 +228,7 @@ impl<'a> Step<'a> {
         let gains = self.gains(&compared);
         let mut partners = gains.assign();
         let at =
-            |row: &(usize, Place)| (row.1.view, turns[row.1.view].predicted(self.features(row)));
+            |row: &(TrackId, Place)| (row.1.view, turns[row.1.view].predicted(self.features(row)));
         let sides = Sides {
             gains: &gains,
             rows: &self.rows.iter().map(at).collect::<Vec<_>>(),
@@ -247,13 +254,13 @@ impl<'a> Step<'a> {
         }
     }
 
-    fn features(&self, row: &(usize, Place)) -> &Features {
+    fn features(&self, row: &(TrackId, Place)) -> &Features {
         &self.all[row.1.view][row.1.region]
     }
 
     /// All rows with all regions of the view, row by row.
     fn compared(&self, turns: &[Turn]) -> Vec<Comparison> {
-        let row = |(_, first): &(usize, Place)| {
+        let row = |(_, first): &(TrackId, Place)| {
             let (first, turn) = (*first, &turns[first.view]);
             (0..self.all[self.view].len()).map(move |region| {
                 let second = Place {

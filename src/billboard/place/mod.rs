@@ -10,11 +10,12 @@ mod rays;
 mod tests;
 
 use glam::{DVec2, DVec3};
+use typed_index_collections::{TiSlice, TiVec};
 
 pub(super) use frame::{Frame, frames};
 pub(super) use rays::{angle, nearest_to_rays, on_ray};
 
-use super::matching::Track;
+use super::matching::{Track, TrackId};
 use super::region::View;
 use crate::geometry::bounds;
 
@@ -40,15 +41,17 @@ pub(super) struct Placed {
 pub(super) fn place(
     views: &[View],
     frames: &[Frame],
-    tracks: &[Track],
+    tracks: &TiSlice<TrackId, Track>,
     depths: &[Vec<Option<f64>>],
-) -> Vec<Placed> {
+) -> TiVec<TrackId, Placed> {
     let scene = Scene::new(views, frames, tracks, depths);
-    let mut points: Vec<Option<DVec3>> = tracks.iter().map(|t| scene.estimated(t)).collect();
-    let containers: Vec<Option<usize>> = tracks.iter().map(|t| scene.container(t)).collect();
+    let mut points: TiVec<TrackId, Option<DVec3>> =
+        tracks.iter().map(|t| scene.estimated(t)).collect();
+    let containers: TiVec<TrackId, Option<TrackId>> =
+        tracks.iter().map(|t| scene.container(t)).collect();
     let middle = middle(&points, &containers);
     // Containers first; those that contain each other are left over.
-    let mut left: Vec<usize> = (0..tracks.len()).filter(|t| points[*t].is_none()).collect();
+    let mut left: Vec<TrackId> = tracks.keys().filter(|t| points[*t].is_none()).collect();
     loop {
         let before = left.len();
         left.retain(|&t| {
@@ -68,7 +71,7 @@ pub(super) fn place(
         .zip(tracks)
         .map(|(point, track)| point.unwrap_or_else(|| scene.beside(track, middle)))
         .collect();
-    let mut placed: Vec<_> = tracks
+    let mut placed: TiVec<TrackId, Placed> = tracks
         .iter()
         .zip(&points)
         .map(|(track, point)| scene.on_rays(track, *point))
@@ -84,7 +87,10 @@ pub(super) fn place(
 }
 
 /// The mean of the known places of what has no container.
-fn middle(points: &[Option<DVec3>], containers: &[Option<usize>]) -> Option<DVec3> {
+fn middle(
+    points: &TiSlice<TrackId, Option<DVec3>>,
+    containers: &TiSlice<TrackId, Option<TrackId>>,
+) -> Option<DVec3> {
     let outermost = points.iter().zip(containers).filter(|(_, c)| c.is_none());
     let known = outermost.filter_map(|(p, _)| *p);
     let (sum, count) = known.fold((DVec3::ZERO, 0), |(sum, n), p| (sum + p, n + 1));
@@ -106,23 +112,23 @@ fn is_usable(length: f64) -> bool {
 struct Scene<'a> {
     views: &'a [View],
     frames: &'a [Frame],
-    tracks: &'a [Track],
+    tracks: &'a TiSlice<TrackId, Track>,
     depths: &'a [Vec<Option<f64>>],
     /// The track of each region of each view.
-    track_of: Vec<Vec<Option<usize>>>,
+    track_of: Vec<Vec<Option<TrackId>>>,
 }
 
 impl<'a> Scene<'a> {
     fn new(
         views: &'a [View],
         frames: &'a [Frame],
-        tracks: &'a [Track],
+        tracks: &'a TiSlice<TrackId, Track>,
         depths: &'a [Vec<Option<f64>>],
     ) -> Self {
         let views = &views[..views.len().min(frames.len())];
         let regions = views.iter().map(|v| vec![None; v.regions.len()]);
-        let mut track_of: Vec<Vec<Option<usize>>> = regions.collect();
-        for (i, track) in tracks.iter().enumerate() {
+        let mut track_of: Vec<Vec<Option<TrackId>>> = regions.collect();
+        for (i, track) in tracks.iter_enumerated() {
             for (of_view, region) in track_of.iter_mut().zip(&track.regions) {
                 if let Some(slot) = region.and_then(|r| of_view.get_mut(r)) {
                     *slot = Some(i);
@@ -180,7 +186,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The track of the container in the first view that shows one.
-    fn container(&self, track: &Track) -> Option<usize> {
+    fn container(&self, track: &Track) -> Option<TrackId> {
         self.regions(track).into_iter().find_map(|(view, region)| {
             let container = self.views[view].regions[region].container?;
             *self.track_of[view].get(container)?
@@ -215,8 +221,12 @@ impl<'a> Scene<'a> {
 }
 
 /// In views that do not show a track, it stays at the same place relative to its container.
-fn follow(tracks: &[Track], containers: &[Option<usize>], placed: &mut [Placed]) {
-    for (i, track) in tracks.iter().enumerate() {
+fn follow(
+    tracks: &TiSlice<TrackId, Track>,
+    containers: &TiSlice<TrackId, Option<TrackId>>,
+    placed: &mut TiSlice<TrackId, Placed>,
+) {
+    for (i, track) in tracks.iter_enumerated() {
         // Chains of containers are short; those that contain each other are climbed once.
         let mut outer = containers[i];
         let mut steps = tracks.len();

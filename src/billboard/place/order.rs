@@ -2,7 +2,9 @@
 
 use std::collections::VecDeque;
 
-use super::{Placed, Scene, angle, snapped};
+use typed_index_collections::{TiSlice, TiVec};
+
+use super::{Placed, Scene, TrackId, angle, snapped};
 use crate::geometry::{area, bounds, intersect};
 
 /// How far what is in front lies before what is behind, heights.
@@ -15,8 +17,8 @@ const LEAST_SHARE: f64 = 0.1;
 /// One track that is painted over another.
 #[derive(Debug, Clone, Copy)]
 struct Over {
-    lower: usize,
-    upper: usize,
+    lower: TrackId,
+    upper: TrackId,
     /// Whether it also holds in views in which the two do not overlap.
     everywhere: bool,
 }
@@ -24,7 +26,7 @@ struct Over {
 /// Moves tracks towards the viewer of each view until everything that is painted over something else lies in front of it.
 ///
 /// A view's own order comes first. Then that of the other views, the nearest first, as far as it does not contradict.
-pub(super) fn put_in_front(scene: &Scene, placed: &mut [Placed]) {
+pub(super) fn put_in_front(scene: &Scene, placed: &mut TiSlice<TrackId, Placed>) {
     let painted: Vec<Vec<Over>> = (0..scene.views.len()).map(|v| painted(scene, v)).collect();
     for view in 0..scene.views.len() {
         let direction = scene.views[view].direction;
@@ -57,7 +59,7 @@ pub(super) fn put_in_front(scene: &Scene, placed: &mut [Placed]) {
 
 impl Scene<'_> {
     /// Whether the drawing sets the depth of a track in a view.
-    fn is_set(&self, view: usize, track: usize) -> bool {
+    fn is_set(&self, view: usize, track: TrackId) -> bool {
         let region = self.tracks[track].regions.get(view).copied().flatten();
         region.is_some_and(|r| self.set_depth((view, r)).is_some())
     }
@@ -120,32 +122,34 @@ fn painted(scene: &Scene, view: usize) -> Vec<Over> {
 
 /// What lies over what, without cycles.
 struct Stacks {
-    over: Vec<Vec<usize>>,
+    over: TiVec<TrackId, Vec<TrackId>>,
     /// For each track, one bit for everything that lies over it.
-    reached: Vec<Vec<u64>>,
+    reached: TiVec<TrackId, Vec<u64>>,
 }
 
 impl Stacks {
     fn new(count: usize) -> Self {
         Self {
-            over: vec![Vec::new(); count],
-            reached: vec![vec![0; count.div_ceil(64)]; count],
+            over: vec![Vec::new(); count].into(),
+            reached: vec![vec![0; count.div_ceil(64)]; count].into(),
         }
     }
 
-    fn reaches(&self, from: usize, to: usize) -> bool {
+    fn reaches(&self, from: TrackId, to: TrackId) -> bool {
+        let to = usize::from(to);
         self.reached[from][to / 64] >> (to % 64) & 1 == 1
     }
 
     /// Adds a pair unless the opposite follows from those before, or it follows itself.
-    fn add(&mut self, lower: usize, upper: usize) {
+    fn add(&mut self, lower: TrackId, upper: TrackId) {
         if lower == upper || self.reaches(upper, lower) || self.reaches(lower, upper) {
             return;
         }
         self.over[lower].push(upper);
         let mut above = self.reached[upper].clone();
-        above[upper / 64] |= 1 << (upper % 64);
-        for below in 0..self.reached.len() {
+        let bit = usize::from(upper);
+        above[bit / 64] |= 1 << (bit % 64);
+        for below in self.reached.keys() {
             if below == lower || self.reaches(below, lower) {
                 for (bits, new) in self.reached[below].iter_mut().zip(&above) {
                     *bits |= new;
@@ -155,13 +159,13 @@ impl Stacks {
     }
 
     /// All pairs, each after those that end at its lower one.
-    fn upwards(&self) -> Vec<(usize, usize)> {
-        let mut waiting = vec![0usize; self.over.len()];
+    fn upwards(&self) -> Vec<(TrackId, TrackId)> {
+        let mut waiting: TiVec<TrackId, usize> = vec![0; self.over.len()].into();
         for upper in self.over.iter().flatten() {
             waiting[*upper] += 1;
         }
-        let free = (0..waiting.len()).filter(|t| waiting[*t] == 0);
-        let mut free: VecDeque<usize> = free.collect();
+        let free = waiting.keys().filter(|t| waiting[*t] == 0);
+        let mut free: VecDeque<TrackId> = free.collect();
         let mut pairs = Vec::new();
         while let Some(lower) = free.pop_front() {
             for &upper in &self.over[lower] {

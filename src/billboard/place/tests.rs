@@ -20,6 +20,16 @@ fn direction(theta: f64, phi: f64) -> Direction {
     Direction { theta, phi }
 }
 
+/// [`super::place`] with plain lists.
+fn place(
+    views: &[View],
+    frames: &[Frame],
+    tracks: &[Track],
+    depths: &[Vec<Option<f64>>],
+) -> Vec<Placed> {
+    super::place(views, frames, TiSlice::from_ref(tracks), depths).raw
+}
+
 /// A track as seen from some direction.
 struct Pose {
     at: DVec2,
@@ -70,7 +80,7 @@ fn found(seed: u64, directions: &[Direction]) -> Found {
         height: character.scale,
     };
     let frames = vec![known; views.len()];
-    let placed = place(&views, &frames, &matching.tracks, &[]);
+    let placed = place(&views, &frames, &matching.tracks.raw, &[]);
     Found {
         character,
         drawn,
@@ -148,7 +158,7 @@ fn found_frames_give_the_same_places_but_for_a_common_shift() {
         let placed = place(
             &found.views,
             &frames(&found.views),
-            &found.matching.tracks,
+            &found.matching.tracks.raw,
             &[],
         );
         let shifts: Vec<_> = placed

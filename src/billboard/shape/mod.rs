@@ -40,10 +40,7 @@ pub struct Morph {
 /// whose name is in all views belong together. What has no partner in a view shrinks to a point there: a polygon of the region
 /// to a point inside another, a hole to a point inside its polygon. In a view whose outline is empty all points are at the
 /// middle of the first one that is not.
-pub(super) fn morph(
-    outlines: &[impl Borrow<Outline>],
-    features: &[Vec<(String, DVec2)>],
-) -> Morph {
+pub(super) fn morph(outlines: &[impl Borrow<Outline>], features: &[Vec<(String, DVec2)>]) -> Morph {
     let Some(plane) = rings::Plane::new(outlines) else {
         return Morph {
             points: vec![Vec::new(); outlines.len()],

@@ -55,7 +55,10 @@ pub(super) struct Piece {
 impl Plane {
     /// `None` if no view has an area.
     pub(super) fn new(outlines: &[impl Borrow<Outline>]) -> Option<Self> {
-        let mut views: Vec<Vec<Vec<Ring>>> = outlines.iter().map(|outline| finite(outline.borrow())).collect();
+        let mut views: Vec<Vec<Vec<Ring>>> = outlines
+            .iter()
+            .map(|outline| finite(outline.borrow()))
+            .collect();
         let boxes: Vec<Option<(DVec2, DVec2)>> = views
             .iter()
             .map(|polygons| bounds(polygons.iter().filter_map(|rings| rings.first())))

@@ -14,7 +14,7 @@ use resvg::tiny_skia::{
     SpreadMode, Stroke, Transform,
 };
 
-use crate::billboard::{Character, View};
+use crate::billboard::{Character, TrackId, View};
 use crate::geometry::Outline;
 
 /// The height of a view, if there is room, pixels.
@@ -166,7 +166,7 @@ impl Cell<'_> {
             };
             let mut paint = Paint::default();
             if self.is_matched(*track) {
-                paint.set_color(color(colours::numbered(*track)));
+                paint.set_color(color(colours::numbered((*track).into())));
             } else {
                 let quality = FilterQuality::Nearest;
                 let still = Transform::identity();
@@ -183,7 +183,7 @@ impl Cell<'_> {
             };
             pixmap.stroke_path(&path, &paint, &stroke, still, None);
             mask.fill_path(&path, FillRule::EvenOdd, true, still);
-            labels.cover(&mut mask, path.bounds(), *track);
+            labels.cover(&mut mask, path.bounds(), (*track).into());
         }
         labels.write(&mut pixmap);
         let middle = [
@@ -195,10 +195,10 @@ impl Cell<'_> {
     }
 
     /// Per region of the view its track.
-    fn tracks(&self) -> Vec<Option<usize>> {
+    fn tracks(&self) -> Vec<Option<TrackId>> {
         let count = self.character.views[self.view].regions.len();
         let mut tracks = vec![None; count];
-        for (index, track) in self.character.matching.tracks.iter().enumerate() {
+        for (index, track) in self.character.matching.tracks.iter_enumerated() {
             if let Some(region) = track.regions[self.view] {
                 tracks[region] = Some(index);
             }
@@ -207,7 +207,7 @@ impl Cell<'_> {
     }
 
     /// Whether a track has regions in two views.
-    fn is_matched(&self, track: usize) -> bool {
+    fn is_matched(&self, track: TrackId) -> bool {
         let regions = &self.character.matching.tracks[track].regions;
         regions.iter().flatten().count() > 1
     }
