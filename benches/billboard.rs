@@ -3,100 +3,15 @@
 //!
 //!   cargo bench --bench billboard [-- SIDE…]
 //!
-//! Each picture shows 25 regions. The stages are those of `src/billboard`, called on their own; the whole is a compile with the
+//! Each picture shows 25 regions. The stages are called on their own; the whole is a compile with the
 //! writing of the model into memory.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
-#![allow(
-    dead_code,
-    unreachable_pub,
-    unused_imports,
-    clippy::unwrap_used,
-    clippy::wrong_self_convention,
-    reason = "the stages are private modules with their unit tests, of which only some functions are called"
-)]
-
-#[path = "../src/geometry/mod.rs"]
-mod geometry;
-
-/// What the stages use of scenes.
-#[path = "../src/scene"]
-mod scene {
-    mod turn;
-
-    pub(crate) use turn::{Turn, view_axes};
-}
-
-/// The stages.
-#[path = "../src/billboard"]
-mod billboard {
-    // Two are for the unit tests of the others, which cargo compiles with a benchmark.
-    mod assignment;
-    mod generated;
-    mod matching;
-    mod place;
-    mod raster;
-    mod region;
-    mod shape;
-    mod turn;
-
-    use super::{Medians, timed};
-    use crate::geometry::Outline;
-    use region::{Direction, Region, View};
-
-    /// Adds the times of the stages from two decoded pictures to the shapes. Returns how many regions were found, and how many
-    /// tracks.
-    pub(crate) fn stages(pictures: &[image::RgbaImage; 2], times: &mut Medians) -> [usize; 2] {
-        let views = times.add("segment", || {
-            use rayon::prelude::*;
-            let found = pictures.par_iter().map(raster::regions);
-            found.collect::<Vec<_>>()
-        });
-        let views: Vec<View> = views
-            .into_iter()
-            .zip([0.0, 45.0])
-            .map(|(found, theta)| View {
-                direction: Direction { theta, phi: 0.0 },
-                regions: found
-                    .regions
-                    .into_iter()
-                    .map(|region| Region {
-                        name: None,
-                        outline: region.outline,
-                        color: region.color,
-                        container: region.container,
-                    })
-                    .collect(),
-            })
-            .collect();
-        let regions = views.iter().map(|view| view.regions.len()).sum();
-        let (frames, matching) = times.add("match", || {
-            let frames = place::frames(&views);
-            let matching = matching::match_regions(&views, &frames);
-            (frames, matching)
-        });
-        let placed = times.add("place", || {
-            place::place(&views, &frames, &matching.tracks, &[])
-        });
-        assert_eq!(placed.len(), matching.tracks.len());
-        times.add("morph and triangulate", || {
-            use rayon::prelude::*;
-            let shapes = matching.tracks.par_iter().map(|track| {
-                let outlines = track.regions.iter().zip(&views).map(|(region, view)| {
-                    region.map_or_else(Outline::default, |r| view.regions[r].outline.clone())
-                });
-                shape::morph(&outlines.collect::<Vec<_>>(), &[])
-            });
-            shapes.collect::<Vec<_>>()
-        });
-        [regions, matching.tracks.len()]
-    }
-}
-
 use std::io::Cursor;
 use std::time::{Duration, Instant};
 
 use image::{Rgba, RgbaImage};
+use okoshi::billboard::stages;
 use okoshi::compile::{Options, compile};
 use okoshi::resolver::MemoryResolver;
 
@@ -143,6 +58,15 @@ fn main() {
     for side in sides {
         measure(side);
     }
+}
+
+/// Adds the times of the stages from two decoded pictures to the shapes. Returns how many regions were found, and how many tracks.
+fn add_stages(pictures: &[RgbaImage; 2], times: &mut Medians) -> [usize; 2] {
+    let found = times.add("segment", || stages::segment(pictures));
+    let matched = times.add("match", || stages::match_regions(&found));
+    times.add("place", || stages::place(&found, &matched));
+    times.add("morph and triangulate", || stages::shape(&found, &matched));
+    [stages::region_count(&found), stages::track_count(&matched)]
 }
 
 /// A round trunk, a head, 23 spots that turn with them, and soft edges.
@@ -262,7 +186,7 @@ fn measure(side: u32) {
         let pictures = times.add("decode", || files.each_ref().map(decode));
         let areas = times.add("flood", || pictures.each_ref().map(flood));
         assert!(areas.iter().all(|count| *count > 25));
-        found = billboard::stages(&pictures, &mut times);
+        found = add_stages(&pictures, &mut times);
         let compiled = times.add("compile", || compile(&text, &Options::default(), &resolver));
         assert_eq!(compiled.characters.len(), 1, "{:?}", compiled.diagnostics);
         let file = times.add("write", || {

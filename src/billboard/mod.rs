@@ -17,6 +17,8 @@ mod place;
 mod raster;
 mod region;
 mod shape;
+#[doc(hidden)]
+pub mod stages;
 #[cfg(test)]
 mod tests;
 mod turn;

@@ -47,11 +47,11 @@ pub(crate) fn connected_runs<R>(runs: &[R], span: impl Fn(&R) -> Span) -> (Vec<u
             }
             above += 1;
         }
-        for other in above..index {
-            let touching = span(&runs[other]);
-            if touching.y >= run.y || touching.from > run.to {
-                break;
-            }
+        let touching = (above..index).take_while(|other| {
+            let other = span(&runs[*other]);
+            other.y < run.y && other.from <= run.to
+        });
+        for other in touching {
             join(&mut parents, index as u32, other as u32);
         }
     }
@@ -81,11 +81,9 @@ mod tests {
                         continue;
                     }
                     labels[y][x] = count;
-                    for y in y.saturating_sub(1)..=(y + 1).min(rows.len() - 1) {
-                        for x in x.saturating_sub(1)..=(x + 1).min(rows[y].len() - 1) {
-                            todo.push((x, y));
-                        }
-                    }
+                    let columns = x.saturating_sub(1)..=(x + 1).min(rows[y].len() - 1);
+                    let beside = y.saturating_sub(1)..=(y + 1).min(rows.len() - 1);
+                    todo.extend(beside.flat_map(|y| columns.clone().map(move |x| (x, y))));
                 }
             }
         }

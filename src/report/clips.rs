@@ -96,7 +96,7 @@ pub fn cut_frames(clip: &FigureClip) -> (Vec<u32>, Vec<u32>) {
     let Some(cut) = &clip.cut else {
         return (Vec::new(), Vec::new());
     };
-    let mut omitted: Vec<u32> = cut.omitted.iter().copied().collect();
+    let mut omitted: Vec<u32> = cut.omitted.to_vec();
     let mut held: Vec<u32> = cut.held.iter().map(|hold| hold.covered).collect();
     omitted.sort_unstable();
     held.sort_unstable();
