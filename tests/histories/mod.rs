@@ -91,10 +91,16 @@ const SUBJECTS: &[Subject] = &[
                 "$Motion \"motion.bvh\" Perform \"marks.csv\" Limited 1 4",
                 "$Stand 40 -120",
                 "$Stand 40 -120 Size 1.5",
+            ],
+            // The last two are not strings of the part that they lie on.
+            &[
+                "",
+                "$Swing 2",
+                "$Carry change",
+                "$Mark green",
                 "$Walk 40",
                 "$Pose 1.5",
             ],
-            &["", "$Swing 2", "$Carry change", "$Mark green"],
             &[
                 "$Mark red",
                 "$Mark red Follow Head",
