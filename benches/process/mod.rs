@@ -23,7 +23,9 @@ pub(crate) fn interleaved<const N: usize>(
     rounds: usize,
     measures: [&dyn Fn() -> Duration; N],
 ) -> [Times; N] {
-    measures.iter().for_each(|measure| drop(measure()));
+    for measure in measures {
+        let _ = measure();
+    }
     let mut times = [const { Vec::new() }; N];
     for _ in 0..rounds {
         for (times, measure) in times.iter_mut().zip(measures) {

@@ -12,8 +12,11 @@ use okoshi::resolver::{LinkError, MemoryResolver, Resolver};
 /// The first two are files, and the third is that there is none.
 pub(super) const VERSIONS: usize = 3;
 
+/// The versions of a file, by their number.
+type Contents = fn(usize) -> Vec<u8>;
+
 /// The names of the files, and what makes a version.
-pub(super) const LINKS: &[(&str, fn(usize) -> Vec<u8>)] = &[
+pub(super) const LINKS: &[(&str, Contents)] = &[
     ("picture.png", |version| picture([0, 40][version])),
     ("front.png", |version| bird([20, 24][version])),
     ("side.png", |version| bird([28, 26][version])),
