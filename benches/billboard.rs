@@ -77,16 +77,18 @@ fn drawing(side: u32, theta: f64) -> RgbaImage {
     discs.push(([0.5, 0.26], [0.22, 0.22], [250, 200, 150]));
     for index in 0..23_u8 {
         let on_head = index < 8;
-        let ([x, y], radius) = match on_head {
-            true => ([0.5, 0.26], 0.22),
-            false => ([0.5, 0.68], 0.3),
+        let ([x, y], radius) = if on_head {
+            ([0.5, 0.26], 0.22)
+        } else {
+            ([0.5, 0.68], 0.3)
         };
         let number = f64::from(index);
         // Along a spiral.
         let turn = number * 2.4;
-        let out = match on_head {
-            true => (number + 0.8) / 11.0,
-            false => (number - 7.2) / 20.0,
+        let out = if on_head {
+            (number + 0.8) / 11.0
+        } else {
+            (number - 7.2) / 20.0
         };
         let out = out.sqrt() * 0.8;
         let (across, down) = (out * turn.cos() * 0.7, out * turn.sin());

@@ -46,9 +46,10 @@ fn main() -> ExitCode {
         .skip(1)
         .filter(|argument| argument != "--bench")
         .collect();
-    let drawings: Vec<&str> = match asked.is_empty() {
-        true => FIGURES.into_iter().chain(LARGE).collect(),
-        false => asked.iter().map(String::as_str).collect(),
+    let drawings: Vec<&str> = if asked.is_empty() {
+        FIGURES.into_iter().chain(LARGE).collect()
+    } else {
+        asked.iter().map(String::as_str).collect()
     };
     let mut code = ExitCode::SUCCESS;
     for drawing in drawings {

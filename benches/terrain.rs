@@ -216,9 +216,10 @@ struct Solid(bool);
 
 impl Voxel for Solid {
     fn get_visibility(&self) -> VoxelVisibility {
-        match self.0 {
-            true => VoxelVisibility::Opaque,
-            false => VoxelVisibility::Empty,
+        if self.0 {
+            VoxelVisibility::Opaque
+        } else {
+            VoxelVisibility::Empty
         }
     }
 }

@@ -38,7 +38,7 @@ fn main() {
                 ellipse(time, [280.0, 240.0], [80.0, 80.0], 8.0, 0.5)
             }),
         ],
-        colourful: 14,
+        colorful: 14,
         patches: vec![[205, 40, 45], [40, 150, 60]],
         noise: 6.0,
         shutter: 0.5,

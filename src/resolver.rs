@@ -58,9 +58,10 @@ pub enum LinkError {
 /// Those of [`relative`], and if the link leaves the folder.
 pub fn inside(link: &str) -> Result<String, LinkError> {
     let path = relative(link)?;
-    match path == ".." || path.starts_with("../") {
-        true => Err(LinkError::Outside),
-        false => Ok(path),
+    if path == ".." || path.starts_with("../") {
+        Err(LinkError::Outside)
+    } else {
+        Ok(path)
     }
 }
 
@@ -99,9 +100,10 @@ pub fn relative(link: &str) -> Result<String, LinkError> {
             part => parts.push(part),
         }
     }
-    match parts.is_empty() {
-        true => Err(LinkError::Missing),
-        false => Ok(parts.join("/")),
+    if parts.is_empty() {
+        Err(LinkError::Missing)
+    } else {
+        Ok(parts.join("/"))
     }
 }
 

@@ -359,9 +359,10 @@ fn figure(has_strings: bool, transform: impl Fn(&str) -> String) -> String {
             };
             let _ = write!(body, "<g>{TRUNK}{name}</g>");
         }
-        let string = match has_strings {
-            true => format!("<desc>{name}{parent}</desc>"),
-            false => String::new(),
+        let string = if has_strings {
+            format!("<desc>{name}{parent}</desc>")
+        } else {
+            String::new()
         };
         let _ = write!(body, "<g {}>{shapes}{string}</g>", transform(name));
     }
@@ -405,9 +406,12 @@ fn turned(kind: &str, limb: &str, degrees: f64) -> [usize; 3] {
         (view.sheet.corner - world).dot(view.sheet.up) / view.sheet.pixel - 60.0,
     ];
     let picture = picture(&view);
-    let reference = figure(false, |name| match name == limb {
-        true => format!(r#"transform="rotate({:.4} {x:.4} {y:.4})""#, -degrees),
-        false => String::new(),
+    let reference = figure(false, |name| {
+        if name == limb {
+            format!(r#"transform="rotate({:.4} {x:.4} {y:.4})""#, -degrees)
+        } else {
+            String::new()
+        }
     });
     let tree = usvg::Tree::from_str(&reference, &usvg::Options::default()).expect("a drawing");
     let mut drawn = Pixmap::new(view.size[0], view.size[1]).expect("a pixmap");
@@ -520,7 +524,7 @@ fn what_is_not_built_is_not_compared() {
 }
 
 #[test]
-fn colours_that_strings_give_are_right() {
+fn colors_that_strings_give_are_right() {
     let (_, look) = looked_at(&page(
         r##"<rect x="0" y="20" width="40" height="40" fill="#3060c0"/>
         <text x="20" y="40" font-size="5">Body$Color 1 0 0</text>"##,

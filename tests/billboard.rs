@@ -240,7 +240,7 @@ fn seen(character: &Character) -> Vec<Seen> {
     };
     let page = compiled.drawing.page.0;
     let root = &compiled.scene.nodes[compiled.scene.roots[0]];
-    let metres = okoshi::assemble::world_transform(&compiled.bindings, &compiled.layers).scale;
+    let meters = okoshi::assemble::world_transform(&compiled.bindings, &compiled.layers).scale;
     let view = |(index, direction): (usize, &[f64; 2])| {
         let [right, up, _] = view_axes(*direction);
         let frame = &shown.frames[index];
@@ -254,7 +254,7 @@ fn seen(character: &Character) -> Vec<Seen> {
         let size = (end - corner).to_array().map(|side| side as usize);
         let drawn = drawing.part(corner.to_array().map(|at| at as usize), size);
         // Views are as large as the first one.
-        let unit = metres * shown.frames[0].height / frame.height;
+        let unit = meters * shown.frames[0].height / frame.height;
         let offset = (page + corner / SCALE - frame.center) * unit;
         let sheet = Sheet {
             corner: root.translation + right * offset.x - up * offset.y,
@@ -438,18 +438,18 @@ fn backing_fills_gaps_and_changes_nothing_else() {
         let shown = &plain.compiled.characters[0];
         let [from, to] = [shown.turn.views[0], shown.turn.views[1]];
         let [right, up, _] = view_axes([(from[0] + to[0]) / 2.0, (from[1] + to[1]) / 2.0]);
-        let metres =
+        let meters =
             okoshi::assemble::world_transform(&plain.compiled.bindings, &plain.compiled.layers)
                 .scale;
         let size = (shown.frames[0].height * 1.5 * SCALE) as u32;
-        let half = f64::from(size) / 2.0 * metres / SCALE;
+        let half = f64::from(size) / 2.0 * meters / SCALE;
         let halfway = |character: &Character| {
             let scene = &character.compiled.scene;
             let sheet = Sheet {
                 corner: scene.nodes[scene.roots[0]].translation + (up - right) * half,
                 right,
                 up,
-                pixel: metres / SCALE,
+                pixel: meters / SCALE,
             };
             picture(scene, &sheet, [size; 2])
         };

@@ -483,7 +483,7 @@ fn quiet_and_verbose() {
 }
 
 #[test]
-fn colours() {
+fn colors() {
     let room = Room::with("bad.svg", BAD);
     let colored = |run: Run| format!("{}{}", run.out, run.err).contains('\x1b');
     assert!(

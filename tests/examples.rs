@@ -131,11 +131,11 @@ fn the_cars_doors_and_tyres_are_on_both_sides() {
         found.unwrap_or_else(|| panic!("there is no `{name}`"))
     };
     // `Scale 2.5`: a unit of the drawing is 2.5 cm.
-    let metres = |units: f32| units * 0.025;
+    let meters = |units: f32| units * 0.025;
     for door in ["RearDoor", "FrontDoor"] {
         let [low, high] = bounds(named(door));
         assert!(near(high[2], -low[2]), "{door}: {low:?} {high:?}");
-        assert!(high[2] >= metres(50.0), "{door}: {high:?}");
+        assert!(high[2] >= meters(50.0), "{door}: {high:?}");
     }
     for (name, side) in [
         ("RearTyre", 1.0),
@@ -145,13 +145,13 @@ fn the_cars_doors_and_tyres_are_on_both_sides() {
     ] {
         let tyre = named(name);
         assert_eq!(tyre.parent.as_deref(), Some("Body"), "{name}");
-        assert!(near(tyre.translation[2], side * metres(45.0)), "{name}");
+        assert!(near(tyre.translation[2], side * meters(45.0)), "{name}");
         let [low, high] = bounds(tyre);
         for axis in 0..3 {
             assert!(near(high[axis], -low[axis]), "{name}: {low:?} {high:?}");
         }
-        assert!(near(high[2], metres(5.0)), "{name}: {high:?}");
-        assert!(near(high[0], metres(22.0)), "{name}: {high:?}");
+        assert!(near(high[2], meters(5.0)), "{name}: {high:?}");
+        assert!(near(high[0], meters(22.0)), "{name}: {high:?}");
     }
 }
 

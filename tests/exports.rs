@@ -598,9 +598,12 @@ fn exported_drawings_have_the_names_of_their_layers() {
     for (what, figure) in figures {
         for program in &PROGRAMS {
             let drawing = (program.file)(&pieces(figure, program.attributes, program.form));
-            let spell = |name: &str| match program.underscores {
-                true => name.replace(' ', "_"),
-                false => name.to_owned(),
+            let spell = |name: &str| {
+                if program.underscores {
+                    name.replace(' ', "_")
+                } else {
+                    name.to_owned()
+                }
             };
             let expected = figure
                 .iter()

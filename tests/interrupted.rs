@@ -153,9 +153,10 @@ fn kill_often(case: &Case) {
         let _ = child.kill();
         child.wait().expect("it ends");
         let now = room.read(case.output);
-        let left = match now == outputs[version] {
-            true => Left::New,
-            false => Left::Old,
+        let left = if now == outputs[version] {
+            Left::New
+        } else {
+            Left::Old
         };
         assert!(
             left == Left::New || now == old,

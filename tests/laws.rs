@@ -198,10 +198,7 @@ fn string() -> impl Strategy<Value = String> {
         1 => Just("* unused".to_owned()),
         1 => Just("$Shape roundv Color blue".to_owned()),
         1 => Just("% Strokes all Segments 5".to_owned()),
-        1 => (names(), examples).prop_map(|(name, example)| match example.starts_with('%') {
-            true => example.to_owned(),
-            false => format!("{name}{example}"),
-        }),
+        1 => (names(), examples).prop_map(|(name, example)| if example.starts_with('%') { example.to_owned() } else { format!("{name}{example}") }),
         1 => prop::collection::vec(word(), 0..12).prop_map(|words| words.join(" ")),
     ]
 }

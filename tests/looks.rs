@@ -375,7 +375,7 @@ fn alpha_is_blended_only_if_something_is_transparent() {
 }
 
 #[test]
-fn colour_replaces_a_gradient_and_tints_a_file() {
+fn color_replaces_a_gradient_and_tints_a_file() {
     let gradient = r##"<linearGradient id="g"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>"##;
     let plain = material(r##"fill="url(#g)""##, gradient, "Color 0 1 0");
     assert_eq!(

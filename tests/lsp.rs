@@ -272,9 +272,9 @@ fn every_request_is_answered() {
         slice(text, &selections[0]["parent"]["range"]),
         "Shape roundv -90 90"
     );
-    let colours = editor.ask("textDocument/documentColor", document());
-    assert_eq!(slice(text, &colours[0]["range"]), "#ff8000");
-    let mut wanted = json!({"textDocument": {"uri": URI}, "range": colours[0]["range"]});
+    let colors = editor.ask("textDocument/documentColor", document());
+    assert_eq!(slice(text, &colors[0]["range"]), "#ff8000");
+    let mut wanted = json!({"textDocument": {"uri": URI}, "range": colors[0]["range"]});
     wanted["color"] = json!({"red": 0, "green": 0, "blue": 1, "alpha": 1});
     let forms = editor.ask("textDocument/colorPresentation", wanted);
     assert_eq!(forms[0]["label"], "#0000ff");
@@ -474,7 +474,7 @@ fn columns_count_in_the_negotiated_encoding() {
 }
 
 #[test]
-fn changed_links_are_analysed_again() {
+fn changed_links_are_analyzed_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = DRAWING.replace("Color #ff8000", "Texture \"sail.png\"");
     let uri = address(&folder.path().join("a.svg"));
@@ -575,7 +575,7 @@ fn diagnostics_can_be_requested() {
 }
 
 #[test]
-fn texts_are_analysed_on_type_or_on_save() {
+fn texts_are_analyzed_on_type_or_on_save() {
     let params = json!({"processId": null, "capabilities": {}, "initializationOptions": {"analyse": "onSave"}});
     let mut editor = Editor::initialized(params);
     editor.opened(URI, DRAWING);
@@ -603,7 +603,7 @@ fn texts_are_analysed_on_type_or_on_save() {
 }
 
 #[test]
-fn requests_can_be_cancelled() {
+fn requests_can_be_canceled() {
     let mut editor = Editor::new();
     // Large enough that its analysis is still running when the request is cancelled.
     let text = many(4_000);

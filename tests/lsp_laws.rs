@@ -164,9 +164,10 @@ impl Draft {
     /// Makes an edit, and returns it in terms of [`Draft::text`] before it; `None` if the text has no place for it.
     fn edit(&mut self, edit: &Edit) -> Option<Replacement> {
         if matches!(edit.kind, Kind::Damage) {
-            return Some(match self.damage.is_some() {
-                true => self.repair(),
-                false => self.break_at(edit),
+            return Some(if self.damage.is_some() {
+                self.repair()
+            } else {
+                self.break_at(edit)
             });
         }
         let (range, new) = self.plan(edit)?;

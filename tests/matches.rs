@@ -34,7 +34,7 @@ fn example(name: &str) -> Compiled {
 
 /// The commonest colour of each region of a view in a picture whose cell begins at `left`, by region; regions of which nothing is
 /// visible are missing. Also the width of the cell.
-fn colours(
+fn colors(
     character: &Character,
     view: usize,
     picture: &RgbaImage,
@@ -91,7 +91,7 @@ fn colours(
     (commonest.collect(), width as u32)
 }
 
-fn is_grey([r, g, b]: [u8; 3]) -> bool {
+fn is_gray([r, g, b]: [u8; 3]) -> bool {
     r == g && g == b
 }
 
@@ -105,8 +105,8 @@ fn check(compiled: &Compiled, what: &str) -> [usize; 2] {
     let mut left = 0;
     let mut shown = Vec::new();
     for view in 0..character.views.len() {
-        let (colours, width) = colours(character, view, &picture, left);
-        shown.push(colours);
+        let (colors, width) = colors(character, view, &picture, left);
+        shown.push(colors);
         left += width;
     }
     assert_eq!(picture.width(), left, "{what}");
@@ -115,12 +115,12 @@ fn check(compiled: &Compiled, what: &str) -> [usize; 2] {
     for (region, track) in character.regions.iter().zip(&character.matching.tracks) {
         let own = track.regions.iter().zip(&shown);
         let own: Vec<[u8; 3]> = own
-            .filter_map(|(region, colours)| colours.get(&(*region)?).copied())
+            .filter_map(|(region, colors)| colors.get(&(*region)?).copied())
             .collect();
         let name = &region.name;
         let is_alone = track.regions.iter().flatten().count() == 1;
         assert!(
-            own.iter().all(|color| is_grey(*color) == is_alone),
+            own.iter().all(|color| is_gray(*color) == is_alone),
             "{what} {name}: {own:?}"
         );
         if is_alone {
@@ -144,7 +144,7 @@ fn check(compiled: &Compiled, what: &str) -> [usize; 2] {
 }
 
 #[test]
-fn pairs_have_one_colour_in_all_views() {
+fn pairs_have_one_color_in_all_views() {
     for name in EXAMPLES {
         let compiled = example(name);
         let pairs = compiled.characters[0].matching.tracks.iter();
@@ -156,7 +156,7 @@ fn pairs_have_one_colour_in_all_views() {
 }
 
 #[test]
-fn regions_without_a_partner_are_grey() {
+fn regions_without_a_partner_are_gray() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/view-no-partner");
     let text = fs::read_to_string(folder.join("drawing.svg")).expect("a drawing");
     let compiled = common::compiled(&text, &MemoryResolver::default());

@@ -33,9 +33,10 @@ fn pillar() -> Vec<u8> {
         },
         joints: vec![],
         targets: vec![],
-        triangles: match z > 0.0 {
-            true => vec![[0, 1, 2], [0, 2, 3]],
-            false => vec![[0, 2, 1], [0, 3, 2]],
+        triangles: if z > 0.0 {
+            vec![[0, 1, 2], [0, 2, 3]]
+        } else {
+            vec![[0, 2, 1], [0, 3, 2]]
         },
     };
     let primitive = |surface: Surface, material: usize| Primitive {

@@ -847,7 +847,7 @@ fn a_page_is_shown_as_drawn() {
 }
 
 #[test]
-fn unlit_pictures_show_the_colours_of_materials() {
+fn unlit_pictures_show_the_colors_of_materials() {
     let room = room();
     ends(
         &room,

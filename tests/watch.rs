@@ -141,8 +141,8 @@ fn linked_files_are_watched_before_they_exist() {
     fs::write(folder.path().join("a.svg"), linking).expect("written");
     live.line("error[E006]");
     live.line("a.glb is unchanged");
-    let picture = |colour: [u8; 3]| {
-        let image = image::RgbImage::from_pixel(4, 4, image::Rgb(colour));
+    let picture = |color: [u8; 3]| {
+        let image = image::RgbImage::from_pixel(4, 4, image::Rgb(color));
         image
             .save(folder.path().join("skin.png"))
             .expect("a picture");

@@ -251,9 +251,10 @@ fn material(factors: &MaterialFactors, double_sided: bool) -> Material {
         metallic: factors.metallic as f32,
         roughness: factors.roughness as f32,
         emissive: factors.emissive.map(linear),
-        alpha_mode: match alpha < 1.0 {
-            true => AlphaMode::Blend,
-            false => AlphaMode::Opaque,
+        alpha_mode: if alpha < 1.0 {
+            AlphaMode::Blend
+        } else {
+            AlphaMode::Opaque
         },
         double_sided,
         ..Material::default()

@@ -9,7 +9,7 @@ use crate::terrain::Layer;
 use crate::threads::GRAIN;
 
 /// Metres in a centimetre: one drawing unit is `Scale` centimetres.
-const CENTIMETRE: f64 = 0.01;
+const CENTIMETER: f64 = 0.01;
 
 /// How a drawing with these tile layers lies in the world.
 pub fn world_transform(bindings: &Bindings, layers: &[Layer]) -> WorldTransform {
@@ -19,7 +19,7 @@ pub fn world_transform(bindings: &Bindings, layers: &[Layer]) -> WorldTransform 
             .ground
             .unwrap_or_else(|| middle_of_lower_edge(bindings, layers)),
         rotation: bindings.settings.axes,
-        scale: bindings.settings.scale * CENTIMETRE,
+        scale: bindings.settings.scale * CENTIMETER,
     }
 }
 

@@ -49,10 +49,10 @@ pub(super) fn backings(
             let in_front = tracks
                 .keys()
                 .filter(|other| placed[*other].depths[view] > depth);
-            let neighbours = in_front
+            let neighbors = in_front
                 .filter_map(|other| covers(view, other))
                 .filter(|other| overlap(&grown, other));
-            let all = [own].into_iter().chain(neighbours);
+            let all = [own].into_iter().chain(neighbors);
             let all: Vec<Outline> = all.map(|outline| Outline::clone(outline)).collect();
             let hidden = offset(&union(&all), -MARGIN * height);
             let backing = intersect(&grown, &hidden);

@@ -132,9 +132,10 @@ pub(super) fn read(
             }
         } else {
             if let Some((region, drawn)) = of_shape(drawing, bindings, index, parts[index]) {
-                match drawn.is_hidden {
-                    true => hidden.push((region, drawn)),
-                    false => regions.push((region, drawn)),
+                if drawn.is_hidden {
+                    hidden.push((region, drawn))
+                } else {
+                    regions.push((region, drawn))
                 }
             }
         }

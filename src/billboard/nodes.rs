@@ -50,9 +50,10 @@ impl<'a> RegionMaterials<'a> {
             let [r, g, b, alpha] = color;
             scene.materials.push(Material {
                 base_color: [linear(r), linear(g), linear(b), alpha as f32],
-                alpha_mode: match alpha < 1.0 {
-                    true => AlphaMode::Blend,
-                    false => AlphaMode::Opaque,
+                alpha_mode: if alpha < 1.0 {
+                    AlphaMode::Blend
+                } else {
+                    AlphaMode::Opaque
                 },
                 double_sided: true,
                 unlit: true,

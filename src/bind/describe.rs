@@ -98,10 +98,10 @@ impl Shape {
         };
         let what = match self.paint.key {
             PaintKey::Picture(_) => "picture".to_owned(),
-            _ if is_line => format!("{} line", colour_word(self.paint.color)),
+            _ if is_line => format!("{} line", color_word(self.paint.color)),
             _ => {
                 let form = form(drawn, self.element.tag);
-                format!("{} {form}", colour_word(self.paint.color))
+                format!("{} {form}", color_word(self.paint.color))
             }
         };
         let place = geometry::bounds(drawn).and_then(|bounds| place(bounds, page));
@@ -158,7 +158,7 @@ fn is_given(name: &str) -> bool {
 }
 
 /// The plain word for an sRGB colour.
-fn colour_word(color: [u8; 3]) -> &'static str {
+fn color_word(color: [u8; 3]) -> &'static str {
     let lab = oklab(color);
     let distance = |other: &[u8; 3]| {
         let other = oklab(*other);

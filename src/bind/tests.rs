@@ -444,7 +444,7 @@ fn a_performance_belongs_to_the_motion_before_it() {
     let requests = bindings.clip_requests();
     let own = requests[0].performance.as_ref().unwrap();
     assert_eq!(own.file, "w.csv");
-    assert_eq!(own.emphasised, Some("left hand"));
+    assert_eq!(own.emphasized, Some("left hand"));
     assert_eq!(own.keys, Some([14, 31]));
     let effects = PerformanceEffects {
         timing: false,
@@ -485,7 +485,7 @@ fn marks_and_what_follows_them_have_places() {
     let bindings = &compiled.bindings;
     let mark = |name: &str| {
         let mark = bindings.mark(part(&compiled, name))?;
-        Some((mark.word, mark.colour))
+        Some((mark.word, mark.color))
     };
     assert_eq!(mark("A"), Some(("red", [255, 0, 0])));
     assert_eq!(mark("B"), Some(("#00f", [0, 0, 255])));

@@ -62,11 +62,12 @@ fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
             Ok(vec![output.clone()])
         }
         (None, _) => {
-            let output = |drawing: &PathBuf| match drawing.as_os_str() == "-" {
-                true => {
+            let output = |drawing: &PathBuf| {
+                if drawing.as_os_str() == "-" {
                     Err("a drawing from stdin is in no folder: name the output with -o".to_owned())
+                } else {
+                    Ok(beside(drawing))
                 }
-                false => Ok(beside(drawing)),
             };
             arguments.drawings.iter().map(output).collect()
         }

@@ -25,9 +25,10 @@ pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
     let checked = spinning("checking", || {
         each(&arguments.drawings, |drawing| -> Result<Checked, Outcome> {
             let mut loaded = load(drawing, &arguments.reading)?;
-            let fixed = match arguments.fix {
-                true => fix(drawing, &mut loaded, arguments)?,
-                false => 0,
+            let fixed = if arguments.fix {
+                fix(drawing, &mut loaded, arguments)?
+            } else {
+                0
             };
             if arguments.look && !loaded.compiled.has_errors() {
                 look_at(drawing, &mut loaded, arguments)?;
@@ -90,9 +91,10 @@ fn human(read: &[Checked], arguments: &Check, common: Common) -> String {
                 (false, false) => count(counts),
                 (false, true) => format!("{} left", count(counts)),
             };
-            let fixed = match arguments.fix {
-                true => format!("{} fixed, ", counted(*fixed, "finding")),
-                false => String::new(),
+            let fixed = if arguments.fix {
+                format!("{} fixed, ", counted(*fixed, "finding"))
+            } else {
+                String::new()
             };
             out.push_str(&format!("{}: {fixed}{findings}\n", loaded.path));
             if let Some(look) = &loaded.look {

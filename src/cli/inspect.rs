@@ -65,12 +65,13 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
 /// The path of the picture, unless the command cannot write it whatever is in the drawing.
 fn checked<'a>(path: &'a Path, arguments: &Inspect) -> Result<&'a Path, String> {
     if is_standard_stream(path) {
-        return match arguments.json {
-            true => Err(
+        return if arguments.json {
+            Err(
                 "--json and --matches would both be written to stdout: name a file, for example --matches pairs.png"
                     .to_owned(),
-            ),
-            false => Ok(path),
+            )
+        } else {
+            Ok(path)
         };
     }
     match path.extension() {

@@ -104,9 +104,10 @@ fn drawing_as_command(error: &clap::Error) -> Option<String> {
     if !disk::is_drawing(path) && !path.exists() {
         return None;
     }
-    let quoted = match given.contains(char::is_whitespace) {
-        true => format!("\"{given}\""),
-        false => given.clone(),
+    let quoted = if given.contains(char::is_whitespace) {
+        format!("\"{given}\"")
+    } else {
+        given.clone()
     };
     let what = if path.is_dir() { "a folder" } else { "a file" };
     let build = if path.is_dir() { "watch" } else { "build" };

@@ -264,9 +264,10 @@ fn report(edited: &EditedClip, arguments: &Motion) -> String {
     if let Some(cut) = &edited.cut {
         let mut omitted: Vec<u32> = cut.omitted.clone();
         omitted.sort_unstable();
-        let which = match omitted.is_empty() {
-            true => String::new(),
-            false => format!(" ({})", frame_ranges(&omitted, usize::MAX)),
+        let which = if omitted.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", frame_ranges(&omitted, usize::MAX))
         };
         let _ = writeln!(
             out,

@@ -55,13 +55,14 @@ fn write(
     let target = inputs
         .target(output, naming)
         .map_err(|error| error.to_string())?;
-    let title = match is_standard_stream(&arguments.drawing) {
-        true => "puppet".into(),
-        false => arguments
+    let title = if is_standard_stream(&arguments.drawing) {
+        "puppet".into()
+    } else {
+        arguments
             .drawing
             .file_stem()
             .unwrap_or_default()
-            .to_string_lossy(),
+            .to_string_lossy()
     };
     let options = Options {
         page: arguments.page,
@@ -92,13 +93,16 @@ fn output(arguments: &Puppet) -> Result<(PathBuf, Naming), String> {
             let name = derived().ok_or(unnamed)?;
             Ok((folder.join(name), Naming::Derived))
         }
-        Some(output) => match is_svg(output) || is_standard_stream(output) {
-            true => Ok((output.clone(), Naming::Given)),
-            false => Err(format!(
-                "a sheet is an SVG file, so the name of `{}` must end in .svg",
-                output.display()
-            )),
-        },
+        Some(output) => {
+            if is_svg(output) || is_standard_stream(output) {
+                Ok((output.clone(), Naming::Given))
+            } else {
+                Err(format!(
+                    "a sheet is an SVG file, so the name of `{}` must end in .svg",
+                    output.display()
+                ))
+            }
+        }
         None => {
             let name = derived().ok_or(unnamed)?;
             Ok((drawing.with_file_name(name), Naming::Derived))
@@ -120,13 +124,15 @@ fn summary(loaded: &Loaded, sheet: &Sheet) -> String {
         .map(|mark| format!("{} on {}", mark.word, parts[mark.part].name))
         .collect();
     let is_suggested = |mark: &puppet::PieceMark| mark.origin == MarkOrigin::Suggested;
-    let suggested = match sheet.marks.iter().any(is_suggested) {
-        true => ", suggested",
-        false => "",
+    let suggested = if sheet.marks.iter().any(is_suggested) {
+        ", suggested"
+    } else {
+        ""
     };
-    let marks = match marks.is_empty() {
-        true => String::new(),
-        false => format!("; marks{suggested}: {}", marks.join(", ")),
+    let marks = if marks.is_empty() {
+        String::new()
+    } else {
+        format!("; marks{suggested}: {}", marks.join(", "))
     };
     format!(
         "{} on {}, {:.0} mm large, --scale {}{marks}",

@@ -244,13 +244,14 @@ fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, Str
     };
     if one && form != Form::Png {
         let name = output.display();
-        return Err(match arguments.asks_for_clip() {
-            true => format!(
+        return Err(if arguments.asks_for_clip() {
+            format!(
                 "`{name}` would be an animation, but --time and --strip make a still picture: use an output that ends in .png"
-            ),
-            false => format!(
+            )
+        } else {
+            format!(
                 "`{name}` would be an animation: choose what it shows with --turntable 36 or --clip NAME, or end the output in .png"
-            ),
+            )
         });
     }
     clips::check_fps(arguments, form)?;
@@ -316,15 +317,14 @@ fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
     let outcome = loaded.outcome();
     let linked = loaded.linked(&resolver(drawing, &arguments.reading));
     let mut scene = std::mem::take(&mut loaded.compiled.scene);
-    let page = match arguments.as_drawn {
-        true => {
-            let scale = arguments.scale.unwrap_or(1.0);
-            let view = DrawnView::new(&loaded.compiled, scene, scale)
-                .map_err(|error| fail(&page_failure(&loaded.path, &error)))?;
-            scene = view.scene;
-            Some((view.sheet, view.size))
-        }
-        false => None,
+    let page = if arguments.as_drawn {
+        let scale = arguments.scale.unwrap_or(1.0);
+        let view = DrawnView::new(&loaded.compiled, scene, scale)
+            .map_err(|error| fail(&page_failure(&loaded.path, &error)))?;
+        scene = view.scene;
+        Some((view.sheet, view.size))
+    } else {
+        None
     };
     match export::to_memory(&GLB, &scene, None) {
         Ok(model) => Ok(Source {
@@ -389,8 +389,8 @@ fn draw(
             };
             let seconds = f64::from(TURNTABLE_SECONDS) / f64::from(frames);
             counting("drawing", frames, |done| {
-                let colours = || palette(posed, &options, frames);
-                movie.write(&target, colours, |push| {
+                let colors = || palette(posed, &options, frames);
+                movie.write(&target, colors, |push| {
                     let mut number = 0;
                     posed.turntable(&options, frames, |image| -> io::Result<()> {
                         push(&image, seconds, 1)?;
@@ -460,7 +460,7 @@ impl From<render::RenderError> for Failure {
 /// The background of the pictures; `None` is transparent.
 fn background(arguments: &Render, form: Form) -> Option<[u8; 3]> {
     match (arguments.background, form) {
-        (Some(Background::Colour(colour)), _) => Some(colour),
+        (Some(Background::Color(color)), _) => Some(color),
         (Some(Background::Transparent), _) | (None, Form::Png | Form::Movie(MovieForm::Apng)) => {
             None
         }

@@ -270,9 +270,10 @@ fn tame(text: &str) -> Cow<'_, str> {
         (c.is_control() && c != '\n')
             || matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
     };
-    match text.contains(steers) {
-        true => text.replace(steers, "\u{FFFD}").into(),
-        false => text.into(),
+    if text.contains(steers) {
+        text.replace(steers, "\u{FFFD}").into()
+    } else {
+        text.into()
     }
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::diagnostic::Code;
-use crate::report::samples::{DRAWING, at, misspelt};
+use crate::report::samples::{DRAWING, at, misspelled};
 
 fn report(text: &str, diagnostics: &[Diagnostic]) -> String {
     let findings = Findings {
@@ -14,7 +14,7 @@ fn report(text: &str, diagnostics: &[Diagnostic]) -> String {
 
 #[test]
 fn a_finding_is_shown_in_its_line() {
-    insta::assert_snapshot!(report(DRAWING, &[misspelt(DRAWING)]), @r#"
+    insta::assert_snapshot!(report(DRAWING, &[misspelled(DRAWING)]), @r#"
         error[E101]: unknown keyword `Shap`
          --> human.svg:2:21
           |
@@ -88,7 +88,7 @@ fn a_long_line_is_cut_around_the_span() {
     let mut text = "<path d='M 0 0 L 腕'/>".repeat(200_000);
     text.insert_str(23 * 130_000, "<text>Rarm@Ubody$Shap roundv</text>");
     text.insert_str(23 * 39_000, "<text>Other</text>");
-    let finding = misspelt(&text).related(at(&text, "Other"), "the other one");
+    let finding = misspelled(&text).related(at(&text, "Other"), "the other one");
     insta::assert_snapshot!(report(&text, std::slice::from_ref(&finding)), @r#"
         error[E101]: unknown keyword `Shap`
          --> human.svg:1:2730036
@@ -136,12 +136,12 @@ fn odd_places_do_no_harm() {
 }
 
 #[test]
-fn colours_are_for_those_who_ask() {
+fn colors_are_for_those_who_ask() {
     let findings = Findings {
         look: None,
         path: "human.svg",
         text: DRAWING,
-        diagnostics: &[misspelt(DRAWING)],
+        diagnostics: &[misspelled(DRAWING)],
     };
     assert!(human(findings, Style::Colored).contains("\u{1B}["));
     assert!(!human(findings, Style::Plain).contains('\u{1B}'));

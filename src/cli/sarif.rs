@@ -249,9 +249,10 @@ fn uri(path: &str) -> String {
     };
     // A first part with a colon would be read as a scheme.
     let first = path.split('/').next();
-    let prefix = match first.is_some_and(|part| part.contains(':')) {
-        true => "./",
-        false => "",
+    let prefix = if first.is_some_and(|part| part.contains(':')) {
+        "./"
+    } else {
+        ""
     };
     format!("{prefix}{}", utf8_percent_encode(&path, ENCODED))
 }
@@ -261,10 +262,10 @@ mod tests {
     use serde_json::Value;
 
     use super::*;
-    use crate::report::samples::{DRAWING, at, misspelt};
+    use crate::report::samples::{DRAWING, at, misspelled};
 
     fn log() -> Value {
-        let finding = misspelt(DRAWING).related(at(DRAWING, "頭"), "the parent");
+        let finding = misspelled(DRAWING).related(at(DRAWING, "頭"), "the parent");
         let findings = Findings {
             look: None,
             path: "my figures/腕.svg",

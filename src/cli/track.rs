@@ -378,11 +378,12 @@ fn draw(
 
 /// The upper left of a picture.
 fn cut(image: Image, [width, height]: [u32; 2]) -> Image {
-    match image.dimensions() == (width, height) {
-        true => image,
-        false => Image::from_fn(width, height, |x, y| {
+    if image.dimensions() == (width, height) {
+        image
+    } else {
+        Image::from_fn(width, height, |x, y| {
             *image.get_pixel(x.min(image.width() - 1), y.min(image.height() - 1))
-        }),
+        })
     }
 }
 

@@ -151,9 +151,12 @@ fn built(drawing: &Path, build: &Build, outputs: &mut Outputs<'_>, common: Commo
         Ok(output) => output,
         Err(why) => return format!("{text}{}", line(&name, &format!("not written: {why}"))),
     };
-    let unchanged = || match output.exists() {
-        true => format!("{} is unchanged", output.display()),
-        false => "nothing was written".to_owned(),
+    let unchanged = || {
+        if output.exists() {
+            format!("{} is unchanged", output.display())
+        } else {
+            "nothing was written".to_owned()
+        }
     };
     let (message, failed) = match &build.model {
         Err(NoModel::Errors) => (format!("{found}{}", unchanged()), true),

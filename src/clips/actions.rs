@@ -301,9 +301,10 @@ fn jump(body: &Body, frame: f64) -> Pose {
     let high = if is_biped { stretched } else { 0.0 };
     let speed = GRAVITY * (on - off) / 2.0;
     let since = frame - off;
-    let flight = match (off..on).contains(&frame) {
-        true => speed * since - GRAVITY * since * since / 2.0,
-        false => 0.0,
+    let flight = if (off..on).contains(&frame) {
+        speed * since - GRAVITY * since * since / 2.0
+    } else {
+        0.0
     };
     let height = match frame {
         at if at < crouch => low * ease(at / crouch),

@@ -376,9 +376,10 @@ impl Body {
 /// The direction that a knee points to: as it does at rest, unless the leg is straight there.
 fn pole(hip: DVec3, plan: &LegPlan) -> DVec3 {
     let off = (plan.knee - hip).reject_from(plan.ankle - hip);
-    match off.length() > 1.0 {
-        true => off.normalize(),
-        false => plan.pole,
+    if off.length() > 1.0 {
+        off.normalize()
+    } else {
+        plan.pole
     }
 }
 

@@ -155,9 +155,10 @@ pub(super) fn lower(body: &Body, poses: &mut [Pose], reach: f64) {
     for _ in 0..HALVINGS {
         let middle = (low + high) / 2.0;
         let fits = |pose: &Pose| shifted(pose, middle).reach(body) <= reach;
-        match poses.iter().all(fits) {
-            true => low = middle,
-            false => high = middle,
+        if poses.iter().all(fits) {
+            low = middle
+        } else {
+            high = middle
         }
     }
     for pose in poses {

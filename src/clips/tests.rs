@@ -176,7 +176,7 @@ fn knees_and_elbows_bend_to_their_own_side() {
 }
 
 #[test]
-fn the_biped_is_labelled_as_it_is_by_its_names() {
+fn the_biped_is_labeled_as_it_is_by_its_names() {
     let (clip, anatomy) = clip(BuiltIn::Idle, Legs::Two);
     let by_names = crate::labels::label_clip(&clip);
     assert_eq!(by_names.limbs, anatomy.limbs);

@@ -116,9 +116,10 @@ impl FolderResolver {
 
 /// The folder that an empty path stands for is the working directory.
 fn named_folder(folder: PathBuf) -> PathBuf {
-    match folder.as_os_str().is_empty() {
-        true => PathBuf::from("."),
-        false => folder,
+    if folder.as_os_str().is_empty() {
+        PathBuf::from(".")
+    } else {
+        folder
     }
 }
 

@@ -146,22 +146,22 @@ pub fn open_stream(path: &Path) -> Result<Box<dyn Read>, ReadError> {
         return Ok(Box::new(io::stdin().lock()));
     }
     let file = File::open(path).map_err(|source| failure(path, source))?;
-    match file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-        true => Err(ReadError::folder(path)),
-        false => Ok(Box::new(file)),
+    if file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+        Err(ReadError::folder(path))
+    } else {
+        Ok(Box::new(file))
     }
 }
 
 fn open(path: &Path) -> Result<io::Result<Option<Vec<u8>>>, ReadError> {
     let file = File::open(path).map_err(|source| failure(path, source))?;
     let metadata = file.metadata();
-    match metadata.as_ref().is_ok_and(Metadata::is_dir) {
-        true => Err(ReadError::folder(path)),
-        false => {
-            // Reserves the full size, because a growing buffer would need twice the memory.
-            let size = metadata.map_or(0, |metadata| metadata.len().min(DRAWING_LIMIT));
-            Ok(read_limited(file, DRAWING_LIMIT, size))
-        }
+    if metadata.as_ref().is_ok_and(Metadata::is_dir) {
+        Err(ReadError::folder(path))
+    } else {
+        // Reserves the full size, because a growing buffer would need twice the memory.
+        let size = metadata.map_or(0, |metadata| metadata.len().min(DRAWING_LIMIT));
+        Ok(read_limited(file, DRAWING_LIMIT, size))
     }
 }
 

@@ -77,9 +77,10 @@ fn check_skin(scene: &Scene) -> io::Result<()> {
     if own || skin.mesh >= scene.meshes.len() || !joints_fit {
         return Err(invalid("a skin that does not fit the nodes"));
     }
-    match skin.joints.len() > MAX_JOINTS {
-        true => Err(invalid("a skin with too many joints")),
-        false => Ok(()),
+    if skin.joints.len() > MAX_JOINTS {
+        Err(invalid("a skin with too many joints"))
+    } else {
+        Ok(())
     }
 }
 
@@ -90,9 +91,10 @@ fn check_images(scene: &Scene) -> io::Result<()> {
             return Err(invalid(format!("image `{name}` is not a {media_type:?}")));
         }
     }
-    match scene.textures.iter().any(|t| t.image >= scene.images.len()) {
-        true => Err(invalid("a texture with an image out of range")),
-        false => Ok(()),
+    if scene.textures.iter().any(|t| t.image >= scene.images.len()) {
+        Err(invalid("a texture with an image out of range"))
+    } else {
+        Ok(())
     }
 }
 

@@ -39,9 +39,10 @@ fn depths(context: &FigureContext<'_>, part: usize) -> Option<[f64; 2]> {
         context.bindings.parts[part].kind,
         PartKind::Main | PartKind::Sub
     );
-    match built {
-        true => Some(context.thickness(part, context.offset(part))?.depths),
-        false => None,
+    if built {
+        Some(context.thickness(part, context.offset(part))?.depths)
+    } else {
+        None
     }
 }
 
@@ -81,9 +82,10 @@ fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Opti
         let ancestor = next?;
         plane -= context.node_offset(ancestor);
         let both = shape.mirrored || shape.doubled;
-        let symmetric = match both {
-            true => plane.abs() <= 1e-9 * (depths[1] - depths[0]).abs().max(1e-12),
-            false => is_symmetric(depths, plane),
+        let symmetric = if both {
+            plane.abs() <= 1e-9 * (depths[1] - depths[0]).abs().max(1e-12)
+        } else {
+            is_symmetric(depths, plane)
         };
         if doubled[ancestor] && symmetric {
             let name = context.bindings.describe(context.drawing, part);

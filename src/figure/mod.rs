@@ -133,13 +133,14 @@ impl<'a> Figures<'a> {
             .collect();
         let (nodes, node_of_part) = nodes::add(&self.context, self.tree, meshes, world, scene);
         let bindings = self.context.bindings;
-        let thicknesses = match bindings.clip_requests().is_empty() {
-            true => Vec::new(),
-            false => (0..bindings.parts.len())
+        let thicknesses = if bindings.clip_requests().is_empty() {
+            Vec::new()
+        } else {
+            (0..bindings.parts.len())
                 .into_par_iter()
                 .with_min_len(GRAIN)
                 .map(|part| self.context.thickness(part, self.layers.offset(part)))
-                .collect(),
+                .collect()
         };
         FigureNodes {
             thicknesses,
@@ -267,9 +268,10 @@ impl<'a> FigureContext<'a> {
     /// How far the node of a main part is moved along the viewer axis, drawing units. With `-s` its two solids are moved
     /// instead.
     fn node_offset(&self, part: usize) -> f64 {
-        match self.bindings.attributes(part).shape().mirrored {
-            true => 0.0,
-            false => self.offset(part),
+        if self.bindings.attributes(part).shape().mirrored {
+            0.0
+        } else {
+            self.offset(part)
         }
     }
 

@@ -204,9 +204,10 @@ struct Beside<'a> {
 impl Resolver for Beside<'_> {
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
         let absolute = link.starts_with(['/', '\\']) || link.contains(':');
-        match absolute {
-            true => self.resolver.read(link),
-            false => self.resolver.read(&format!("{}{link}", self.folder)),
+        if absolute {
+            self.resolver.read(link)
+        } else {
+            self.resolver.read(&format!("{}{link}", self.folder))
         }
     }
 }

@@ -51,10 +51,10 @@ pub(crate) fn touching(bodies: &[Body<'_>]) -> Vec<Vec<usize>> {
 }
 
 /// The connected groups among what has these neighbours, in the order of their first members; the members are in ascending order.
-pub(crate) fn connected(neighbours: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let mut taken = vec![false; neighbours.len()];
+pub(crate) fn connected(neighbors: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut taken = vec![false; neighbors.len()];
     let mut groups = Vec::new();
-    for first in 0..neighbours.len() {
+    for first in 0..neighbors.len() {
         if std::mem::replace(&mut taken[first], true) {
             continue;
         }
@@ -62,7 +62,7 @@ pub(crate) fn connected(neighbours: &[Vec<usize>]) -> Vec<Vec<usize>> {
         let mut next = 0;
         while let Some(&at) = members.get(next) {
             next += 1;
-            for &other in &neighbours[at] {
+            for &other in &neighbors[at] {
                 if !std::mem::replace(&mut taken[other], true) {
                     members.push(other);
                 }

@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn y_leads_up_or_right_where_the_joint_is_the_centre() {
+    fn y_leads_up_or_right_where_the_joint_is_the_center() {
         let center = DVec2::new(50.0, 50.0);
         for axis in [DVec2::Y, -DVec2::Y] {
             assert!(Frame::new(&measure(axis), center).angle.abs() < 1e-9);
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn the_drawing_is_turned_about_the_centre() {
+    fn the_drawing_is_turned_about_the_center() {
         let frame = Frame::new(&measure(DVec2::X), DVec2::new(40.0, 50.0));
         let to_frame = frame.from_drawing_about_center();
         let [center, far] = [50.0, 60.0].map(|x| to_frame.transform_point2(DVec2::new(x, 50.0)));

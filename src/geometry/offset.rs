@@ -18,9 +18,10 @@ pub fn offset(outline: &Outline, distance: f64) -> Outline {
     let band = band.into_iter().flatten();
     let band = band.map(|ring| ring.into_iter().map(Into::into).collect());
     let band = resolve_overlaps(band.collect(), FillRule::NonZero);
-    match distance < 0.0 {
-        true => subtract(outline, &band),
-        false => union(&[outline.clone(), band]),
+    if distance < 0.0 {
+        subtract(outline, &band)
+    } else {
+        union(&[outline.clone(), band])
     }
 }
 

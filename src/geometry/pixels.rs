@@ -75,9 +75,12 @@ fn smoothed(ring: &[DVec2]) -> Ring {
 fn halves(line: &[DVec2]) -> Vec<DVec2> {
     let kept = simplify(line.len(), |from, to| {
         let direction = (line[to] - line[from]).normalize_or_zero();
-        let distance = |p: DVec2| match direction == DVec2::ZERO {
-            true => p.distance(line[from]),
-            false => direction.perp_dot(p - line[from]).abs(),
+        let distance = |p: DVec2| {
+            if direction == DVec2::ZERO {
+                p.distance(line[from])
+            } else {
+                direction.perp_dot(p - line[from]).abs()
+            }
         };
         let farthest =
             (from + 1..to).max_by(|a, b| distance(line[*a]).total_cmp(&distance(line[*b])));

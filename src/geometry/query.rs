@@ -43,9 +43,10 @@ pub(crate) fn crosses([a, b]: [DVec2; 2], point: DVec2) -> bool {
 
 /// The square of the distance from a point to the filled area: 0 inside, infinite if there is no area.
 pub fn distance_squared(outline: &Outline, point: DVec2) -> f64 {
-    match contains(outline, point) {
-        true => 0.0,
-        false => border_distance_squared(outline, point),
+    if contains(outline, point) {
+        0.0
+    } else {
+        border_distance_squared(outline, point)
     }
 }
 
@@ -82,8 +83,8 @@ pub fn centroid(outline: &Outline) -> Option<DVec2> {
         twice += cross;
         sum += (a + b) * cross;
     }
-    let centre = low + sum / (3.0 * twice);
-    centre.is_finite().then_some(centre)
+    let center = low + sum / (3.0 * twice);
+    center.is_finite().then_some(center)
 }
 
 /// The signed area of a ring (shoelace formula), positive where it runs from x to y. Computed relative to the first

@@ -244,9 +244,10 @@ impl Analysis {
         let on_own_line = self.source[..end].ends_with(['\n', '\r']);
         Some(Edit {
             span: Span::at(end),
-            text: match on_own_line {
-                true => format!("  {element}{line}"),
-                false => format!("{line}  {element}{line}"),
+            text: if on_own_line {
+                format!("  {element}{line}")
+            } else {
+                format!("{line}  {element}{line}")
             },
         })
     }

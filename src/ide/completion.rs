@@ -17,7 +17,7 @@ use super::at::attributes;
 use super::typed::{Typed, typed_at};
 use crate::bind::{Place, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
-use crate::lang::keyword::colours::COLOURS;
+use crate::lang::keyword::colors::COLORS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::vocabulary::{AXES, FUNCTIONS, STRINGS};
@@ -88,7 +88,7 @@ pub enum ProposalKind {
     /// A function of calculations.
     Function,
     /// A colour.
-    Colour,
+    Color,
     /// A file.
     File,
 }
@@ -131,13 +131,14 @@ pub fn completion(context: &Context<'_>, offset: usize) -> Option<Completion> {
         in_desc,
         string: None,
     };
-    match text.as_str().is_empty() {
-        true => Some(Completion {
+    if text.as_str().is_empty() {
+        Some(Completion {
             span: Span::at(offset),
             proposals: cursor.starts(),
             is_incomplete: false,
-        }),
-        false => cursor.completion(),
+        })
+    } else {
+        cursor.completion()
     }
 }
 
@@ -168,9 +169,12 @@ impl Cursor<'_> {
 
     /// The proposals at the start of a string.
     fn starts(&self) -> Vec<Proposal> {
-        let rows = STRINGS.iter().filter(|row| match self.in_desc {
-            true => matches!(row.sign, "" | "$" | "*"),
-            false => row.sign != "^",
+        let rows = STRINGS.iter().filter(|row| {
+            if self.in_desc {
+                matches!(row.sign, "" | "$" | "*")
+            } else {
+                row.sign != "^"
+            }
         });
         rows.map(|row| {
             let (label, snippet) = match row.sign {
@@ -232,9 +236,10 @@ impl Cursor<'_> {
     }
 
     fn parsed(&self, head: &str) -> (Annotation, usize) {
-        let place = match self.in_desc {
-            true => lang::Container::Desc,
-            false => lang::Container::Text,
+        let place = if self.in_desc {
+            lang::Container::Desc
+        } else {
+            lang::Container::Text
         };
         let (annotation, findings) = lang::parse(&Text::plain(head, 0), place);
         (annotation, findings.len())
@@ -352,9 +357,9 @@ impl Cursor<'_> {
                     axes.map(|axis| simple(axis.name, ProposalKind::Word, axis.summary))
                         .collect()
                 }
-                Takes::ColourName => COLOURS
+                Takes::ColorName => COLORS
                     .iter()
-                    .map(|name| simple(name, ProposalKind::Colour, "a colour"))
+                    .map(|name| simple(name, ProposalKind::Color, "a colour"))
                     .collect(),
                 Takes::Number(_) => self.variables(word),
                 Takes::File => self.files(attribute, word),
@@ -450,9 +455,10 @@ impl Cursor<'_> {
             None => 0,
         };
         let whole = self.text.span(range.start..range.end + rest);
-        let span = match self.text.is_whole(whole) {
-            true => whole,
-            false => self.text.span(range.end..range.end),
+        let span = if self.text.is_whole(whole) {
+            whole
+        } else {
+            self.text.span(range.end..range.end)
         };
         let mut seen = BTreeSet::new();
         proposals.retain(|proposal| seen.insert((proposal.label.clone(), proposal.kind as u8)));

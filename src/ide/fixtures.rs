@@ -32,9 +32,9 @@ fn track() -> String {
     let times: Vec<String> = (0..25)
         .map(|frame| format!("{}", f64::from(frame) / 24.0))
         .collect();
-    let mark = |name: &str, colour: &str, far: i32| {
+    let mark = |name: &str, color: &str, far: i32| {
         let points = points(far).join(",");
-        format!("{{\"name\":\"{name}\",\"colour\":\"{colour}\",\"points\":[{points}]}}")
+        format!("{{\"name\":\"{name}\",\"colour\":\"{color}\",\"points\":[{points}]}}")
     };
     format!(
         "{{\"format\":\"okoshi track\",\"version\":1,\"size\":[100,100],\"times\":[{}],\"marks\":[{},{}]}}",

@@ -15,9 +15,9 @@ impl Analysis {
     /// The edits that format the strings within `window`. Line breaks, comments, quoted text
     /// and what could not be parsed stay unchanged.
     ///
-    /// White space can move a text that is not aligned to its start, and so bind it to another part: `analyse` compiles
+    /// White space can move a text that is not aligned to its start, and so bind it to another part: `analyze` compiles
     /// the result, and if its meaning differs, only edits that keep the width are made.
-    pub fn format(&self, window: Span, analyse: &dyn Fn(&str) -> Analysis) -> Vec<Edit> {
+    pub fn format(&self, window: Span, analyze: &dyn Fn(&str) -> Analysis) -> Vec<Edit> {
         if !self.is_sound() {
             return vec![];
         }
@@ -31,7 +31,7 @@ impl Analysis {
         edits.sort_by_key(|edit| edit.span);
         // A clone shares the description of its original: it is edited once.
         edits.dedup();
-        if edits.is_empty() || self.is_equivalent(&analyse(&applied(&self.source, &edits))) {
+        if edits.is_empty() || self.is_equivalent(&analyze(&applied(&self.source, &edits))) {
             return edits;
         }
         edits.retain(|edit| {

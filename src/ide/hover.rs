@@ -286,9 +286,10 @@ impl Analysis {
                 };
                 let name = attribute.keyword.name();
                 let value = attribute.value.replace('`', "'");
-                let _ = match value.is_empty() {
-                    true => writeln!(out, "- {name}, from {from}"),
-                    false => writeln!(out, "- {name} `{value}`, from {from}"),
+                let _ = if value.is_empty() {
+                    writeln!(out, "- {name}, from {from}")
+                } else {
+                    writeln!(out, "- {name} `{value}`, from {from}")
                 };
             }
         }
@@ -333,9 +334,10 @@ impl Analysis {
     fn element_of(&self, part: usize) -> String {
         let element = &self.drawing().shapes[self.bindings().parts[part].shape].element;
         let called = element.describe();
-        match element.label.is_some() || element.id.is_some() {
-            true => format!("`<{}>` {called}", element.tag),
-            false => called,
+        if element.label.is_some() || element.id.is_some() {
+            format!("`<{}>` {called}", element.tag)
+        } else {
+            called
         }
     }
 

@@ -85,9 +85,10 @@ impl Analysis {
             pieces.push(InlayPiece {
                 text: format!("@{}", bindings.parts[parent].name),
                 from: Some(self.place_of_part(parent)),
-                about: match contact {
-                    true => "It is attached to a part that it touches".to_owned(),
-                    false => "It is attached to the nearest named part".to_owned(),
+                about: if contact {
+                    "It is attached to a part that it touches".to_owned()
+                } else {
+                    "It is attached to the nearest named part".to_owned()
                 },
             });
         }

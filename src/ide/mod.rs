@@ -6,7 +6,7 @@
 
 mod actions;
 mod at;
-mod colours;
+mod colors;
 mod completion;
 #[cfg(test)]
 mod fixtures;
@@ -32,7 +32,7 @@ mod uses;
 
 pub use actions::Action;
 pub use at::{At, Item, Token};
-pub use colours::Swatch;
+pub use colors::Swatch;
 pub use completion::{Completion, Context, Proposal, ProposalKind, completion};
 pub use goto::Target;
 pub use hover::Hover;
@@ -91,9 +91,10 @@ impl Analysis {
     /// Whether the drawing has strings, or, if it cannot be read, its text seems to have some: for other drawings
     /// editors show nothing, unless compiling crashed.
     pub fn is_annotated(&self) -> bool {
-        match self.is_sound() {
-            true => self.bindings().annotated,
-            false => self.compiled.has_crashed() || typed::looks_annotated(&self.source),
+        if self.is_sound() {
+            self.bindings().annotated
+        } else {
+            self.compiled.has_crashed() || typed::looks_annotated(&self.source)
         }
     }
 

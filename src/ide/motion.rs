@@ -124,9 +124,12 @@ impl Analysis {
             .filter(|clip| clip.limited_at == Some(span));
         let lines = clips.map(|clip| {
             let (omitted, held) = cut_frames(clip);
-            let what = |frames: &[u32]| match frames.is_empty() {
-                true => String::new(),
-                false => format!(" ({})", frame_ranges(frames, MAX_RANGES)),
+            let what = |frames: &[u32]| {
+                if frames.is_empty() {
+                    String::new()
+                } else {
+                    format!(" ({})", frame_ranges(frames, MAX_RANGES))
+                }
             };
             format!(
                 "clip {} of {}: of {} {} omitted{} and {} held{}; {}",
@@ -406,7 +409,7 @@ mod tests {
     }
 
     #[test]
-    fn joints_have_the_colour_of_names() {
+    fn joints_have_the_color_of_names() {
         let string = "Rarm@Body$Bone RightArm \"Grip:1\" Offset 2";
         let (analysis, _) = moving(&figure(["Body", string, "", "", "%Motion \"kick.bvh\""]));
         let (at, _) = analysis.source().match_indices(string).next().unwrap();

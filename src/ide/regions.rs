@@ -204,9 +204,10 @@ impl Analysis {
         match shape {
             Some((shape, found)) if found.picture.is_none() => {
                 let element = &found.element;
-                match element.label.is_some() || element.id.is_some() {
-                    true => element.describe(),
-                    false => self.drawing().describe(shape),
+                if element.label.is_some() || element.id.is_some() {
+                    element.describe()
+                } else {
+                    self.drawing().describe(shape)
                 }
             }
             _ => {
@@ -344,9 +345,10 @@ impl Analysis {
 
 /// How well two regions fit each other.
 fn scores(similarity: f64, cost: f64) -> String {
-    match cost < MOST_COST {
-        true => format!("similarity {similarity:.2}, cost {cost:.2}"),
-        false => format!("similarity {similarity:.2}, cost above {MOST_COST}"),
+    if cost < MOST_COST {
+        format!("similarity {similarity:.2}, cost {cost:.2}")
+    } else {
+        format!("similarity {similarity:.2}, cost above {MOST_COST}")
     }
 }
 

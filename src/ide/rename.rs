@@ -4,7 +4,7 @@ use super::uses::own_name;
 use super::{Analysis, Item, Symbol, Use};
 use crate::bind::{DrawingString, written_by_a_person};
 use crate::diagnostic::Edit;
-use crate::lang::keyword::{Keyword, colours, vocabulary};
+use crate::lang::keyword::{Keyword, colors, vocabulary};
 use crate::lang::quoting::{NamePlace, can_be_bare, quoted_if_needed, read_name};
 use crate::lang::{is_word_char, looks_like_string};
 use crate::source::{Span, end_of_tag, escape_xml};
@@ -88,7 +88,7 @@ impl Analysis {
         }
         if let Symbol::Part(old) = &symbol {
             edits.extend(self.named_by_element(old, &name));
-            edits.extend(self.labelled(old, &name)?);
+            edits.extend(self.labeled(old, &name)?);
         }
         edits.sort_by_key(|edit| edit.span);
         Ok(edits)
@@ -118,7 +118,7 @@ impl Analysis {
         }
         let is_taken = Keyword::from_name(name).is_some()
             || vocabulary::is_known(name)
-            || colours::is_colour(name);
+            || colors::is_color(name);
         if is_taken {
             return Err(RenameError::WordOfTheLanguage(name.to_owned()));
         }
@@ -130,7 +130,7 @@ impl Analysis {
 
     /// A part without a string inherits the name of its element: the label is changed, or written where the id is the name, since
     /// other elements may refer to the id.
-    fn labelled(&self, old: &str, name: &str) -> Result<Option<Edit>, RenameError> {
+    fn labeled(&self, old: &str, name: &str) -> Result<Option<Edit>, RenameError> {
         let Some(index) = self.part_named(old) else {
             return Ok(None);
         };
@@ -170,9 +170,10 @@ pub(super) fn label_edit(source: &str, tag: Span, name: &str) -> Edit {
     if let Some(span) = label_of(source, tag) {
         return Edit { span, text };
     }
-    let attribute = match source.contains(INKSCAPE) {
-        true => "inkscape:label",
-        false => "data-name",
+    let attribute = if source.contains(INKSCAPE) {
+        "inkscape:label"
+    } else {
+        "data-name"
     };
     Edit {
         span: Span::at(tag.end),
@@ -231,9 +232,10 @@ fn rewritten(string: &DrawingString, found: &Use, symbol: &Symbol, name: &str) -
         _ => NamePlace::Head,
     };
     let quoted = string.text.as_str()[found.range.clone()].starts_with(['"', '＂']);
-    match quoted && can_be_bare(symbol.name(), role) {
-        true => format!("\"{name}\""),
-        false => quoted_if_needed(name, role),
+    if quoted && can_be_bare(symbol.name(), role) {
+        format!("\"{name}\"")
+    } else {
+        quoted_if_needed(name, role)
     }
 }
 

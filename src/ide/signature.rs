@@ -48,9 +48,10 @@ pub fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<Sig
         }
         None => {
             let typed = typed_at(source, offset)?;
-            let place = match typed.in_desc {
-                true => lang::Container::Desc,
-                false => lang::Container::Text,
+            let place = if typed.in_desc {
+                lang::Container::Desc
+            } else {
+                lang::Container::Text
             };
             (typed.text.as_str().get(..typed.offset)?.to_owned(), place)
         }
@@ -90,9 +91,10 @@ fn help(
         });
     }
     let flags: String = row.flags.iter().map(|flag| flag.letter).collect();
-    let name = match flags.is_empty() {
-        true => attribute.keyword.name().to_owned(),
-        false => format!("{} [-{flags}]", attribute.keyword.name()),
+    let name = if flags.is_empty() {
+        attribute.keyword.name().to_owned()
+    } else {
+        format!("{} [-{flags}]", attribute.keyword.name())
     };
     let forms = row.forms.iter();
     let signatures: Vec<_> = forms
@@ -113,9 +115,10 @@ fn help(
 /// The signature of a form of `name`.
 fn written(name: &str, form: &Form, summary: &'static str) -> Signature {
     let printed = form.print();
-    let label = match printed.is_empty() {
-        true => name.to_owned(),
-        false => format!("{name} {printed}"),
+    let label = if printed.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name} {printed}")
     };
     let mut from = name.len();
     let parameters = form.parameters.iter().map(|parameter| {

@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn words_have_their_colours() {
+    fn words_have_their_colors() {
         use TokenClass::*;
         let found =
             words("Rarm@Body$Shape -d cone 0 (max(w, 2.5) * 3) Color #f00 Texture \"a.png\"");
@@ -221,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn a_word_over_several_elements_is_coloured_piece_by_piece() {
+    fn a_word_over_several_elements_is_colored_piece_by_piece() {
         let found = words("# one<tspan x=\"0\" y=\"50\">two\nthree</tspan>");
         let found: Vec<_> = found.iter().map(|(word, _)| word.as_str()).collect();
         assert_eq!(found, ["#", "one", "two", "three"]);

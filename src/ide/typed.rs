@@ -53,9 +53,10 @@ pub(super) fn typed_at(source: &str, offset: usize) -> Option<Typed> {
     }
     let content = source[start + 1..].split('<').next().unwrap_or_default();
     let text = decoded(content, start + 1);
-    let offset = match text.as_str().is_empty() {
-        true => 0,
-        false => text.offset_of(offset)?,
+    let offset = if text.as_str().is_empty() {
+        0
+    } else {
+        text.offset_of(offset)?
     };
     Some(Typed {
         text,

@@ -94,9 +94,10 @@ impl Clip {
 
 /// The rotation of a quaternion of any length; the identity for length zero.
 fn unit_quaternion(quaternion: DQuat) -> DQuat {
-    match quaternion.length() > 0.0 {
-        true => quaternion.normalize(),
-        false => DQuat::IDENTITY,
+    if quaternion.length() > 0.0 {
+        quaternion.normalize()
+    } else {
+        DQuat::IDENTITY
     }
 }
 
@@ -364,15 +365,16 @@ fn curve<const N: usize>(
             "animation {clip} needs {wanted} keys, but accessor {list} has {found}"
         )));
     }
-    match rows.as_flattened().iter().all(|number| number.is_finite()) {
-        true => Ok(Curve {
+    if rows.as_flattened().iter().all(|number| number.is_finite()) {
+        Ok(Curve {
             times,
             interpolation,
             rows,
-        }),
-        false => Err(malformed(format!(
+        })
+    } else {
+        Err(malformed(format!(
             "accessor {list} of animation {clip} has a key that is not a number"
-        ))),
+        )))
     }
 }
 

@@ -57,9 +57,10 @@ impl CameraPose {
     /// what is up in its picture counts.
     pub(crate) fn yaw(&self) -> f64 {
         let level = self.towards.x.hypot(self.towards.z);
-        let yaw = match level > LEAST_LEVEL {
-            true => self.towards.x.atan2(self.towards.z),
-            false => (-self.right.z).atan2(self.right.x),
+        let yaw = if level > LEAST_LEVEL {
+            self.towards.x.atan2(self.towards.z)
+        } else {
+            (-self.right.z).atan2(self.right.x)
         };
         yaw.to_degrees()
     }

@@ -38,9 +38,10 @@ pub(super) fn check_size(document: &Document, buffers: &Buffers) -> Result<(), I
             .chain(indices)
             .fold(needed, usize::saturating_add);
     }
-    match needed <= buffers.length().saturating_add(MAX_REPEATED) {
-        true => Ok(()),
-        false => Err(ImportError::TooManyVertices(needed >> 20)),
+    if needed <= buffers.length().saturating_add(MAX_REPEATED) {
+        Ok(())
+    } else {
+        Err(ImportError::TooManyVertices(needed >> 20))
     }
 }
 
@@ -67,11 +68,14 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
     };
     let positions: Vec<[f32; 3]> = buffers.list(&positions, &[(F32, VEC3)])?.collect();
     let count = positions.len();
-    let same = |length: usize, what: &str| match length == count {
-        true => Ok(()),
-        false => Err(malformed(format!(
-            "a mesh has {count} corners but {length} {what}"
-        ))),
+    let same = |length: usize, what: &str| {
+        if length == count {
+            Ok(())
+        } else {
+            Err(malformed(format!(
+                "a mesh has {count} corners but {length} {what}"
+            )))
+        }
     };
     let normals: Vec<[f32; 3]> = match source.get(&Semantic::Normals) {
         Some(accessor) => buffers.list(&accessor, &[(F32, VEC3)])?.collect(),
@@ -119,13 +123,13 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
         (U8, VEC4),
         (U16, VEC4),
     ];
-    let mut colours = Vec::new();
+    let mut colors = Vec::new();
     if check(source.get(&Semantic::Colors(0)), &types)?.is_some() {
         let list = reader.read_colors(0);
-        colours = list.map_or_else(Vec::new, |list| {
+        colors = list.map_or_else(Vec::new, |list| {
             list.into_rgba_f32().map(Vec4::from).collect()
         });
-        same(colours.len(), "colours")?;
+        same(colors.len(), "colours")?;
     }
     let mut influences = Vec::new();
     for set in 0.. {
@@ -166,7 +170,7 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
         targets,
         normals,
         uvs,
-        colours,
+        colors,
         influences,
         triangles: triangles(mode, &indices),
         material: material.index(),

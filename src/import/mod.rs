@@ -218,9 +218,10 @@ fn order(document: &Document, nodes: &[Node]) -> Result<Vec<usize>, ImportError>
         order.extend(&children[node]);
         next += 1;
     }
-    match order.len() == nodes.len() {
-        true => Ok(order),
-        false => Err(malformed("a node is its own ancestor")),
+    if order.len() == nodes.len() {
+        Ok(order)
+    } else {
+        Err(malformed("a node is its own ancestor"))
     }
 }
 
@@ -252,8 +253,9 @@ fn skin(skin: &::gltf::Skin<'_>, buffers: &Buffers) -> Result<Skin, ImportError>
             .map(|matrix| DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from))))
             .collect(),
     };
-    match inverse.len() >= joints.len() {
-        true => Ok(Skin { joints, inverse }),
-        false => Err(malformed("a skin has more joints than matrices")),
+    if inverse.len() >= joints.len() {
+        Ok(Skin { joints, inverse })
+    } else {
+        Err(malformed("a skin has more joints than matrices"))
     }
 }

@@ -25,7 +25,7 @@ pub(crate) struct TriangleSoup {
     /// Unit vectors; zero if the file has none.
     pub(crate) normals: Vec<Vec3>,
     pub(crate) uvs: Vec<Vec2>,
-    pub(crate) colours: Vec<Vec4>,
+    pub(crate) colors: Vec<Vec4>,
     pub(crate) triangles: Vec<[u32; 3]>,
     /// The material of each triangle, if it has one.
     pub(crate) materials: Vec<Option<u32>>,
@@ -60,7 +60,7 @@ pub(super) struct Primitive {
     pub(super) targets: Vec<Vec<[f32; 3]>>,
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) uvs: Vec<Vec2>,
-    pub(super) colours: Vec<Vec4>,
+    pub(super) colors: Vec<Vec4>,
     /// Sets of four joints and their weights, per vertex.
     pub(super) influences: Vec<Vec<([u16; 4], [f32; 4])>>,
     pub(super) triangles: Vec<[u32; 3]>,
@@ -235,9 +235,10 @@ impl Geometry {
                 );
             }
         }
-        match out.triangles.is_empty() {
-            true => Err(ImportError::Empty),
-            false => Ok(out),
+        if out.triangles.is_empty() {
+            Err(ImportError::Empty)
+        } else {
+            Ok(out)
         }
     }
 
@@ -288,15 +289,16 @@ fn append(
         out.normals.push(normal.as_vec3());
     }
     let corners = out.positions.len();
-    match primitive.uvs.is_empty() {
-        true => out.uvs.resize(corners, Vec2::ZERO),
-        false => out.uvs.extend(&primitive.uvs),
+    if primitive.uvs.is_empty() {
+        out.uvs.resize(corners, Vec2::ZERO)
+    } else {
+        out.uvs.extend(&primitive.uvs)
     }
-    if !primitive.colours.is_empty() || !out.colours.is_empty() {
+    if !primitive.colors.is_empty() || !out.colors.is_empty() {
         // Few models have vertex colours: the list stays empty until the first primitive that has them.
-        out.colours.resize(first as usize, Vec4::ONE);
-        out.colours.extend(&primitive.colours);
-        out.colours.resize(corners, Vec4::ONE);
+        out.colors.resize(first as usize, Vec4::ONE);
+        out.colors.extend(&primitive.colors);
+        out.colors.resize(corners, Vec4::ONE);
     }
     // glTF reverses the winding of triangles under a mirrored node.
     let mirrored = skin.is_none() && global.determinant() < 0.0;

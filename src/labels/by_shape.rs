@@ -93,9 +93,10 @@ fn carrier(
     };
     let size = tree.size(part);
     if let Some(head) = of_class(Class::Head).next() {
-        return Some(match size.x < NECK * tree.size(head).x {
-            true => (Class::Neck, "the head"),
-            false => (Class::Body, "the head"),
+        return Some(if size.x < NECK * tree.size(head).x {
+            (Class::Neck, "the head")
+        } else {
+            (Class::Body, "the head")
         });
     }
     let sides: Vec<_> = of_class(Class::Arm)

@@ -46,7 +46,7 @@ pub fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
 
 /// A labelled figure.
 #[derive(Debug)]
-pub(crate) struct LabelledFigure {
+pub(crate) struct LabeledFigure {
     /// Per part its label; `None` for a part that follows its parent.
     pub(crate) labels: Vec<Option<Label>>,
     /// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
@@ -57,7 +57,7 @@ pub(crate) struct LabelledFigure {
 }
 
 /// Labels a figure's parts, and tells how it is drawn.
-pub(crate) fn label_drawn(figure: &Figure) -> LabelledFigure {
+pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     let tree = PartTree::new(figure);
     let mut drafts = by_names(figure);
     details(&tree, &mut drafts);
@@ -83,7 +83,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabelledFigure {
             why: class_why + &side_why,
         })
     };
-    LabelledFigure {
+    LabeledFigure {
         labels: drafts.into_iter().map(label).collect(),
         splayed,
         facing: facing.facing(),

@@ -25,7 +25,7 @@ use crate::mocap::{Skeleton, Transform};
 
 pub use drawn_figure::{Carry, Figure, FigurePart};
 pub use figure::label_figure;
-pub(crate) use figure::{LabelledFigure, label_drawn};
+pub(crate) use figure::{LabeledFigure, label_drawn};
 pub use skeleton::{Anatomy, Limb, label_clip, label_skeleton};
 
 pub(crate) use joint_tree::JointTree;

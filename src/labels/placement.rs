@@ -120,9 +120,10 @@ pub(super) fn sides(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts:
             let named = limb.parts.iter().find_map(|(part, _)| drafts[*part].side);
             match named {
                 Some(side) => {
-                    let why = match drafts[limb.root()].named {
-                        true => format!(", and its side is {}", side.name()),
-                        false => format!("; it is the {} one by its name", side.name()),
+                    let why = if drafts[limb.root()].named {
+                        format!(", and its side is {}", side.name())
+                    } else {
+                        format!("; it is the {} one by its name", side.name())
                     };
                     give(drafts, limb, side, &why);
                 }
@@ -205,10 +206,7 @@ fn from_side(
         [a, b] => (tree.joint(*a).x - tree.joint(*b).x).abs() <= SAME_PAIR * length,
         _ => false,
     };
-    let rank = |root: &usize| match is_one_pair {
-        true => 1,
-        false => rank(&drafts[*root]),
-    };
+    let rank = |root: &usize| if is_one_pair { 1 } else { rank(&drafts[*root]) };
     let ranks: Vec<u8> = roots.iter().map(rank).collect();
     let ranked = ranks.iter().any(|rank| *rank != 1);
     let pair = if ranked || roots.len().is_multiple_of(2) {

@@ -39,7 +39,7 @@ impl Anatomy {
     }
 
     /// The joints that have a label: all but helpers, fingers and faces.
-    pub fn labelled(&self) -> impl Iterator<Item = usize> + '_ {
+    pub fn labeled(&self) -> impl Iterator<Item = usize> + '_ {
         let labels = self.labels.iter().enumerate();
         labels.filter_map(|(joint, label)| label.as_ref().map(|_| joint))
     }

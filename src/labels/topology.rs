@@ -10,7 +10,7 @@ const MIRRORED: f64 = 0.1;
 /// differ by chance.
 const COMPARED: usize = 4;
 /// How many chains of similar length a chain is compared with; bounds the work at joints with very many branches.
-const NEIGHBOURS: usize = 8;
+const NEIGHBORS: usize = 8;
 /// The most joints of a chain. No limb has so many; a longer thread is not one.
 const MAX_CHAIN: usize = 64;
 /// Bones shorter than this share of their chain are only offsets.
@@ -89,7 +89,7 @@ fn pairs_at(tree: &JointTree, branch: usize) -> Vec<Pair> {
     let mut taken = vec![false; children.len()];
     let mut pairs = Vec::new();
     for first in 0..children.len() {
-        let near = first + 1..children.len().min(first + 1 + NEIGHBOURS);
+        let near = first + 1..children.len().min(first + 1 + NEIGHBORS);
         let second = near
             .filter(|second| !taken[*second])
             .find(|second| mirrored(tree, children[first], children[*second]));

@@ -59,11 +59,12 @@ pub(super) fn evaluate(
             call(*function, &values)?
         }
     };
-    match value.is_finite() {
-        true => Ok(value),
-        false => Err(EvaluationError::NotANumber(
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(EvaluationError::NotANumber(
             "gives a number that is too large",
-        )),
+        ))
     }
 }
 
@@ -87,9 +88,10 @@ fn call(function: Function, values: &[f64]) -> Result<f64, EvaluationError> {
 /// The sine of an angle in degrees, exact where it is 0, ½ or 1.
 fn sine(degrees: f64) -> f64 {
     let turn = degrees.rem_euclid(360.);
-    let (sign, half) = match turn < 180. {
-        true => (1., turn),
-        false => (-1., turn - 180.),
+    let (sign, half) = if turn < 180. {
+        (1., turn)
+    } else {
+        (-1., turn - 180.)
     };
     let quarter = half.min(180. - half);
     let value = match quarter {

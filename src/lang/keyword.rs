@@ -10,7 +10,7 @@ mod part;
 mod terrain;
 mod views;
 
-pub mod colours;
+pub mod colors;
 pub mod kinds;
 pub mod signature;
 pub mod vocabulary;
@@ -325,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn misspelled_keywords_are_recognised() {
+    fn misspelled_keywords_are_recognized() {
         assert_eq!(Keyword::nearest("Colr"), Some((Keyword::Color, 1)));
         assert_eq!(Keyword::nearest("shpae"), Some((Keyword::Shape, 1)));
         assert_eq!(Keyword::nearest("w"), None);

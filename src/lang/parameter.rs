@@ -2,7 +2,7 @@
 
 use super::ast::{ArgumentKind, Attribute};
 use super::keyword::signature::{Form, Parameter, Takes};
-use super::keyword::{Keyword, colours, kinds};
+use super::keyword::{Keyword, colors, kinds};
 
 /// The parameter that an argument is for.
 #[derive(Debug, Clone, Copy)]
@@ -71,7 +71,7 @@ pub(super) fn form_by_first_argument(
         (Some(Takes::Choice(words)), ArgumentKind::Word(word)) => words
             .iter()
             .any(|choice| choice.name.eq_ignore_ascii_case(word)),
-        (Some(Takes::ColourName), ArgumentKind::Word(word)) => colours::is_colour(word),
+        (Some(Takes::ColorName), ArgumentKind::Word(word)) => colors::is_color(word),
         (Some(Takes::File), ArgumentKind::Quoted(_)) => fits_second(form, attribute),
         // A file name with an ending is read without quotes.
         (Some(Takes::File), ArgumentKind::Word(word)) if word.contains('.') => {

@@ -31,9 +31,10 @@ pub fn can_be_bare(name: &str, place: NamePlace) -> bool {
 
 /// `name` as it is written in a string.
 pub fn quoted_if_needed(name: &str, place: NamePlace) -> String {
-    match can_be_bare(name, place) {
-        true => name.to_owned(),
-        false => format!("\"{name}\""),
+    if can_be_bare(name, place) {
+        name.to_owned()
+    } else {
+        format!("\"{name}\"")
     }
 }
 

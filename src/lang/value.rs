@@ -129,13 +129,13 @@ pub enum MotionSource {
     BuiltIn(String),
 }
 
-/// `Mark colour`
+/// `Mark color`
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mark {
     /// The colour as it is written, in lower case: `red`, `#ff8000`.
     pub word: String,
     /// Red, green, blue, sRGB.
-    pub colour: [u8; 3],
+    pub color: [u8; 3],
 }
 
 /// `Perform [-tecr] "file" [mark] [input-key motion-key]`
@@ -146,7 +146,7 @@ pub struct Performance {
     /// What it does to a clip.
     pub effects: PerformanceEffects,
     /// The name of the mark that is emphasised, if given.
-    pub emphasised: Option<String>,
+    pub emphasized: Option<String>,
     /// The key frames of the track and of the motion, if given, counted from 1 at 24 frames a second.
     pub keys: Option<[usize; 2]>,
 }

@@ -28,9 +28,12 @@ impl Camera {
     /// twice as far away appears half as large. A distance that is not a positive number counts as `None`, an angle that is not
     /// finite as 0.
     pub fn project(&self, positions: &[DVec3]) -> Vec<DVec3> {
-        let [yaw, pitch] = [self.yaw, self.pitch].map(|angle| match angle.is_finite() {
-            true => (angle % 360.0).to_radians(),
-            false => 0.0,
+        let [yaw, pitch] = [self.yaw, self.pitch].map(|angle| {
+            if angle.is_finite() {
+                (angle % 360.0).to_radians()
+            } else {
+                0.0
+            }
         });
         // The camera's rotation undone: about y first, then about the picture's x.
         let turn = DMat3::from_rotation_x(pitch) * DMat3::from_rotation_y(-yaw);

@@ -59,9 +59,10 @@ pub fn error(frames: Poses<'_>, height: f64, exposure: &Exposure) -> Error {
     let [sum, count] = sums.iter().fold([0.0; 2], |[sum, count], [more, frames]| {
         [sum + more, count + frames]
     });
-    let rms = match count > 0.0 {
-        true => (sum / (count * frames.per_frame() as f64)).sqrt(),
-        false => 0.0,
+    let rms = if count > 0.0 {
+        (sum / (count * frames.per_frame() as f64)).sqrt()
+    } else {
+        0.0
     };
     Error {
         drawings: exposure.drawings().count(),

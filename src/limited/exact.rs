@@ -180,9 +180,10 @@ impl DualityGap<'_> {
             start = *end;
             cost
         });
-        let cost = match ends.len() == self.count {
-            true => costs.sum(),
-            false => f64::INFINITY,
+        let cost = if ends.len() == self.count {
+            costs.sum()
+        } else {
+            f64::INFINITY
         };
         Segmentation { ends, cost }
     }

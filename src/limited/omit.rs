@@ -61,9 +61,10 @@ pub(super) fn omit(list: &mut PoseList<'_>, asked: usize, length: Length) -> Omi
 }
 
 fn omission_key(list: &PoseList<'_>, pose: usize) -> u64 {
-    match list.is_removable(pose) {
-        true => descending(list.speed[pose]),
-        false => Queue::OUT,
+    if list.is_removable(pose) {
+        descending(list.speed[pose])
+    } else {
+        Queue::OUT
     }
 }
 

@@ -16,9 +16,9 @@ impl Borders {
         let [width, height] = drawn.size.map(|side| side as usize);
         let mut near = vec![false; width * height];
         let differ = |one: usize, other: usize| {
-            let colours = drawn.colours[one].iter().zip(drawn.colours[other]);
+            let colors = drawn.colors[one].iter().zip(drawn.colors[other]);
             drawn.owners[one] != drawn.owners[other]
-                || colours
+                || colors
                     .into_iter()
                     .any(|(one, other)| one.abs_diff(other) > CLEARLY)
         };
@@ -67,7 +67,7 @@ mod tests {
         let row = [nothing, nothing, nothing, nothing, part, part, part, part];
         let drawn = Drawn {
             size: [8, 2],
-            colours: vec![[0; 4]; 16],
+            colors: vec![[0; 4]; 16],
             owners: [row, row].concat(),
             models: vec![false],
             regions: FxHashMap::default(),

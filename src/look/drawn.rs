@@ -19,7 +19,7 @@ pub(super) struct Drawn {
     /// Width and height, pixels.
     pub(super) size: [u32; 2],
     /// Per pixel the sRGB colour multiplied by alpha, and alpha.
-    pub(super) colours: Vec<[u8; 4]>,
+    pub(super) colors: Vec<[u8; 4]>,
     /// Per pixel what was drawn last there.
     pub(super) owners: Vec<Option<Owner>>,
     /// Per part whether a linked model is in its place.
@@ -49,7 +49,7 @@ impl Drawn {
         let is_model = |part: usize| bindings.attributes(part).shape().kind == "model";
         Ok(Self {
             size,
-            colours: raster.pixels,
+            colors: raster.pixels,
             owners: last_drawn(drawing, bindings, &owners, size, scale)?,
             models: models.map(is_model).collect(),
             regions,
@@ -142,9 +142,10 @@ fn left_out(
     {
         let start = drawing.shapes[part.shape].element.span.start;
         if let Some(built) = elements.get_mut(&start) {
-            match part.is_stroke {
-                true => built.stroke = true,
-                false => built.fill = true,
+            if part.is_stroke {
+                built.stroke = true
+            } else {
+                built.fill = true
             }
         }
     }

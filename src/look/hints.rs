@@ -30,7 +30,7 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
     let who = name(look.part);
     let span = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
     let (why, help) = match instead {
-        Instead::OtherColour => (
+        Instead::OtherColor => (
             "it has another colour there".to_owned(),
             "check its opacity, its mask and its gradient, and what lies behind it".to_owned(),
         ),
@@ -51,9 +51,10 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
         ),
         Instead::Part(other) => {
             let seen = name(other);
-            let why = match other < look.part {
-                true => format!("it is inside or behind {seen}, which is drawn before it"),
-                false => format!("{seen} covers more of it than is drawn"),
+            let why = if other < look.part {
+                format!("it is inside or behind {seen}, which is drawn before it")
+            } else {
+                format!("{seen} covers more of it than is drawn")
             };
             let given = [look.part, other].into_iter();
             let given = given.filter(|part| bindings.given_depth(*part).is_some());

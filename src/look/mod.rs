@@ -74,7 +74,7 @@ impl PartLook {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Instead {
     /// The part itself, in another colour.
-    OtherColour,
+    OtherColor,
     /// Nothing.
     Nothing,
     /// Another part.
@@ -182,20 +182,20 @@ fn shown(
 /// Counts the pixels that show the right colour.
 fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look {
     let borders = Borders::find(drawn);
-    let recoloured = Recoloured::new(compiled);
+    let recolored = Recolored::new(compiled);
     let (mut pixels, mut right) = (0, 0);
     let mut parts: FxHashMap<usize, PartLook> = FxHashMap::default();
     let mut instead: FxHashMap<(usize, Instead), usize> = FxHashMap::default();
-    for (at, (shown, colour)) in shown.iter().enumerate() {
-        let (owner, drawn_colour) = (drawn.owners[at], drawn.colours[at]);
-        let is_empty = drawn_colour[3] == 0 && colour[3] == 0;
+    for (at, (shown, color)) in shown.iter().enumerate() {
+        let (owner, drawn_color) = (drawn.owners[at], drawn.colors[at]);
+        let is_empty = drawn_color[3] == 0 && color[3] == 0;
         if is_empty || borders.is_near(at) || *shown == Shown::File || drawn.is_model(owner) {
             continue;
         }
         let built = owner.map(|owner| drawn.built(owner));
         let is_same = built.map_or(Shown::Nothing, Shown::Owner) == *shown;
-        let is_excused = is_same && owner.is_some_and(|owner| recoloured.contains(owner));
-        let is_right = is_excused || is_alike(drawn_colour, *colour);
+        let is_excused = is_same && owner.is_some_and(|owner| recolored.contains(owner));
+        let is_right = is_excused || is_alike(drawn_color, *color);
         pixels += 1;
         right += usize::from(is_right);
         let Some(Owner::Part(part)) = owner else {
@@ -211,7 +211,7 @@ fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look
         look.right += usize::from(is_right);
         if !is_right {
             let what = match *shown {
-                _ if is_same => Instead::OtherColour,
+                _ if is_same => Instead::OtherColor,
                 Shown::Owner(Owner::Part(other)) => Instead::Part(other),
                 Shown::Owner(Owner::Layer(layer)) => Instead::Landscape(layer),
                 Shown::Nothing | Shown::File => Instead::Nothing,
@@ -249,21 +249,21 @@ fn is_alike(one: [u8; 4], other: [u8; 4]) -> bool {
 }
 
 /// What shows other colours than were drawn.
-struct Recoloured {
+struct Recolored {
     parts: Vec<bool>,
     layers: Vec<bool>,
 }
 
-impl Recoloured {
+impl Recolored {
     /// Finds what strings give a colour, a texture or an opacity, and what such things show through.
     fn new(compiled: &Compiled) -> Self {
-        const OF_COLOUR: [Keyword; 3] = [Keyword::Color, Keyword::Texture, Keyword::Alpha];
+        const OF_COLOR: [Keyword; 3] = [Keyword::Color, Keyword::Texture, Keyword::Alpha];
         let Compiled {
             bindings, drawing, ..
         } = compiled;
         let by_strings = |part: usize| {
             let set = |keyword: &Keyword| bindings.setting(part, *keyword).is_some();
-            OF_COLOUR.iter().any(set)
+            OF_COLOR.iter().any(set)
         };
         let mut parts: Vec<bool> = (0..bindings.parts.len()).map(by_strings).collect();
         if parts.contains(&true) {
@@ -279,7 +279,7 @@ impl Recoloured {
             Some(all.any(|legend| {
                 let attributes = bindings.tile_attributes(index, legend);
                 let set = |keyword: &Keyword| attributes.source(*keyword).is_some();
-                OF_COLOUR.iter().any(set)
+                OF_COLOR.iter().any(set)
             }))
         };
         let layers = compiled.layers.iter();

@@ -83,9 +83,10 @@ fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scen
     let last_shape = last_part.map(|part| compiled.bindings.parts[part].shape);
     for (index, (node, layer)) in bent.into_iter().zip(layers).enumerate() {
         let first = layer.sources.first().map(|source| source.shape);
-        let steps = match first > last_shape {
-            true => index as f64 + 1.0,
-            false => index as f64 - layers.len() as f64,
+        let steps = if first > last_shape {
+            index as f64 + 1.0
+        } else {
+            index as f64 - layers.len() as f64
         };
         let [low, high] = layer.bounds();
         let DVec2 { x, y } = low.midpoint(high);

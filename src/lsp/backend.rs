@@ -10,7 +10,7 @@ use tower_lsp::ls_types::*;
 use tower_lsp::{Client, LanguageServer};
 
 use super::convert::{self, PositionMap};
-use super::documents::{Analysed, Document, Documents, Snapshot, file_path};
+use super::documents::{Analyzed, Document, Documents, Snapshot, file_path};
 use super::links::Links;
 use super::ordered::SNAPSHOTS;
 use super::positions::Encoding;
@@ -40,26 +40,25 @@ pub(super) struct Backend {
 /// A text and its analysis, which may be one of an earlier state.
 pub(super) struct View {
     pub(super) document: Arc<Document>,
-    pub(super) analysed: Arc<Analysed>,
+    pub(super) analyzed: Arc<Analyzed>,
 }
 
 impl View {
     pub(super) fn analysis(&self) -> &Analysis {
-        &self.analysed.analysis
+        &self.analyzed.analysis
     }
 
     pub(super) fn map(&self) -> PositionMap<'_> {
-        match Arc::ptr_eq(&self.document, &self.analysed.document) {
-            true => PositionMap::identity(&self.document.positions),
-            false => {
-                PositionMap::after_edit(&self.document.positions, self.analysed.document.text())
-            }
+        if Arc::ptr_eq(&self.document, &self.analyzed.document) {
+            PositionMap::identity(&self.document.positions)
+        } else {
+            PositionMap::after_edit(&self.document.positions, self.analyzed.document.text())
         }
     }
 
     /// Whether the analysis is of this very text, so that it can be edited.
     pub(super) fn is_current(&self) -> bool {
-        Arc::ptr_eq(&self.document, &self.analysed.document) && self.analysis().is_sound()
+        Arc::ptr_eq(&self.document, &self.analyzed.document) && self.analysis().is_sound()
     }
 }
 
@@ -73,10 +72,10 @@ impl Backend {
     ///
     /// # Errors
     /// If the text has changed since: the answer would be about another text.
-    pub(super) async fn analysed(
+    pub(super) async fn analyzed(
         &self,
         uri: &Uri,
-    ) -> Result<Option<(Arc<Document>, Arc<Analysed>)>> {
+    ) -> Result<Option<(Arc<Document>, Arc<Analyzed>)>> {
         let Some(snapshot) = self.snapshot(uri) else {
             return Ok(None);
         };
@@ -86,19 +85,19 @@ impl Backend {
         } = snapshot;
         self.scheduler.request(uri.as_str());
         let arrived = analyses
-            .wait_for(|analysed| {
-                let generation = analysed
+            .wait_for(|analyzed| {
+                let generation = analyzed
                     .as_ref()
-                    .map(|analysed| analysed.document.generation);
+                    .map(|analyzed| analyzed.document.generation);
                 generation >= Some(document.generation)
             })
             .await;
         // The sender is gone when the text was closed.
-        let Ok(Some(analysed)) = arrived.map(|analysed| analysed.clone()) else {
+        let Ok(Some(analyzed)) = arrived.map(|analyzed| analyzed.clone()) else {
             return Ok(None);
         };
-        if analysed.document.generation != document.generation
-            && analysed.document.text() != document.text()
+        if analyzed.document.generation != document.generation
+            && analyzed.document.text() != document.text()
         {
             return Err(Error {
                 code: ErrorCode::ServerError(-32801),
@@ -106,20 +105,20 @@ impl Backend {
                 data: None,
             });
         }
-        Ok(Some((analysed.document.clone(), analysed)))
+        Ok(Some((analyzed.document.clone(), analyzed)))
     }
 
     /// The text with its analysis, or, if it is not well-formed, the last analysis that was. Nothing for drawings
     /// without strings.
     pub(super) async fn view(&self, uri: &Uri) -> Result<Option<View>> {
-        let Some((document, analysed)) = self.analysed(uri).await? else {
+        let Some((document, analyzed)) = self.analyzed(uri).await? else {
             return Ok(None);
         };
-        let analysed = match &analysed.last_sound {
+        let analyzed = match &analyzed.last_sound {
             Some(last_sound) => last_sound.clone(),
-            None => analysed,
+            None => analyzed,
         };
-        let view = View { document, analysed };
+        let view = View { document, analyzed };
         Ok(Some(view).filter(|view| view.analysis().is_annotated()))
     }
 
@@ -212,8 +211,8 @@ impl LanguageServer for Backend {
         params: DocumentDiagnosticParams,
     ) -> Result<DocumentDiagnosticReportResult> {
         let uri = &params.text_document.uri;
-        let analysed = self.analysed(uri).await?;
-        if analysed.is_some()
+        let analyzed = self.analyzed(uri).await?;
+        if analyzed.is_some()
             && self
                 .client_support
                 .pulls_diagnostics
@@ -221,7 +220,7 @@ impl LanguageServer for Backend {
         {
             self.scheduler.pulled(uri);
         }
-        let id = analysed
+        let id = analyzed
             .as_ref()
             .map(|(document, _)| document.generation.to_string());
         if id.is_some() && id == params.previous_result_id {
@@ -234,8 +233,8 @@ impl LanguageServer for Backend {
             return Ok(DocumentDiagnosticReport::Unchanged(unchanged).into());
         }
         let links = self.client_support.links_at_codes.load(Ordering::Relaxed);
-        let items = analysed.map_or_else(Vec::new, |(_, analysed)| {
-            convert::diagnostics(&analysed, manual::links(links))
+        let items = analyzed.map_or_else(Vec::new, |(_, analyzed)| {
+            convert::diagnostics(&analyzed, manual::links(links))
         });
         let full = RelatedFullDocumentDiagnosticReport {
             related_documents: None,

@@ -10,7 +10,7 @@ use tower_lsp::ls_types::{
     SemanticTokensLegend, SignatureHelp, SignatureInformation, SymbolKind, TextEdit, Uri,
 };
 
-use super::documents::Analysed;
+use super::documents::Analyzed;
 use super::manual::Pages;
 use super::positions::Positions;
 use crate::diagnostic::{Code, Edit, Severity};
@@ -42,9 +42,9 @@ impl<'a> PositionMap<'a> {
     }
 
     /// For a text that was edited after it was analysed.
-    pub(super) fn after_edit(positions: &'a Positions, analysed: &str) -> Self {
+    pub(super) fn after_edit(positions: &'a Positions, analyzed: &str) -> Self {
         let now = positions.text().as_bytes();
-        let then = analysed.as_bytes();
+        let then = analyzed.as_bytes();
         let alike = |(a, b): &(&u8, &u8)| a == b;
         let head = now.iter().zip(then).take_while(alike).count();
         let most = now.len().min(then.len()) - head;
@@ -117,11 +117,11 @@ impl<'a> PositionMap<'a> {
 const MAX_SHOWN: usize = 1000;
 
 /// The diagnostics of an analysis, only the most severe if there are too many; none for a drawing without strings.
-pub(super) fn diagnostics(analysed: &Analysed, pages: Option<&Pages>) -> Vec<Diagnostic> {
-    if !analysed.analysis.is_annotated() {
+pub(super) fn diagnostics(analyzed: &Analyzed, pages: Option<&Pages>) -> Vec<Diagnostic> {
+    if !analyzed.analysis.is_annotated() {
         return vec![];
     }
-    let mut found: Vec<_> = analysed.analysis.diagnostics().iter().collect();
+    let mut found: Vec<_> = analyzed.analysis.diagnostics().iter().collect();
     if found.len() > MAX_SHOWN {
         found.sort_by_key(|diagnostic| diagnostic.severity());
         found.truncate(MAX_SHOWN);
@@ -129,16 +129,16 @@ pub(super) fn diagnostics(analysed: &Analysed, pages: Option<&Pages>) -> Vec<Dia
     }
     let found = found.into_iter();
     found
-        .map(|diagnostic| self::diagnostic(analysed, diagnostic, pages))
+        .map(|diagnostic| self::diagnostic(analyzed, diagnostic, pages))
         .collect()
 }
 
 pub(super) fn diagnostic(
-    analysed: &Analysed,
+    analyzed: &Analyzed,
     diagnostic: &crate::diagnostic::Diagnostic,
     pages: Option<&Pages>,
 ) -> Diagnostic {
-    let positions = &analysed.document.positions;
+    let positions = &analyzed.document.positions;
     let code = diagnostic.code;
     let mut message = diagnostic.message.clone();
     if let Some(label) = &diagnostic.label {
@@ -153,7 +153,7 @@ pub(super) fn diagnostic(
         .related
         .iter()
         .map(|related| DiagnosticRelatedInformation {
-            location: Location::new(analysed.document.uri.clone(), positions.range(related.span)),
+            location: Location::new(analyzed.document.uri.clone(), positions.range(related.span)),
             message: related.message.clone(),
         })
         .collect();
@@ -205,7 +205,7 @@ pub(super) fn proposal(
         ProposalKind::Joint => CompletionItemKind::REFERENCE,
         ProposalKind::Variable => CompletionItemKind::VARIABLE,
         ProposalKind::Function => CompletionItemKind::FUNCTION,
-        ProposalKind::Colour => CompletionItemKind::COLOR,
+        ProposalKind::Color => CompletionItemKind::COLOR,
         ProposalKind::File => CompletionItemKind::FILE,
     };
     let snippet = proposal.snippet.as_ref().filter(|_| snippets);

@@ -54,20 +54,20 @@ impl Document {
 
 /// A state of a text with its analysis.
 #[derive(Debug)]
-pub(super) struct Analysed {
+pub(super) struct Analyzed {
     pub(super) document: Arc<Document>,
     pub(super) analysis: Analysis,
     /// The last analysis of well-formed XML, if this is none.
-    pub(super) last_sound: Option<Arc<Analysed>>,
+    pub(super) last_sound: Option<Arc<Analyzed>>,
 }
 
 /// Receives the analyses of a text.
-pub(super) type AnalysisReceiver = watch::Receiver<Option<Arc<Analysed>>>;
+pub(super) type AnalysisReceiver = watch::Receiver<Option<Arc<Analyzed>>>;
 
 #[derive(Debug)]
 struct Entry {
     document: Arc<Document>,
-    analysed: watch::Sender<Option<Arc<Analysed>>>,
+    analyzed: watch::Sender<Option<Arc<Analyzed>>>,
 }
 
 /// All open texts.
@@ -130,7 +130,7 @@ impl Documents {
         let key = document.uri.to_string();
         let entry = Entry {
             document: Arc::new(document),
-            analysed: watch::Sender::new(None),
+            analyzed: watch::Sender::new(None),
         };
         state.entries.insert(key, entry);
     }
@@ -199,7 +199,7 @@ impl Documents {
             .map(|(uri, entry)| {
                 let snapshot = Snapshot {
                     document: entry.document.clone(),
-                    analyses: entry.analysed.subscribe(),
+                    analyses: entry.analyzed.subscribe(),
                 };
                 (uri.clone(), snapshot)
             })
@@ -213,18 +213,18 @@ impl Documents {
     }
 
     /// The last analysis of a text.
-    pub(super) fn last(&self, uri: &str) -> Option<Arc<Analysed>> {
+    pub(super) fn last(&self, uri: &str) -> Option<Arc<Analyzed>> {
         let state = self.state();
         let entry = state.entries.get(uri);
-        entry.and_then(|entry| entry.analysed.borrow().clone())
+        entry.and_then(|entry| entry.analyzed.borrow().clone())
     }
 
     /// Hands an analysis to the waiting requests, unless its state is out of date. Returns whether it was handed over.
-    pub(super) fn publish(&self, analysed: Arc<Analysed>) -> bool {
+    pub(super) fn publish(&self, analyzed: Arc<Analyzed>) -> bool {
         let state = self.state();
-        match state.entries.get(analysed.document.uri.as_str()) {
-            Some(entry) if entry.document.generation == analysed.document.generation => {
-                entry.analysed.send_replace(Some(analysed));
+        match state.entries.get(analyzed.document.uri.as_str()) {
+            Some(entry) if entry.document.generation == analyzed.document.generation => {
+                entry.analyzed.send_replace(Some(analyzed));
                 true
             }
             _ => false,

@@ -20,11 +20,11 @@ impl Backend {
         &self,
         params: TextDocumentPositionParams,
     ) -> Result<Option<PrepareRenameResponse>> {
-        let Some((document, analysed)) = self.analysed(&params.text_document.uri).await? else {
+        let Some((document, analyzed)) = self.analyzed(&params.text_document.uri).await? else {
             return Ok(None);
         };
         let offset = document.positions.offset(params.position);
-        match analysed.analysis.prepare_rename(offset) {
+        match analyzed.analysis.prepare_rename(offset) {
             Ok((span, placeholder)) => Ok(Some(PrepareRenameResponse::RangeWithPlaceholder {
                 range: document.positions.range(span),
                 placeholder,
@@ -36,11 +36,11 @@ impl Backend {
 
     pub(super) async fn on_rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
         let place = &params.text_document_position;
-        let Some((document, analysed)) = self.analysed(&place.text_document.uri).await? else {
+        let Some((document, analyzed)) = self.analyzed(&place.text_document.uri).await? else {
             return Ok(None);
         };
         let offset = document.positions.offset(place.position);
-        let edits = analysed
+        let edits = analyzed
             .analysis
             .rename(offset, &params.new_name)
             .map_err(|error| refused(&error))?;
@@ -71,7 +71,7 @@ impl Backend {
         let rgba = [red, green, blue, alpha].map(f64::from);
         let forms = view
             .analysis()
-            .colour_edits(map.span(params.range), rgba)
+            .color_edits(map.span(params.range), rgba)
             .into_iter();
         let presentations = forms.filter_map(|(label, edits)| {
             let mut edits = map.edits(&edits)?.into_iter();
@@ -90,11 +90,11 @@ impl Backend {
         &self,
         params: CodeActionParams,
     ) -> Result<Option<CodeActionResponse>> {
-        let Some((document, analysed)) = self.analysed(&params.text_document.uri).await? else {
+        let Some((document, analyzed)) = self.analyzed(&params.text_document.uri).await? else {
             return Ok(None);
         };
         let map = PositionMap::identity(&document.positions);
-        let analysis = &analysed.analysis;
+        let analysis = &analyzed.analysis;
         let wanted = |kind: &CodeActionKind| {
             let only = params.context.only.as_deref();
             only.is_none_or(|only| {
@@ -120,7 +120,7 @@ impl Backend {
             }
             let fixed = action.diagnostic.map(|index| {
                 let found = &analysis.diagnostics()[index];
-                vec![convert::diagnostic(&analysed, found, links)]
+                vec![convert::diagnostic(&analyzed, found, links)]
             });
             let edits = map.edits(&action.edits)?;
             Some(CodeActionOrCommand::CodeAction(CodeAction {

@@ -109,9 +109,12 @@ fn readable(body: Vec<u8>) -> Result<Option<String>, Error> {
             "the protocol has no batches: send the messages one by one",
         ));
     }
-    let syntax = |error: serde_json::Error| match error.is_data() {
-        true => None,
-        false => Some(parse_error(error)),
+    let syntax = |error: serde_json::Error| {
+        if error.is_data() {
+            None
+        } else {
+            Some(parse_error(error))
+        }
     };
     let Err(error) = serde_json::from_str::<Request>(&text) else {
         return Ok(Some(text));

@@ -15,7 +15,7 @@ use tower_lsp::ls_types::notification::Notification;
 use tower_lsp::ls_types::*;
 
 use super::backend::Backend;
-use super::documents::{Analysed, Documents};
+use super::documents::{Analyzed, Documents};
 use crate::compile::Compiled;
 use crate::crash;
 use crate::export::{self, GLB};
@@ -49,7 +49,7 @@ struct Queue {
     /// The texts that are shown, with the generation that was last queued of each.
     open: BTreeMap<String, Option<u64>>,
     /// The newest states that are not built yet.
-    waiting: BTreeMap<String, Arc<Analysed>>,
+    waiting: BTreeMap<String, Arc<Analyzed>>,
 }
 
 impl Previews {
@@ -114,16 +114,16 @@ impl Previews {
     }
 
     /// A state of a text was analysed: queues it once if its text is shown.
-    pub(super) fn analysed(&self, analysed: &Arc<Analysed>) {
+    pub(super) fn analyzed(&self, analyzed: &Arc<Analyzed>) {
         let mut queue = self.queue();
-        let uri = analysed.document.uri.to_string();
-        let generation = Some(analysed.document.generation);
+        let uri = analyzed.document.uri.to_string();
+        let generation = Some(analyzed.document.generation);
         let Some(last) = queue.open.get_mut(&uri) else {
             return;
         };
         if *last < generation {
             *last = generation;
-            queue.waiting.insert(uri, analysed.clone());
+            queue.waiting.insert(uri, analyzed.clone());
             self.wakeup.notify_one();
         }
     }
@@ -145,7 +145,7 @@ impl Previews {
         drop(queue);
         // Only now, since later analyses are queued by themselves.
         if let Some(last) = self.documents.last(uri) {
-            self.analysed(&last);
+            self.analyzed(&last);
         }
     }
 
@@ -173,38 +173,39 @@ impl Previews {
             };
             memories.retain(|uri, _| queue.open.contains_key(uri));
             drop(queue);
-            let (uri, analysed) = next;
+            let (uri, analyzed) = next;
             let memory = memories.entry(uri.clone()).or_default();
-            let compiled = analysed.analysis.compiled();
-            if let Err(crash) = crash::catch(|| self.publish(&uri, &analysed, compiled, memory)) {
+            let compiled = analyzed.analysis.compiled();
+            if let Err(crash) = crash::catch(|| self.publish(&uri, &analyzed, compiled, memory)) {
                 memories.remove(&uri);
                 let crashed = Compiled::crashed(&crash);
-                self.publish(&uri, &analysed, &crashed, &mut Memo::default());
+                self.publish(&uri, &analyzed, &crashed, &mut Memo::default());
             }
         }
     }
 
-    fn publish(&self, uri: &str, analysed: &Analysed, compiled: &Compiled, memory: &mut Memo) {
+    fn publish(&self, uri: &str, analyzed: &Analyzed, compiled: &Compiled, memory: &mut Memo) {
         let begun = SystemTime::now();
         // At first the page shows what can be built of a drawing with errors. Later on, most errors are half typed words, and
         // the last good model stays.
         let empty = compiled.scene.nodes.is_empty();
         let keep = compiled.has_errors() && (empty || self.hub.was_good(uri));
-        let model = match keep {
-            true => None,
-            false => match export::to_memory(&GLB, &compiled.scene, Some(memory)) {
+        let model = if keep {
+            None
+        } else {
+            match export::to_memory(&GLB, &compiled.scene, Some(memory)) {
                 Ok(model) => Some((model.bytes.into(), model.written.triangles)),
                 Err(_) if compiled.has_errors() => None,
                 Err(error) => {
-                    return self.publish(uri, analysed, &Compiled::unwritten(&error), memory);
+                    return self.publish(uri, analyzed, &Compiled::unwritten(&error), memory);
                 }
-            },
+            }
         };
-        let path = analysed.document.path.as_deref();
+        let path = analyzed.document.path.as_deref();
         let name = path.and_then(|path| path.file_name());
         let name = name.map_or("untitled".into(), |name| name.to_string_lossy());
         let shown = Shown {
-            text: analysed.document.text(),
+            text: analyzed.document.text(),
             compiled,
             model: model.as_ref().map(|(bytes, triangles)| (bytes, *triangles)),
             times: BuildTimes {
@@ -342,7 +343,7 @@ impl Backend {
     /// Starts the preview of a text in the client's panel.
     pub(super) async fn preview_open(&self, params: OpenParams) -> Result<Value> {
         let uri = &params.text_document.uri;
-        if self.analysed(uri).await?.is_none() {
+        if self.analyzed(uri).await?.is_none() {
             return Err(Error::invalid_params("this drawing is not open"));
         }
         self.previews.open(uri);
@@ -386,7 +387,7 @@ impl Backend {
 
     /// Shows a text on a page in the browser, or says where that page is.
     pub(super) async fn show_page(&self, uri: &Uri) -> Result<()> {
-        if self.analysed(uri).await?.is_none() {
+        if self.analyzed(uri).await?.is_none() {
             return Err(Error::invalid_params("this drawing is not open"));
         }
         self.previews.open(uri);

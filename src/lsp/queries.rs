@@ -32,10 +32,10 @@ impl Backend {
         params: CompletionParams,
     ) -> Result<Option<CompletionResponse>> {
         let place = &params.text_document_position;
-        let Some((document, analysed)) = self.analysed(&place.text_document.uri).await? else {
+        let Some((document, analyzed)) = self.analyzed(&place.text_document.uri).await? else {
             return Ok(None);
         };
-        let known = analysed.last_sound.as_ref().unwrap_or(&analysed);
+        let known = analyzed.last_sound.as_ref().unwrap_or(&analyzed);
         let folder = document.folder().map(PathBuf::from);
         let files = || files_in(folder.as_deref());
         let context = ide::Context {
@@ -52,12 +52,13 @@ impl Backend {
         let proposals = found.proposals.iter().enumerate();
         let items =
             proposals.map(|(index, proposal)| convert::proposal(proposal, index, range, snippets));
-        Ok(Some(match found.is_incomplete {
-            true => CompletionResponse::List(CompletionList {
+        Ok(Some(if found.is_incomplete {
+            CompletionResponse::List(CompletionList {
                 is_incomplete: true,
                 items: items.collect(),
-            }),
-            false => CompletionResponse::Array(items.collect()),
+            })
+        } else {
+            CompletionResponse::Array(items.collect())
         }))
     }
 
@@ -74,10 +75,10 @@ impl Backend {
         params: SignatureHelpParams,
     ) -> Result<Option<SignatureHelp>> {
         let place = &params.text_document_position_params;
-        let Some((document, analysed)) = self.analysed(&place.text_document.uri).await? else {
+        let Some((document, analyzed)) = self.analyzed(&place.text_document.uri).await? else {
             return Ok(None);
         };
-        let known = analysed.last_sound.as_ref().unwrap_or(&analysed);
+        let known = analyzed.last_sound.as_ref().unwrap_or(&analyzed);
         let offset = document.positions.offset(place.position);
         Ok(ide::signature(document.text(), &known.analysis, offset).map(convert::signatures))
     }
@@ -96,9 +97,8 @@ impl Backend {
             let (from, targets) = view.analysis().definition(offset)?;
             let targets = targets.iter();
             let locations = targets.filter_map(|target| self.target(&view.document, target, map));
-            Some(match links {
-                false => GotoDefinitionResponse::Array(locations.collect()),
-                true => GotoDefinitionResponse::Link(
+            Some(if links {
+                GotoDefinitionResponse::Link(
                     locations
                         .map(|location| LocationLink {
                             origin_selection_range: map.range(from),
@@ -107,7 +107,9 @@ impl Backend {
                             target_selection_range: location.range,
                         })
                         .collect(),
-                ),
+                )
+            } else {
+                GotoDefinitionResponse::Array(locations.collect())
             })
         })
         .await
@@ -135,9 +137,10 @@ impl Backend {
             let highlights = found.iter().filter_map(|(span, defines)| {
                 Some(DocumentHighlight {
                     range: map.range(*span)?,
-                    kind: Some(match defines {
-                        true => DocumentHighlightKind::WRITE,
-                        false => DocumentHighlightKind::READ,
+                    kind: Some(if *defines {
+                        DocumentHighlightKind::WRITE
+                    } else {
+                        DocumentHighlightKind::READ
                     }),
                 })
             });
@@ -159,9 +162,10 @@ impl Backend {
             .and_then(|can| can.document_symbol);
         let nested = can.and_then(|can| can.hierarchical_document_symbol_support);
         let symbols = convert::symbols(view.analysis().outline(), &view.map());
-        Ok(Some(match nested.unwrap_or(false) {
-            true => DocumentSymbolResponse::Nested(symbols),
-            false => DocumentSymbolResponse::Flat(flat(symbols, &view.document.uri)),
+        Ok(Some(if nested.unwrap_or(false) {
+            DocumentSymbolResponse::Nested(symbols)
+        } else {
+            DocumentSymbolResponse::Flat(flat(symbols, &view.document.uri))
         }))
     }
 
@@ -222,7 +226,7 @@ impl Backend {
         let Some(view) = self.view(&params.text_document.uri).await? else {
             return Ok(None);
         };
-        let all = Span::new(0, view.analysed.document.text().len());
+        let all = Span::new(0, view.analyzed.document.text().len());
         let data = convert::tokens(&view.analysis().semantic_tokens(all), &view.map());
         Ok(Some(
             SemanticTokens {

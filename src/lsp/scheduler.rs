@@ -7,7 +7,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 
 use tower_lsp::ls_types::Uri;
 
-use super::documents::{Analysed, Document, Documents};
+use super::documents::{Analyzed, Document, Documents};
 
 /// When texts are analysed without a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -41,7 +41,7 @@ struct Queue {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Task {
     /// Analyse the newest state of a text, and send its diagnostics if that was requested.
-    Analyse(String),
+    Analyze(String),
     /// A text was closed: drop what is kept of it.
     Close(Uri),
     /// Clear the diagnostics that were sent for a text.
@@ -63,7 +63,7 @@ impl Scheduler {
             .unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// Applies the client's settings, `{"analyse": "onType"}`, alone or under `okoshi`; others are ignored.
+    /// Applies the client's settings, `{"analyze": "onType"}`, alone or under `okoshi`; others are ignored.
     pub(super) fn configure(&self, settings: &serde_json::Value) {
         let own = settings.get("okoshi").unwrap_or(settings);
         match own.get("analyse").and_then(serde_json::Value::as_str) {
@@ -80,7 +80,7 @@ impl Scheduler {
         if let Some(document) = current {
             queue.due.insert(uri.to_owned(), document.generation);
         }
-        self.add(queue, Task::Analyse(uri.to_owned()));
+        self.add(queue, Task::Analyze(uri.to_owned()));
     }
 
     /// A text has changed: its diagnostics are sent, unless the client wants them only after saving.
@@ -117,9 +117,9 @@ impl Scheduler {
     pub(super) fn request(&self, uri: &str) {
         let current = self.documents.current(uri);
         let last = self.documents.last(uri);
-        let generation = |analysed: &Analysed| analysed.document.generation;
+        let generation = |analyzed: &Analyzed| analyzed.document.generation;
         if current.map(|document| document.generation) != last.as_deref().map(generation) {
-            self.add(self.queue(), Task::Analyse(uri.to_owned()));
+            self.add(self.queue(), Task::Analyze(uri.to_owned()));
         }
     }
 

@@ -14,7 +14,7 @@ use tokio::runtime::Handle;
 use tower_lsp::Client;
 use tower_lsp::ls_types::{Diagnostic, Uri};
 
-use super::documents::{Analysed, Document, Documents};
+use super::documents::{Analyzed, Document, Documents};
 use super::preview::Previews;
 use super::scheduler::{Scheduler, Task};
 use super::{convert, links::Links, manual, progress};
@@ -57,7 +57,7 @@ impl Worker {
         loop {
             let task = self.scheduler.next_task();
             let done = crash::catch(|| self.run(task.clone()));
-            if let (Err(crash), Task::Analyse(uri)) = (done, task) {
+            if let (Err(crash), Task::Analyze(uri)) = (done, task) {
                 // If even that panics, the next change tries again.
                 let _ = crash::catch(|| self.report_crash(&uri, &crash));
             }
@@ -75,15 +75,15 @@ impl Worker {
                 self.send(uri, vec![], None);
                 self.release_memory();
             }
-            Task::Analyse(uri) => {
+            Task::Analyze(uri) => {
                 let Some(document) = self.documents.current(&uri) else {
                     return;
                 };
                 // Dropped after the diagnostics are sent, because dropping takes time.
                 let before = self.documents.last(&uri);
-                if let Some((analysed, only_links_changed)) = self.analyse(document) {
-                    self.publish_diagnostics(&analysed, only_links_changed);
-                    self.previews.analysed(&analysed);
+                if let Some((analyzed, only_links_changed)) = self.analyze(document) {
+                    self.publish_diagnostics(&analyzed, only_links_changed);
+                    self.previews.analyzed(&analyzed);
                 }
                 drop(before);
             }
@@ -105,8 +105,8 @@ impl Worker {
     }
 
     /// Sends the diagnostics of an analysis, if that was requested.
-    fn publish_diagnostics(&self, analysed: &Analysed, only_links_changed: bool) {
-        let document = &analysed.document;
+    fn publish_diagnostics(&self, analyzed: &Analyzed, only_links_changed: bool) {
+        let document = &analyzed.document;
         let uri = document.uri.as_str();
         if !self.scheduler.take_due(document) {
             return;
@@ -121,7 +121,7 @@ impl Worker {
             return;
         }
         let links = self.client_support.links_at_codes.load(Ordering::Relaxed);
-        let diagnostics = convert::diagnostics(analysed, manual::links(links));
+        let diagnostics = convert::diagnostics(analyzed, manual::links(links));
         // If the text changes before this is sent, the diagnostics of that change are due and follow later.
         self.send(document.uri.clone(), diagnostics, Some(document.version));
     }
@@ -134,7 +134,7 @@ impl Worker {
     /// Analyses a state of a text, unless that is done, and hands it to the waiting requests. `None` if its state is out of date
     /// meanwhile: a later task analyses the newer one. Also returns whether only a file that it links to has
     /// changed.
-    fn analyse(&mut self, document: Arc<Document>) -> Option<(Arc<Analysed>, bool)> {
+    fn analyze(&mut self, document: Arc<Document>) -> Option<(Arc<Analyzed>, bool)> {
         let uri = document.uri.to_string();
         let last = self.documents.last(&uri);
         if let Some(last) = &last
@@ -152,10 +152,10 @@ impl Worker {
         let only_links_changed = last
             .as_ref()
             .is_some_and(|last| last.document.version == document.version);
-        let analysed = new_analysed(document, compiled, last);
+        let analyzed = new_analyzed(document, compiled, last);
         drop(progress);
-        let arrived = self.documents.publish(analysed.clone());
-        arrived.then_some((analysed, only_links_changed))
+        let arrived = self.documents.publish(analyzed.clone());
+        arrived.then_some((analyzed, only_links_changed))
     }
 
     /// Answers the requests that wait for an analysis that panicked outside of compiling with one whose only diagnostic is the
@@ -164,26 +164,26 @@ impl Worker {
         self.compilers.remove(uri);
         if let Some(document) = self.documents.current(uri) {
             let last = self.documents.last(uri);
-            let analysed = new_analysed(document, Compiled::crashed(crash), last);
-            if self.documents.publish(analysed.clone()) {
-                self.publish_diagnostics(&analysed, false);
+            let analyzed = new_analyzed(document, Compiled::crashed(crash), last);
+            if self.documents.publish(analyzed.clone()) {
+                self.publish_diagnostics(&analyzed, false);
             }
         }
     }
 }
 
-fn new_analysed(
+fn new_analyzed(
     document: Arc<Document>,
     compiled: Compiled,
-    last: Option<Arc<Analysed>>,
-) -> Arc<Analysed> {
+    last: Option<Arc<Analyzed>>,
+) -> Arc<Analyzed> {
     let analysis = Analysis::new(document.text().clone(), compiled);
     let last_sound = match (analysis.is_sound(), last) {
         (false, Some(last)) if last.analysis.is_sound() => Some(last),
         (false, Some(last)) => last.last_sound.clone(),
         _ => None,
     };
-    Arc::new(Analysed {
+    Arc::new(Analyzed {
         document,
         analysis,
         last_sound,

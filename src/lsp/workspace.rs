@@ -62,10 +62,10 @@ impl Workspace {
         let mut found = vec![];
         let mut open_files = vec![];
         for snapshot in open.values() {
-            let analysed = snapshot.analyses.borrow().clone();
-            if let Some(analysed) = analysed {
+            let analyzed = snapshot.analyses.borrow().clone();
+            if let Some(analyzed) = analyzed {
                 open_files.extend(snapshot.document.path.clone());
-                let parts = parts(&analysed.analysis, &analysed.document.positions);
+                let parts = parts(&analyzed.analysis, &analyzed.document.positions);
                 add_matches(&parts, query, &snapshot.document.uri, &mut found);
             }
         }

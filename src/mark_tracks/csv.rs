@@ -6,10 +6,10 @@ use super::check::{
     MAX_FRAMES, MAX_MARKS, coordinate_problem, name_problem, repeated_name, size_problem,
     time_problem,
 };
-use super::{Error, MarkTrack, MarkTracks, Place, bridge, named_colour, parse_hex};
+use super::{Error, MarkTrack, MarkTracks, Place, bridge, named_color, parse_hex};
 
 /// The colour of a mark whose name says none.
-const GREY: [u8; 3] = [128; 3];
+const GRAY: [u8; 3] = [128; 3];
 
 /// A cell: its text without quotes and blanks, and where it is.
 #[derive(Clone, Copy)]
@@ -33,7 +33,7 @@ impl Cell<'_> {
 #[derive(Default)]
 struct Comment<'a> {
     size: Option<[u32; 2]>,
-    colours: Vec<(&'a str, [u8; 3])>,
+    colors: Vec<(&'a str, [u8; 3])>,
 }
 
 /// The columns of a mark, and what was read from them.
@@ -110,7 +110,7 @@ pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
     let middle = DVec2::from_array(size.map(f64::from)) / 2.0;
     let track = |mark: Columns<'_>| MarkTrack {
         name: mark.name.to_owned(),
-        colour: comment.colour(mark.name),
+        color: comment.color(mark.name),
         points: bridge(&times, &mark.points, middle),
         is_lost: mark.is_lost,
     };
@@ -125,10 +125,10 @@ impl<'a> Comment<'a> {
     /// Reads a comment: its words are a size, such as `320x240`, and colours, such as `red=#d03020`. Others are a person's.
     fn read(&mut self, text: &'a str, line: usize) -> Result<(), Error> {
         for word in text.split([' ', ',', ';', '\t', '"']) {
-            if let Some((name, colour)) = word.split_once('=')
-                && let Some(colour) = parse_hex(colour)
+            if let Some((name, color)) = word.split_once('=')
+                && let Some(color) = parse_hex(color)
             {
-                self.colours.push((name, colour));
+                self.colors.push((name, color));
             } else if let Some((width, height)) = word.split_once(['x', '×'])
                 && let (Ok(width), Ok(height)) = (width.parse(), height.parse())
             {
@@ -144,10 +144,10 @@ impl<'a> Comment<'a> {
     }
 
     /// The colour of a mark: the one that the comment says, otherwise the one that its name says.
-    fn colour(&self, name: &str) -> [u8; 3] {
-        let said = self.colours.iter().find(|(other, _)| *other == name);
-        let colour = said.map(|(_, colour)| *colour);
-        colour.or_else(|| named_colour(name)).unwrap_or(GREY)
+    fn color(&self, name: &str) -> [u8; 3] {
+        let said = self.colors.iter().find(|(other, _)| *other == name);
+        let color = said.map(|(_, color)| *color);
+        color.or_else(|| named_color(name)).unwrap_or(GRAY)
     }
 }
 

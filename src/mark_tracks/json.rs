@@ -34,7 +34,8 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct Mark {
     name: String,
-    colour: String,
+    #[serde(rename = "colour")]
+    color: String,
     /// `null` where the mark was lost and nobody knows a place.
     points: Vec<Option<[f64; 2]>>,
     /// Ranges of frames: the first and the last.
@@ -144,7 +145,7 @@ fn check_marks(marks: &[Mark]) -> Result<(), Error> {
 
 fn read_mark(index: usize, mark: &Mark, times: &[f64], middle: DVec2) -> Result<MarkTrack, Error> {
     let field = |field: String| Place::Field(format!("marks[{index}].{field}"));
-    let colour = parse_hex(&mark.colour).ok_or_else(|| {
+    let color = parse_hex(&mark.color).ok_or_else(|| {
         let message = "this is no colour";
         Error::new(field("colour".into()), message, "write it as `#d03020`")
     })?;
@@ -186,7 +187,7 @@ fn read_mark(index: usize, mark: &Mark, times: &[f64], middle: DVec2) -> Result<
         .collect();
     Ok(MarkTrack {
         name: mark.name.clone(),
-        colour,
+        color,
         points: bridge(times, &points, middle),
         is_lost,
     })

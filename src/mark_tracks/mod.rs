@@ -6,7 +6,7 @@
 
 mod bridge;
 mod check;
-mod colour;
+mod color;
 mod csv;
 mod error;
 mod json;
@@ -24,7 +24,7 @@ use write::TICKS;
 
 pub use bridge::bridge;
 pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, MAX_SIDE, is_name, repeated_name};
-pub use colour::{Hsv, hex, hue_difference, named_colour, parse_hex};
+pub use color::{Hsv, hex, hue_difference, named_color, parse_hex};
 pub use error::{Error, Place};
 
 /// The largest file that is read, in bytes.
@@ -52,7 +52,7 @@ pub struct MarkTrack {
     /// Its name, distinct from the others'.
     pub name: String,
     /// Its colour: red, green, blue, sRGB.
-    pub colour: [u8; 3],
+    pub color: [u8; 3],
     /// Per frame the middle of the mark; where it was lost, a place between those where it was seen.
     pub points: Vec<DVec2>,
     /// Per frame whether it was lost.
@@ -86,9 +86,10 @@ impl MarkTracks {
             )
         })?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut tracks = match text.trim_start().starts_with('{') {
-            true => json::read(text)?,
-            false => csv::read(text)?,
+        let mut tracks = if text.trim_start().starts_with('{') {
+            json::read(text)?
+        } else {
+            csv::read(text)?
         };
         // Rounded as they are written: times that are told apart here stay so in every copy of the file.
         let first = tracks.times.first().copied().map_or(0.0, ticks);

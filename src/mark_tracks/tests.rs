@@ -30,9 +30,9 @@ fn tracks() -> impl Strategy<Value = MarkTracks> {
                     .map(|tick| f64::from(tick) / 1e4)
                     .collect(),
                 marks: named
-                    .map(|(name, (colour, points, is_lost))| MarkTrack {
+                    .map(|(name, (color, points, is_lost))| MarkTrack {
                         name: name.clone(),
-                        colour,
+                        color,
                         points,
                         is_lost,
                     })
@@ -75,7 +75,7 @@ fn the_formats_are_as_documented() {
         times: vec![0.0, 1.0 / 30.0, 0.1],
         marks: vec![MarkTrack {
             name: "red".into(),
-            colour: [0xd0, 0x30, 0x20],
+            color: [0xd0, 0x30, 0x20],
             points: vec![
                 DVec2::new(1.0, 2.5),
                 DVec2::new(-0.001, 2.0 / 3.0),
@@ -108,7 +108,7 @@ fn a_table_by_hand_needs_only_size_times_and_places() {
     let [mark] = &tracks.marks.raw[..] else {
         panic!()
     };
-    assert_eq!((mark.name.as_str(), mark.colour), ("green", [0, 128, 0]));
+    assert_eq!((mark.name.as_str(), mark.color), ("green", [0, 128, 0]));
     assert_eq!(mark.is_lost, [false, true, false]);
     assert_eq!(mark.points[1], DVec2::new(2.0, 4.0));
 }

@@ -26,7 +26,7 @@ impl MarkTracks {
                 "{}\n    {{\"name\": {}, \"colour\": \"{}\",\n     \"lost\": [{}],\n     \"points\": [{}]}}",
                 if index == 0 { "" } else { "," },
                 serde_json::Value::from(mark.name.as_str()),
-                hex(mark.colour),
+                hex(mark.color),
                 lost.join(","),
                 points.join(","),
             )
@@ -44,7 +44,7 @@ impl MarkTracks {
         let [width, height] = self.size;
         let mut text = format!("# {width}x{height}");
         for mark in &self.marks {
-            let _ = write!(text, " {}={}", mark.name, hex(mark.colour));
+            let _ = write!(text, " {}={}", mark.name, hex(mark.color));
         }
         text.push_str("\nframe,time");
         for mark in &self.marks {

@@ -27,9 +27,10 @@ pub(crate) fn damp(turns: &mut Vec<DQuat>, ratio: f64) {
         let way = first.inverse() * *turn;
         let length = way.xyz().length();
         // A whole turn has no axis of its own.
-        let axis = match length > 1e-12 {
-            true => way.xyz() / length,
-            false => before.normalize_or_zero(),
+        let axis = if length > 1e-12 {
+            way.xyz() / length
+        } else {
+            before.normalize_or_zero()
         };
         // Quaternions repeat after two whole turns; of all such angles, the one nearest to that of the frame before.
         let angle = 2.0 * length.atan2(way.w);

@@ -24,10 +24,7 @@ impl UpAxis {
             Axis::Y => DVec3::Y,
             Axis::Z => DVec3::Z,
         };
-        match self.is_negative {
-            true => -axis,
-            false => axis,
-        }
+        if self.is_negative { -axis } else { axis }
     }
 }
 

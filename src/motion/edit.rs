@@ -262,9 +262,10 @@ impl EditedClip {
         &self,
         out: &mut (impl std::io::Write + Send + ?Sized),
     ) -> std::io::Result<()> {
-        let decimals = match self.is_changed {
-            true => Decimals::Six,
-            false => Decimals::All,
+        let decimals = if self.is_changed {
+            Decimals::Six
+        } else {
+            Decimals::All
         };
         match &self.exposure {
             Some(exposure) => bvh::write_frames(&self.clip, exposure.sources(), decimals, out),

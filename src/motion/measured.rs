@@ -73,7 +73,7 @@ impl Measured {
 
 /// The joints that have a label, and the far ends of head, hands and feet.
 fn seen(clip: &Clip, anatomy: &Anatomy) -> Vec<Tip> {
-    let mut tips: Vec<Tip> = anatomy.labelled().map(Tip::Joint).collect();
+    let mut tips: Vec<Tip> = anatomy.labeled().map(Tip::Joint).collect();
     let head = anatomy.head.iter().flat_map(|head| {
         let ends = 0..clip.skeleton.joints[*head].ends.len();
         ends.map(|end| Tip::End { joint: *head, end })

@@ -52,7 +52,7 @@ pub fn perform(
         Some(timing) => resample::along(&prepared.clip, timing),
         None => prepared.clip.clone(),
     };
-    if let Some(emphasised) = plan.emphasised.filter(|_| plan.is_damping) {
+    if let Some(emphasized) = plan.emphasized.filter(|_| plan.is_damping) {
         let joints = &prepared.clip.skeleton.joints;
         let parents: Vec<Option<usize>> = joints.iter().map(|joint| joint.parent).collect();
         let labels = prepared.anatomy.labels.iter();
@@ -73,7 +73,7 @@ pub fn perform(
             &nodes,
             &followers,
             &plan.largest_inputs(),
-            emphasised,
+            emphasized,
         );
         clip = resample::damped(&clip, &ratios);
     }

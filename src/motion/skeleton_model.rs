@@ -60,9 +60,10 @@ pub fn skeleton_model(
         scene.nodes.push(Node {
             name: joint.name.clone(),
             children: children[index].clone(),
-            translation: match at_root {
-                true => to_model * joint.offset * scale,
-                false => joint.offset * scale,
+            translation: if at_root {
+                to_model * joint.offset * scale
+            } else {
+                joint.offset * scale
             },
             rotation: if at_root { to_model } else { DQuat::IDENTITY },
             mesh: Some(index),

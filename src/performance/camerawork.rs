@@ -41,9 +41,10 @@ pub fn camerawork(joint: &[DVec3], front: DVec3, reach: f64, depth: f64) -> Came
     let far = (reach / tangent + depth).max(depth * 1.5 / NEAREST);
     let last = joint.len().saturating_sub(1);
     let distance = |frame: usize| {
-        let away = match frame <= nearest {
-            true => (nearest - frame) as f64 / nearest.max(1) as f64,
-            false => (frame - nearest) as f64 / (last - nearest) as f64,
+        let away = if frame <= nearest {
+            (nearest - frame) as f64 / nearest.max(1) as f64
+        } else {
+            (frame - nearest) as f64 / (last - nearest) as f64
         };
         far * (NEAREST + (1.0 - NEAREST) * ease(away))
     };

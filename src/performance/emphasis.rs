@@ -41,18 +41,18 @@ impl Limbs<'_> {
 /// Per node the ratio of its turns that is left; `None` for nodes that no mark performs, which stay as they are.
 ///
 /// `channels` are the nodes of each characteristic joint, `followers` those that are edited along with them, and `largest` the largest
-/// input of their marks. The nodes of the `emphasised` one stay, and so do their limbs and what they hang on. Of several ratios for
+/// input of their marks. The nodes of the `emphasized` one stay, and so do their limbs and what they hang on. Of several ratios for
 /// one node the largest counts.
 pub fn ratios(
     limbs: &Limbs<'_>,
     channels: &[Vec<usize>],
     followers: &[Vec<usize>],
     largest: &[f64],
-    emphasised: usize,
+    emphasized: usize,
 ) -> Vec<Option<f64>> {
     let count = limbs.parents.len();
     let mut stays = vec![false; count];
-    for node in &channels[emphasised] {
+    for node in &channels[emphasized] {
         for above in limbs.upwards(*node) {
             stays[above] = true;
         }
@@ -61,9 +61,9 @@ pub fn ratios(
         }
     }
     let mut ratios: Vec<Option<f64>> = vec![None; count];
-    let most = largest[emphasised];
+    let most = largest[emphasized];
     for (channel, nodes) in channels.iter().enumerate() {
-        if channel == emphasised || most <= 0.0 {
+        if channel == emphasized || most <= 0.0 {
             continue;
         }
         let ratio = ratio(largest[channel], most);
@@ -83,8 +83,8 @@ pub fn ratios(
 }
 
 /// How much of its turns a channel keeps (equation 1): its largest input over that of the emphasised one, which is positive.
-pub(super) fn ratio(largest: f64, emphasised: f64) -> f64 {
-    (largest / emphasised).clamp(0.0, 1.0)
+pub(super) fn ratio(largest: f64, emphasized: f64) -> f64 {
+    (largest / emphasized).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

@@ -117,7 +117,7 @@ mod tests {
             times: (0..points.len()).map(|frame| frame as f64 / fps).collect(),
             marks: vec![MarkTrack {
                 name: "red".to_owned(),
-                colour: [255, 0, 0],
+                color: [255, 0, 0],
                 points: points
                     .iter()
                     .map(|point| DVec2::from_array(*point))

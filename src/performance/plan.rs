@@ -50,7 +50,7 @@ pub struct Request {
     /// Its effects.
     pub effects: Effects,
     /// The channel that is emphasised.
-    pub emphasised: Option<usize>,
+    pub emphasized: Option<usize>,
     /// The key frames of input and motion, counted from 1.
     pub keys: Option<[usize; 2]>,
 }
@@ -88,7 +88,7 @@ pub struct Plan {
     /// Along which the motion is played; `None` if it keeps its timing.
     pub timing: Option<TimeMap>,
     /// The channel that is emphasised; `None` if nothing moves.
-    pub emphasised: Option<usize>,
+    pub emphasized: Option<usize>,
     /// Whether the other channels are damped.
     pub is_damping: bool,
     /// How it is filmed.
@@ -109,7 +109,7 @@ impl Plan {
     /// The ratio R of equation 1 of a channel: its largest input over that of the emphasised one, 0 to 1. All are 0 if nothing moves.
     pub fn ratio(&self, channel: usize) -> f64 {
         let most = self
-            .emphasised
+            .emphasized
             .map(|channel| self.input.largest_of(channel));
         let most = most.filter(|most| *most > 0.0);
         most.map_or(0.0, |most| ratio(self.input.largest_of(channel), most))
@@ -143,7 +143,7 @@ pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: 
     let (input, motion) = (Information::new(input), Information::new(motion));
     let lengths = [input.frames(), motion.frames()];
     let mut findings = Vec::new();
-    let emphasised = request.emphasised.or(input.key.map(|key| key.channel));
+    let emphasized = request.emphasized.or(input.key.map(|key| key.channel));
     match input.key {
         None => findings.push(Finding::NoInput),
         // Whoever gives the keys knows which action counts.
@@ -155,9 +155,9 @@ pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: 
         Some(_) if request.keys.is_some() => {}
         Some(_) => findings.extend(motion.second.map(Finding::SecondMotion)),
     }
-    if let (Some(emphasised), Some(key)) = (emphasised, motion.key)
-        && request.emphasised.is_none()
-        && motion.largest_of(emphasised) < NEARLY_LARGEST
+    if let (Some(emphasized), Some(key)) = (emphasized, motion.key)
+        && request.emphasized.is_none()
+        && motion.largest_of(emphasized) < NEARLY_LARGEST
     {
         findings.push(Finding::OtherJoint(key.channel));
     }
@@ -181,7 +181,7 @@ pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: 
     });
     let [given_input, given_motion] = given.unwrap_or_default();
     // Whoever names the joint that counts means its movement, not that of another one.
-    let peak = |information: &Information| match request.emphasised {
+    let peak = |information: &Information| match request.emphasized {
         Some(channel) => information.peak(channel),
         None => information.key.map(|key| key.frame),
     };
@@ -196,7 +196,7 @@ pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: 
         input,
         motion,
         keys,
-        emphasised,
+        emphasized,
         findings,
     }
 }

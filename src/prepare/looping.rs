@@ -81,7 +81,7 @@ struct Poses {
 impl Poses {
     fn of(clip: &Clip, anatomy: &Anatomy, up: DVec3) -> Self {
         let count = clip.skeleton.joints.len();
-        let mut points: Vec<usize> = anatomy.labelled().collect();
+        let mut points: Vec<usize> = anatomy.labeled().collect();
         if points.is_empty() {
             points = (0..count).collect();
         }
@@ -204,9 +204,9 @@ mod tests {
                 "{start:?} {end:?}"
             );
         }
-        let travelled = (cycle.last - cycle.first) as f64;
-        assert!((end[0] - start[0] - travelled).abs() < 1e-9);
-        assert!((end[2] - start[2] - 2.0 * travelled).abs() < 1e-9);
+        let traveled = (cycle.last - cycle.first) as f64;
+        assert!((end[0] - start[0] - traveled).abs() < 1e-9);
+        assert!((end[2] - start[2] - 2.0 * traveled).abs() < 1e-9);
     }
 
     #[test]

@@ -113,9 +113,10 @@ impl StoredModel {
     pub(super) fn since(&self, before: &Self) -> Bytes {
         let compare = || delta(&before.bytes, &self.bytes, before.number).map(Bytes::from);
         let (number, delta) = self.delta.get_or_init(|| (before.number, compare()));
-        let delta = match *number == before.number {
-            true => delta.clone(),
-            false => compare(),
+        let delta = if *number == before.number {
+            delta.clone()
+        } else {
+            compare()
         };
         delta.unwrap_or_else(|| self.bytes.clone())
     }

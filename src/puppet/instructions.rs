@@ -32,7 +32,7 @@ pub(super) struct Texts {
 pub(super) struct Line {
     pub(super) text: String,
     /// The colour of the mark that it is about.
-    pub(super) colour: Option<[u8; 3]>,
+    pub(super) color: Option<[u8; 3]>,
 }
 
 impl Texts {
@@ -67,7 +67,7 @@ impl Texts {
                     mark.word, mark.word
                 ),
             };
-            texts.add(wrapped(&text, width - SAMPLE), Some(mark.colour));
+            texts.add(wrapped(&text, width - SAMPLE), Some(mark.color));
         }
         match marks.len() - listed.len() {
             0 => {}
@@ -86,10 +86,10 @@ impl Texts {
     }
 
     /// Adds lines, the first with a sample of the colour.
-    fn add(&mut self, lines: Vec<String>, mut colour: Option<[u8; 3]>) {
+    fn add(&mut self, lines: Vec<String>, mut color: Option<[u8; 3]>) {
         let lines = lines.into_iter().map(|text| Line {
             text,
-            colour: colour.take(),
+            color: color.take(),
         });
         self.lines.extend(lines);
     }
@@ -124,9 +124,10 @@ fn wrapped(text: &str, width: f64) -> Vec<String> {
 fn track_command<'a>(marks: impl Iterator<Item = &'a str>, width: f64) -> Vec<String> {
     let mut options: Vec<String> = Vec::new();
     for word in marks {
-        let option = match word.starts_with('#') {
-            true => format!("--mark '{word}={word}'"),
-            false => format!("--mark {word}={word}"),
+        let option = if word.starts_with('#') {
+            format!("--mark '{word}={word}'")
+        } else {
+            format!("--mark {word}={word}")
         };
         if !options.contains(&option) {
             options.push(option);
@@ -165,7 +166,7 @@ mod tests {
     fn mark(word: &str) -> PieceMark {
         PieceMark {
             word: word.to_owned(),
-            colour: [1, 2, 3],
+            color: [1, 2, 3],
             part: 0,
             origin: MarkOrigin::Suggested,
         }
@@ -193,11 +194,11 @@ mod tests {
         let marks: Vec<_> = marks.iter().map(|mark| (mark, long.clone())).collect();
         let texts = Texts::new(&long, &marks, 60.0);
         for line in &texts.lines {
-            let indent = if line.colour.is_some() { SAMPLE } else { 0.0 };
+            let indent = if line.color.is_some() { SAMPLE } else { 0.0 };
             assert!(text_width(&line.text) + indent <= 60.0, "{line:?}");
         }
-        let coloured = texts.lines.iter().filter(|line| line.colour.is_some());
-        assert_eq!(coloured.count(), MAX_LISTED);
+        let colored = texts.lines.iter().filter(|line| line.color.is_some());
+        assert_eq!(colored.count(), MAX_LISTED);
         assert_eq!(texts.lines.last().unwrap().text, "… and 12 more");
     }
 }

@@ -30,7 +30,7 @@ pub struct PieceMark {
     /// The colour as a string writes it: `red`, `#ff8000`.
     pub word: String,
     /// Red, green, blue, sRGB.
-    pub colour: [u8; 3],
+    pub color: [u8; 3],
     /// The part that has it, an index into the bindings' parts.
     pub part: usize,
     /// Whether a string gives it, or the sheet suggests it.
@@ -54,11 +54,11 @@ pub fn marks(drawing: &Drawing, bindings: &Bindings, pieces: &[Piece]) -> Vec<Op
         return given;
     }
     let mut marks = vec![None; pieces.len()];
-    let colours = palette(drawing, pieces);
-    for (piece, (word, colour)) in ends(bindings, pieces).into_iter().zip(colours) {
+    let colors = palette(drawing, pieces);
+    for (piece, (word, color)) in ends(bindings, pieces).into_iter().zip(colors) {
         marks[piece] = Some(PieceMark {
             word: word.to_owned(),
-            colour,
+            color,
             part: pieces[piece].part,
             origin: MarkOrigin::Suggested,
         });
@@ -72,7 +72,7 @@ fn given(bindings: &Bindings, piece: &Piece) -> Option<PieceMark> {
         let mark = bindings.mark(*part)?;
         Some(PieceMark {
             word: mark.word.to_owned(),
-            colour: mark.colour,
+            color: mark.color,
             part: *part,
             origin: MarkOrigin::Given,
         })
@@ -98,11 +98,11 @@ fn ends(bindings: &Bindings, pieces: &[Piece]) -> Vec<usize> {
     }
     let middle = |piece: &Piece| bounds(&piece.outline).map_or(DVec2::ZERO, |(a, b)| (a + b) / 2.0);
     let root = pieces.iter().find(|piece| piece.joint.is_none());
-    let centre = root.map_or(DVec2::ZERO, middle);
+    let center = root.map_or(DVec2::ZERO, middle);
     let mut others: Vec<usize> = (0..pieces.len())
         .filter(|index| pieces[*index].joint.is_some() && !ends.contains(index))
         .collect();
-    let distance = |index: &usize| middle(&pieces[*index]).distance_squared(centre);
+    let distance = |index: &usize| middle(&pieces[*index]).distance_squared(center);
     others.sort_by(|a, b| distance(b).total_cmp(&distance(a)));
     ends.extend(others);
     ends.truncate(FEWEST);
@@ -114,15 +114,15 @@ fn palette(drawing: &Drawing, pieces: &[Piece]) -> Vec<(&'static str, [u8; 3])> 
     let is_shown = |leaf: usize| pieces.iter().any(|piece| piece.leaves.contains(&leaf));
     let shapes = drawing.shapes.iter().filter(|shape| is_shown(shape.leaf));
     let hues: Vec<f64> = shapes.filter_map(|shape| hue(shape.paint.color)).collect();
-    let is_similar = |colour: [u8; 3]| {
-        let own = hue(colour).unwrap_or_default();
+    let is_similar = |color: [u8; 3]| {
+        let own = hue(color).unwrap_or_default();
         hues.iter().any(|hue| {
             let apart = (hue - own).rem_euclid(360.0);
             apart.min(360.0 - apart) < SIMILAR
         })
     };
     let mut palette = PALETTE.to_vec();
-    palette.sort_by_key(|(_, colour)| is_similar(*colour));
+    palette.sort_by_key(|(_, color)| is_similar(*color));
     palette
 }
 
@@ -146,8 +146,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn hues_are_those_of_the_colour_wheel() {
-        for (colour, expected) in [
+    fn hues_are_those_of_the_color_wheel() {
+        for (color, expected) in [
             ([255, 0, 0], Some(0.0)),
             ([255, 255, 0], Some(60.0)),
             ([0, 200, 0], Some(120.0)),
@@ -155,7 +155,7 @@ mod tests {
             ([255, 0, 255], Some(300.0)),
             ([120, 100, 110], None),
         ] {
-            assert_eq!(hue(colour), expected, "{colour:?}");
+            assert_eq!(hue(color), expected, "{color:?}");
         }
     }
 }

@@ -297,9 +297,10 @@ impl<'a> Puppet<'a> {
 
 /// A name as a text that is not taken for a string, if the sheet is opened as a drawing.
 fn plain(name: &str) -> String {
-    match looks_like_string(name) || name.starts_with(['#', '^']) {
-        true => name.replace(['$', '@', '%', '*', '#', '^'], " "),
-        false => name.to_owned(),
+    if looks_like_string(name) || name.starts_with(['#', '^']) {
+        name.replace(['$', '@', '%', '*', '#', '^'], " ")
+    } else {
+        name.to_owned()
     }
 }
 

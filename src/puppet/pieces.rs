@@ -169,9 +169,10 @@ impl Cutter<'_> {
             self.bindings.attributes(piece.part).origin(),
             Some(Origin::Point(_))
         );
-        match part.parent.is_some() && (is_given || is_on(&piece.outline) || is_on(carrier)) {
-            true => joint,
-            false => contact(&piece.outline, carrier),
+        if part.parent.is_some() && (is_given || is_on(&piece.outline) || is_on(carrier)) {
+            joint
+        } else {
+            contact(&piece.outline, carrier)
         }
     }
 

@@ -110,12 +110,12 @@ fn instructions(out: &mut String, page: DVec2, texts: &Texts) {
         escape_xml(&texts.title)
     );
     y += BELOW_TITLE;
-    for Line { text: line, colour } in &texts.lines {
+    for Line { text: line, color } in &texts.lines {
         y += LINE;
         let mut x = EDGE;
-        if let Some(colour) = colour {
+        if let Some(color) = color {
             let at = DVec2::new(EDGE + DOT, y - FONT * 0.35);
-            circle(out, at, DOT, &format!("fill=\"{}\"", hex(*colour)));
+            circle(out, at, DOT, &format!("fill=\"{}\"", hex(*color)));
             x += SAMPLE;
         }
         text(out, DVec2::new(x, y), line, "");
@@ -163,7 +163,7 @@ fn piece(
         number(f)
     );
     if let (Some(at), Some(mark)) = (paper.mark, printed.mark) {
-        let style = format!("id=\"piece-{id}-mark\" fill=\"{}\"", hex(mark.colour));
+        let style = format!("id=\"piece-{id}-mark\" fill=\"{}\"", hex(mark.color));
         circle(out, place(at), MARK, &style);
     }
     for (hole, letters) in paper.holes.iter().zip(&printed.letters) {

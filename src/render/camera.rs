@@ -193,7 +193,7 @@ impl Framing {
         };
         if projection == Projection::Perspective {
             for _ in 0..CENTRINGS {
-                framing.centre(shots, &points)?;
+                framing.center(shots, &points)?;
             }
         }
         Ok(framing)
@@ -208,7 +208,7 @@ impl Framing {
     }
 
     /// Moves the eye sideways, so that opposite margins become equal.
-    fn centre<'p, S: Copy, E>(
+    fn center<'p, S: Copy, E>(
         &mut self,
         shots: &[(View, S)],
         points: impl Fn(View, S) -> Result<Cow<'p, [Vec3]>, E>,

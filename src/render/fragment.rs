@@ -22,7 +22,7 @@ const OPAQUE: f32 = 0.004;
 /// Surfaces in a pixel whose normals have at least this cosine are shaded as one.
 const ALIKE: f32 = 0.94;
 /// Neighbours whose normals have at least this cosine share their light.
-const NEIGHBOURS_ALIKE: f32 = 0.88;
+const NEIGHBORS_ALIKE: f32 = 0.88;
 /// The largest number of fragments of a pixel.
 const MAX_FRAGMENTS: usize = 12;
 /// The distance from a surface at which secondary rays start, so that they do not hit it.
@@ -44,7 +44,7 @@ pub(super) struct Fragment {
     /// Share of the pixel; those of a pixel add up to at most 1.
     pub(super) weight: f32,
     /// Base colour, linear; multiplied by `weight` while rays are accumulated.
-    pub(super) colour: Vec3,
+    pub(super) color: Vec3,
     /// The shading normal, towards the camera.
     pub(super) normal: Vec3,
     /// A point on the surface where secondary rays may start.
@@ -81,9 +81,10 @@ impl PixelSampler<'_> {
         let first = out.len();
         let corner = Vec2::new(x as f32, y as f32);
         let covered = self.coverage.contains(x, y);
-        let few = match covered {
-            true => MIN_RAYS,
-            false => self.sampling.empty,
+        let few = if covered {
+            MIN_RAYS
+        } else {
+            self.sampling.empty
         };
         let mut rays = 0;
         for index in 0..self.sampling.edge {
@@ -123,14 +124,14 @@ impl PixelSampler<'_> {
     pub(super) fn is_enough<'f>(
         &self,
         seen: &[Fragment],
-        mut neighbours: impl Iterator<Item = &'f [Fragment]>,
+        mut neighbors: impl Iterator<Item = &'f [Fragment]>,
     ) -> bool {
         let is_bare = |fragments: &[Fragment]| {
             let mut kinds = fragments.iter().map(|fragment| fragment.kind);
             kinds.all(|kind| kind == FragmentKind::Ground)
         };
         self.is_uniform(seen, 1)
-            && neighbours.all(|other| match (seen, other) {
+            && neighbors.all(|other| match (seen, other) {
                 // The ground has no edges.
                 _ if is_bare(seen) => is_bare(other),
                 ([one], [other]) => one.kind == other.kind && same_surface(one, other),
@@ -222,7 +223,7 @@ impl PixelSampler<'_> {
         origin: Vec3,
         direction: Vec3,
         width: f32,
-        colour: Vec3,
+        color: Vec3,
     ) -> Fragment {
         let tracer = self.tracer;
         let facet = tracer.facet(hit.triangle);
@@ -244,7 +245,7 @@ impl PixelSampler<'_> {
         Fragment {
             kind: FragmentKind::Model(tracer.material(hit.triangle)),
             weight: 0.0,
-            colour,
+            color,
             normal: smooth.unwrap_or(facet) * side,
             place: place + facet * side * LIFT,
             towards: -direction,
@@ -267,7 +268,7 @@ impl PixelSampler<'_> {
         (shadow || lines()).then(|| Fragment {
             kind: FragmentKind::Ground,
             weight: 0.0,
-            colour: Vec3::ZERO,
+            color: Vec3::ZERO,
             normal: Vec3::Y,
             place,
             towards: -direction,
@@ -280,7 +281,7 @@ impl PixelSampler<'_> {
 /// Turns the sums of so many rays into means.
 fn average(fragments: &mut [Fragment], rays: usize) {
     for fragment in fragments {
-        fragment.colour /= fragment.weight;
+        fragment.color /= fragment.weight;
         fragment.weight /= rays as f32;
         fragment.normal = fragment.normal.normalize_or(fragment.towards);
     }
@@ -291,7 +292,7 @@ fn average(fragments: &mut [Fragment], rays: usize) {
 pub(super) fn same_surface(one: &Fragment, other: &Fragment) -> bool {
     let apart = other.place - one.place;
     (one.kind == FragmentKind::Ground) == (other.kind == FragmentKind::Ground)
-        && one.normal.dot(other.normal) > NEIGHBOURS_ALIKE
+        && one.normal.dot(other.normal) > NEIGHBORS_ALIKE
         && apart.dot(one.normal).abs() < one.width * 2.5
         && apart.length_squared() < (one.width * 12.0).powi(2)
 }
@@ -308,12 +309,12 @@ fn merge(piece: Fragment, weight: f32, first: usize, out: &mut Vec<Fragment>) {
     match out[first..].iter_mut().find(alike) {
         Some(other) => {
             other.weight += weight;
-            other.colour += piece.colour * weight;
+            other.color += piece.color * weight;
             other.normal += piece.normal * weight;
         }
         None => out.push(Fragment {
             weight,
-            colour: piece.colour * weight,
+            color: piece.color * weight,
             normal: piece.normal * weight,
             ..piece
         }),

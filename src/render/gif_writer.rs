@@ -14,7 +14,7 @@ const BACKGROUND: u8 = 254;
 /// The index of transparent pixels.
 const CLEAR: u8 = 255;
 /// The number of other colours.
-const CHOSEN_COLOURS: usize = BACKGROUND as usize;
+const CHOSEN_COLORS: usize = BACKGROUND as usize;
 /// How many pixels the palette is computed from, at most.
 const MAX_PALETTE_SAMPLES: usize = 60_000;
 /// Thresholds for ordered dithering of alpha (Bayer matrix).
@@ -61,9 +61,9 @@ impl Palette {
             .flat_map(|[r, g, b, _]| [r, g, b, 255])
             .collect();
         // Black for shadows, which also keeps the list from being empty.
-        pixels.extend([0, 0, 0, 255].repeat(1 + pixels.len() / 4 / CHOSEN_COLOURS));
+        pixels.extend([0, 0, 0, 255].repeat(1 + pixels.len() / 4 / CHOSEN_COLORS));
         Self {
-            chosen: NeuQuant::new(1, CHOSEN_COLOURS, &pixels),
+            chosen: NeuQuant::new(1, CHOSEN_COLORS, &pixels),
             background,
         }
     }
@@ -71,19 +71,19 @@ impl Palette {
     /// Red, green and blue of each colour, in the order of their indices.
     fn table(&self) -> Vec<u8> {
         let mut table = self.chosen.color_map_rgb();
-        table.resize(3 * CHOSEN_COLOURS, 0);
+        table.resize(3 * CHOSEN_COLORS, 0);
         table.extend(self.background.unwrap_or_default());
         table.extend([0, 0, 0]);
         table
     }
 
     /// The index of the nearest colour.
-    fn nearest(&self, colour: [u8; 3]) -> u8 {
-        let [r, g, b] = colour;
+    fn nearest(&self, color: [u8; 3]) -> u8 {
+        let [r, g, b] = color;
         let chosen = self.chosen.index_of(&[r, g, b, 255]);
         let of_chosen = self.chosen.lookup(chosen).unwrap_or_default();
         let distance = |other: [u8; 3]| -> u32 {
-            let apart = (0..3).map(|channel| u32::from(colour[channel].abs_diff(other[channel])));
+            let apart = (0..3).map(|channel| u32::from(color[channel].abs_diff(other[channel])));
             apart.map(|apart| apart * apart).sum()
         };
         match self.background {
@@ -152,16 +152,15 @@ impl<W: Write> GifWriter<W> {
         let pixels = image.enumerate_pixels().map(|(x, y, pixel)| {
             let [r, g, b, alpha] = pixel.0;
             let threshold = BAYER_8X8[(y % 8) as usize][(x % 8) as usize];
-            match alpha > threshold * 4 + 1 {
-                true => {
-                    let colour = u32::from_le_bytes([r, g, b, 0]);
-                    if colour != before.0 {
-                        let nearest = || palette.nearest([r, g, b]);
-                        before = (colour, *known.entry(colour).or_insert_with(nearest));
-                    }
-                    before.1
+            if alpha > threshold * 4 + 1 {
+                let color = u32::from_le_bytes([r, g, b, 0]);
+                if color != before.0 {
+                    let nearest = || palette.nearest([r, g, b]);
+                    before = (color, *known.entry(color).or_insert_with(nearest));
                 }
-                false => CLEAR,
+                before.1
+            } else {
+                CLEAR
             }
         });
         pixels.collect()
@@ -184,9 +183,12 @@ impl<W: Write> GifWriter<W> {
             (low, high) = ([0, 0], [0, 0]);
         }
         let part = (low[1]..=high[1]).flat_map(|y| (low[0]..=high[0]).map(move |x| y * width + x));
-        let pixels = part.map(|index| match is_changed(index) {
-            true => indices[index],
-            false => CLEAR,
+        let pixels = part.map(|index| {
+            if is_changed(index) {
+                indices[index]
+            } else {
+                CLEAR
+            }
         });
         let side = |axis: usize| (high[axis] - low[axis] + 1) as u16;
         let corner = low.map(|place| place as u16);
@@ -223,8 +225,8 @@ mod tests {
             let cover = (12.5 - distance).clamp(0.0, 1.0);
             let shadow = ((20.0 - distance) / 20.0).clamp(0.0, 1.0) * 0.5;
             let alpha = cover + shadow * (1.0 - cover);
-            let over = |colour: f32, behind: u8| {
-                (colour * cover + f32::from(behind) * (1.0 - alpha)).round() as u8
+            let over = |color: f32, behind: u8| {
+                (color * cover + f32::from(behind) * (1.0 - alpha)).round() as u8
             };
             match background {
                 Some([r, g, b]) => {

@@ -16,7 +16,7 @@ const LINE_WIDTH: f32 = 0.04;
 /// The opacity of the lines.
 const LINE_OPACITY: f32 = 0.45;
 /// The colour of the lines, linear: a grey that is visible on black and on white.
-const LINE_COLOUR: f32 = 0.2;
+const LINE_COLOR: f32 = 0.2;
 /// How many lines there are in the length of the figure, roughly.
 const LINES: f64 = 4.0;
 /// Where the lines begin to fade, and where they end, relative to the length of the figure.
@@ -83,10 +83,7 @@ impl GroundLight {
                     }
                 }
             }
-            match weights > 0.0 {
-                true => sum / weights,
-                false => 1.0,
-            }
+            if weights > 0.0 { sum / weights } else { 1.0 }
         };
         Self {
             spacing,
@@ -187,6 +184,6 @@ fn lines_within(place: f32, width: f32) -> f32 {
 
 /// Premultiplied colour and alpha of a shadow on lines, each of some opacity.
 pub(super) fn shadow_on_lines(shadow: f32, lines: f32) -> Vec4 {
-    let colour = LINE_COLOUR * lines * (1.0 - shadow);
-    Vec3::splat(colour).extend(shadow + lines * (1.0 - shadow))
+    let color = LINE_COLOR * lines * (1.0 - shadow);
+    Vec3::splat(color).extend(shadow + lines * (1.0 - shadow))
 }

@@ -87,19 +87,16 @@ impl Hierarchy {
             hierarchy.nodes[index].count = boxes.len() as u32;
             for (lane, one) in boxes.into_iter().enumerate() {
                 hierarchy.nodes[index].set_box(lane, one.aabb());
-                hierarchy.nodes[index].children[lane] = match one.is_leaf() {
-                    true => {
-                        let of = &tree.primitive_indices[one.first_index as usize..];
-                        hierarchy.add_packs(surface, &of[..one.prim_count as usize])
-                    }
-                    false => {
-                        let first = hierarchy.nodes.len();
-                        hierarchy.nodes.push(Node::EMPTY);
-                        missing.push((first, opened(&tree.nodes, one)));
-                        Child {
-                            first: first as u32,
-                            packs: 0,
-                        }
+                hierarchy.nodes[index].children[lane] = if one.is_leaf() {
+                    let of = &tree.primitive_indices[one.first_index as usize..];
+                    hierarchy.add_packs(surface, &of[..one.prim_count as usize])
+                } else {
+                    let first = hierarchy.nodes.len();
+                    hierarchy.nodes.push(Node::EMPTY);
+                    missing.push((first, opened(&tree.nodes, one)));
+                    Child {
+                        first: first as u32,
+                        packs: 0,
                     }
                 };
             }

@@ -34,8 +34,8 @@ pub(super) fn draw_tile(
             .map(|(x, y)| {
                 fragments.clear();
                 sampler.sample(x, y, TRACED, &mut fragments);
-                let colour = base_colour(&fragments, lines(sampler, x, y));
-                pixel(colour, &SRGB, background)
+                let color = base_color(&fragments, lines(sampler, x, y));
+                pixel(color, &SRGB, background)
             })
             .collect();
     }
@@ -43,29 +43,29 @@ pub(super) fn draw_tile(
     pixels
         .map(|(x, y)| {
             if let Some(ground) = ground.filter(|_| !sampler.coverage.contains(x, y)) {
-                let colour = bare_ground(sampler, ground, x, y);
-                return pixel(colour, &LINEAR, background);
+                let color = bare_ground(sampler, ground, x, y);
+                return pixel(color, &LINEAR, background);
             }
-            let mut colour = Vec4::ZERO;
+            let mut color = Vec4::ZERO;
             for fragment in tile.at(x, y) {
                 let light = match (fragment.kind, ground) {
                     (FragmentKind::Ground, Some(ground)) => {
                         let fade = shadow_fade(fragment.place, &sampler.tracer.surface);
-                        ground_colour(sampler, x, y, shadow(ground.at(x, y)) * fade)
+                        ground_color(sampler, x, y, shadow(ground.at(x, y)) * fade)
                     }
                     (FragmentKind::Ground, None) => {
                         let incident = tile.gathered(x, y, fragment);
                         let shadow = shade(fragment, &incident, sampler.tracer, lights).w;
-                        ground_colour(sampler, x, y, shadow)
+                        ground_color(sampler, x, y, shadow)
                     }
                     (FragmentKind::Model(_), _) => {
                         let incident = tile.gathered(x, y, fragment);
                         shade(fragment, &incident, sampler.tracer, lights)
                     }
                 };
-                colour += light * fragment.weight;
+                color += light * fragment.weight;
             }
-            pixel(colour, &LINEAR, background)
+            pixel(color, &LINEAR, background)
         })
         .collect()
 }
@@ -80,13 +80,13 @@ fn bare_ground(sampler: &PixelSampler<'_>, ground: &GroundLight, x: u32, y: u32)
     };
     match (shadow(ground.at(x, y)), sampler.floor) {
         (0.0, None) => Vec4::ZERO,
-        (0.0, Some(_)) => ground_colour(sampler, x, y, 0.0),
-        (shadow, _) => ground_colour(sampler, x, y, faded(shadow)),
+        (0.0, Some(_)) => ground_color(sampler, x, y, 0.0),
+        (shadow, _) => ground_color(sampler, x, y, faded(shadow)),
     }
 }
 
 /// Premultiplied colour and alpha of the ground in a pixel, with a shadow of some opacity.
-fn ground_colour(sampler: &PixelSampler<'_>, x: u32, y: u32, shadow: f32) -> Vec4 {
+fn ground_color(sampler: &PixelSampler<'_>, x: u32, y: u32, shadow: f32) -> Vec4 {
     let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
     let shadow = shadow * sampler.camera.border(middle);
     match sampler.floor {
@@ -122,18 +122,18 @@ const SRGB: Encoding = Encoding {
 };
 
 /// A pixel of a colour that is multiplied by its alpha, both in an encoding, over a background or without one.
-fn pixel(colour: Vec4, encoding: &Encoding, background: Option<[u8; 3]>) -> [u8; 4] {
-    let alpha = colour.w.clamp(0.0, 1.0);
-    if let Some([r, g, b]) = background.filter(|_| colour == Vec4::ZERO) {
+fn pixel(color: Vec4, encoding: &Encoding, background: Option<[u8; 3]>) -> [u8; 4] {
+    let alpha = color.w.clamp(0.0, 1.0);
+    if let Some([r, g, b]) = background.filter(|_| color == Vec4::ZERO) {
         return [r, g, b, 255];
     }
     let (seen, alpha) = match background {
         Some(background) => {
             let behind = Vec3::from(background.map(encoding.read));
-            (colour.truncate() + behind * (1.0 - alpha), 255)
+            (color.truncate() + behind * (1.0 - alpha), 255)
         }
         None if byte(alpha) == 0 => return [0; 4],
-        None => (colour.truncate() / colour.w, byte(alpha)),
+        None => (color.truncate() / color.w, byte(alpha)),
     };
     let write = encoding.write;
     [write(seen.x), write(seen.y), write(seen.z), alpha]
@@ -145,17 +145,17 @@ fn byte(value: f32) -> u8 {
 }
 
 /// The base colours of a pixel's fragments as sRGB values, multiplied by alpha, and alpha. The ground shows lines only.
-fn base_colour(fragments: &[Fragment], lines: f32) -> Vec4 {
+fn base_color(fragments: &[Fragment], lines: f32) -> Vec4 {
     let parts = fragments.iter().map(|fragment| {
-        let colour = match fragment.kind {
-            FragmentKind::Model(_) => srgb_values(fragment.colour).extend(1.0),
+        let color = match fragment.kind {
+            FragmentKind::Model(_) => srgb_values(fragment.color).extend(1.0),
             FragmentKind::Ground => {
                 let lines = shadow_on_lines(0.0, lines);
                 let alpha = lines.w.max(f32::MIN_POSITIVE);
                 (srgb_values(lines.truncate() / alpha) * lines.w).extend(lines.w)
             }
         };
-        colour * fragment.weight
+        color * fragment.weight
     });
     parts.sum()
 }
@@ -189,7 +189,7 @@ impl Tile {
                     sampler.sample(x, y, TRACED, out);
                 }
             }),
-            Refinement::Neighbours => {
+            Refinement::Neighbors => {
                 let area = Area {
                     left: corner[0],
                     top: corner[1],
@@ -204,7 +204,7 @@ impl Tile {
                     }
                 });
                 let is_enough = |x: u32, y: u32| {
-                    is_bare(x, y) || sampler.is_enough(once.at(x, y), once.neighbours(x, y))
+                    is_bare(x, y) || sampler.is_enough(once.at(x, y), once.neighbors(x, y))
                 };
                 let edges: Vec<[u32; 2]> =
                     once.pixels().filter(|[x, y]| !is_enough(*x, *y)).collect();
@@ -278,7 +278,7 @@ impl Tile {
     }
 
     /// The fragments of the pixels beside, above and below a pixel, as far as they are in the tile or its halo.
-    fn neighbours(&self, x: u32, y: u32) -> impl Iterator<Item = &[Fragment]> {
+    fn neighbors(&self, x: u32, y: u32) -> impl Iterator<Item = &[Fragment]> {
         let (x, y) = (i64::from(x), i64::from(y));
         let height = ((self.starts.len() - 1) / self.width) as i64;
         let places = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];

@@ -102,10 +102,10 @@ struct Rays {
 
 impl Rays {
     /// Directions for a number of neighbours.
-    fn new(directions: [Vec3; LAMPS], count: LightRays, neighbours: usize) -> Self {
+    fn new(directions: [Vec3; LAMPS], count: LightRays, neighbors: usize) -> Self {
         let lamps = std::array::from_fn(|index| {
             let turn = Quat::from_rotation_arc(Vec3::Z, directions[index]);
-            spread(count.lamps[index], neighbours, |share| {
+            spread(count.lamps[index], neighbors, |share| {
                 (turn * disk(share, LAMP[index].spread).extend(1.0)).normalize()
             })
         });
@@ -116,7 +116,7 @@ impl Rays {
         Self {
             count,
             lamps,
-            sky: spread(count.sky, neighbours, dome),
+            sky: spread(count.sky, neighbors, dome),
         }
     }
 }
@@ -126,14 +126,14 @@ impl Lights {
     pub(super) fn new(yaw: f64, sampling: &Sampling) -> Self {
         let turn = Quat::from_rotation_y(yaw.to_radians() as f32);
         let directions = LAMP.map(|lamp| turn * lamp.direction.normalize());
-        let (ground, neighbours) = match sampling.ground {
+        let (ground, neighbors) = match sampling.ground {
             GroundSampling::Pixels(rays) => (rays, BLOCK_PIXELS),
             GroundSampling::Lattice { rays, .. } => (rays, CELL_POINTS),
         };
         Self {
             directions,
             model: Rays::new(directions, sampling.model, BLOCK_PIXELS),
-            ground: Rays::new(directions, ground, neighbours),
+            ground: Rays::new(directions, ground, neighbors),
         }
     }
 
@@ -173,15 +173,14 @@ impl Lights {
         for (index, directions) in rays.lamps.iter().enumerate() {
             let count = rays.count.lamps[index];
             // A surface that faces away from the lamp needs no shadow rays.
-            incident.lamps[index] = match count > 0 && self.facing(index, normal) > 0.0 {
-                true => {
-                    let rays = &directions[share * count..][..count];
-                    rays.iter()
-                        .map(|ray| tracer.light_through(place, *ray))
-                        .sum::<f32>()
-                        / count as f32
-                }
-                false => 1.0,
+            incident.lamps[index] = if count > 0 && self.facing(index, normal) > 0.0 {
+                let rays = &directions[share * count..][..count];
+                rays.iter()
+                    .map(|ray| tracer.light_through(place, *ray))
+                    .sum::<f32>()
+                    / count as f32
+            } else {
+                1.0
             };
         }
         let turn = Quat::from_rotation_arc(Vec3::Z, normal);
@@ -233,10 +232,10 @@ pub(super) fn open_sky(normal: Vec3) -> f32 {
 }
 
 /// `count` rays for each of some neighbours, evenly distributed for each of them and for all together.
-fn spread(count: usize, neighbours: usize, ray: impl Fn(Vec2) -> Vec3) -> Vec<Vec3> {
-    let mut rays = Vec::with_capacity(neighbours * count);
-    for share in 0..neighbours {
-        rays.extend((0..count).map(|index| ray(even(index * neighbours + share))));
+fn spread(count: usize, neighbors: usize, ray: impl Fn(Vec2) -> Vec3) -> Vec<Vec3> {
+    let mut rays = Vec::with_capacity(neighbors * count);
+    for share in 0..neighbors {
+        rays.extend((0..count).map(|index| ray(even(index * neighbors + share))));
     }
     rays
 }

@@ -76,12 +76,13 @@ pub(super) fn textures(
     document
         .images()
         .zip(used)
-        .map(|(image, used)| match used {
-            true => {
+        .map(|(image, used)| {
+            if used {
                 let bytes = buffers.image(document, &image, resolver)?;
                 Ok(Some(Texture::new(decode(&bytes)?)))
+            } else {
+                Ok(None)
             }
-            false => Ok(None),
         })
         .collect()
 }

@@ -195,9 +195,10 @@ impl<'a> PosedModel<'a> {
 /// Checks the width and height of a picture.
 pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
     let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
-    match fits(width) && fits(height) {
-        true => Ok(()),
-        false => Err(RenderError::Size(width, height)),
+    if fits(width) && fits(height) {
+        Ok(())
+    } else {
+        Err(RenderError::Size(width, height))
     }
 }
 
@@ -236,7 +237,7 @@ pub(super) fn draw(
     let lights = Lights::new(camera.yaw, sampling);
     let places = places(&tracer.surface, camera);
     let raster = match sampling.refinement {
-        Refinement::Neighbours if options.shading != Shading::Unlit => Raster::new(
+        Refinement::Neighbors if options.shading != Shading::Unlit => Raster::new(
             tracer,
             camera,
             &places,

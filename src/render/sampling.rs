@@ -23,7 +23,7 @@ pub(super) enum Refinement {
     /// Those whose first few rays meet different surfaces.
     Pixel,
     /// Those whose one ray meets another surface than those of its neighbours.
-    Neighbours,
+    Neighbors,
 }
 
 /// Rays from one point to the lights.
@@ -66,7 +66,7 @@ pub(super) static STILL: Sampling = Sampling {
 /// A picture of a film, which is seen for a moment. The rays are the same in all pictures, so that nothing flickers.
 pub(super) static FILM: Sampling = Sampling {
     edge: 8,
-    refinement: Refinement::Neighbours,
+    refinement: Refinement::Neighbors,
     empty: 1,
     model: LightRays {
         lamps: [1, 1, 1],

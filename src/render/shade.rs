@@ -29,9 +29,10 @@ pub(super) fn shade(
         }
         FragmentKind::Model(material) => {
             let material = &tracer.materials[material];
-            let light = match material.unlit {
-                true => fragment.colour,
-                false => tone_mapped(lit(fragment, material, incident, lights)),
+            let light = if material.unlit {
+                fragment.color
+            } else {
+                tone_mapped(lit(fragment, material, incident, lights))
             };
             light.extend(1.0)
         }
@@ -62,8 +63,8 @@ fn lit(
     let towards = fragment.towards;
     let metal = material.metallic.clamp(0.0, 1.0);
     let roughness = material.roughness.clamp(0.05, 1.0);
-    let dull = fragment.colour * (1.0 - metal);
-    let reflectance = Vec3::splat(DIELECTRIC_REFLECTANCE).lerp(fragment.colour, metal);
+    let dull = fragment.color * (1.0 - metal);
+    let reflectance = Vec3::splat(DIELECTRIC_REFLECTANCE).lerp(fragment.color, metal);
     let facing = normal.dot(towards).clamp(0.001, 1.0);
 
     let open = (incident.sky / open_sky(normal)).clamp(0.0, 1.0);
@@ -89,11 +90,11 @@ fn lit(
 }
 
 /// Ambient occlusion with light that bounces between surfaces of the same colour (Jimenez and others 2016).
-fn multi_bounce_occlusion(open: f32, colour: Vec3) -> Vec3 {
-    let colour = colour.clamp(Vec3::ZERO, Vec3::ONE);
-    let a = 2.0404 * colour - 0.3324;
-    let b = -4.7951 * colour + 0.6417;
-    let c = 2.7552 * colour + 0.6903;
+fn multi_bounce_occlusion(open: f32, color: Vec3) -> Vec3 {
+    let color = color.clamp(Vec3::ZERO, Vec3::ONE);
+    let a = 2.0404 * color - 0.3324;
+    let b = -4.7951 * color + 0.6417;
+    let c = 2.7552 * color + 0.6903;
     (((a * open + b) * open + c) * open).max(Vec3::splat(open))
 }
 

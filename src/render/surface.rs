@@ -53,7 +53,7 @@ pub(super) struct Surface {
     pub(super) normals: Vec<Vec3>,
     pub(super) uvs: Vec<Vec2>,
     /// One per corner, or empty.
-    pub(super) colours: Vec<Vec4>,
+    pub(super) colors: Vec<Vec4>,
     pub(super) triangles: Vec<[u32; 3]>,
     /// The material of each triangle.
     pub(super) materials: Vec<u32>,
@@ -73,7 +73,7 @@ impl Surface {
         let mut surface = Self {
             normals: soup.normals,
             uvs: soup.uvs,
-            colours: soup.colours,
+            colors: soup.colors,
             triangles: soup.triangles,
             materials: soup
                 .materials

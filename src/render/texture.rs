@@ -8,9 +8,10 @@ use std::sync::LazyLock;
 static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|byte| {
         let value = byte as f64 / 255.0;
-        let linear = match value <= 0.04045 {
-            true => value / 12.92,
-            false => ((value + 0.055) / 1.055).powf(2.4),
+        let linear = if value <= 0.04045 {
+            value / 12.92
+        } else {
+            ((value + 0.055) / 1.055).powf(2.4)
         };
         linear as f32
     })
@@ -29,15 +30,16 @@ pub(super) fn linear_to_srgb(light: f32) -> u8 {
 
 /// The sRGB value of linear light, both from 0 to 1.
 fn srgb_value(light: f32) -> f32 {
-    match light <= 0.003_130_8 {
-        true => 12.92 * light,
-        false => 1.055 * light.powf(1.0 / 2.4) - 0.055,
+    if light <= 0.003_130_8 {
+        12.92 * light
+    } else {
+        1.055 * light.powf(1.0 / 2.4) - 0.055
     }
 }
 
 /// The sRGB values of a linear colour, each cut to the range from 0 to 1.
-pub(super) fn srgb_values(colour: Vec3) -> Vec3 {
-    colour.map(|light| srgb_value(light.clamp(0.0, 1.0)))
+pub(super) fn srgb_values(color: Vec3) -> Vec3 {
+    color.map(|light| srgb_value(light.clamp(0.0, 1.0)))
 }
 
 /// How texture coordinates outside an image are mapped into it.
@@ -150,16 +152,16 @@ fn half(image: &RgbaImage) -> Option<RgbaImage> {
         width.div_ceil(2),
         height.div_ceil(2),
         |x, y| {
-            let mut colour = Vec4::ZERO;
+            let mut color = Vec4::ZERO;
             for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
                 let (x, y) = ((2 * x + dx).min(width - 1), (2 * y + dy).min(height - 1));
                 let texel = texel(image, i64::from(x), i64::from(y), [Wrap::Clamp; 2]);
                 // Weighted by alpha, so that transparent texels do not bleed.
-                colour += (texel.truncate() * texel.w).extend(texel.w);
+                color += (texel.truncate() * texel.w).extend(texel.w);
             }
-            let alpha = colour.w / 4.0;
-            let colour = colour.truncate() / colour.w.max(1e-6);
-            let [r, g, b] = colour.to_array().map(linear_to_srgb);
+            let alpha = color.w / 4.0;
+            let color = color.truncate() / color.w.max(1e-6);
+            let [r, g, b] = color.to_array().map(linear_to_srgb);
             image::Rgba([r, g, b, (alpha * 255.0 + 0.5) as u8])
         },
     ))

@@ -94,9 +94,9 @@ impl<'a> Tracer<'a> {
         let material = &self.materials[self.material(hit.triangle)];
         let corners = self.surface.triangles[hit.triangle];
         let mut base = material.base;
-        let colours = &self.surface.colours;
-        if !colours.is_empty() {
-            base *= blend(corners, hit.shares, |corner| colours[corner]);
+        let colors = &self.surface.colors;
+        if !colors.is_empty() {
+            base *= blend(corners, hit.shares, |corner| colors[corner]);
         }
         let Some(sampler) = &material.sampler else {
             return base;

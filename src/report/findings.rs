@@ -158,12 +158,12 @@ fn place(span: Span, places: &LineIndex<&str>) -> Place {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{DRAWING, at, misspelt};
+    use super::super::samples::{DRAWING, at, misspelled};
     use super::*;
 
     #[test]
     fn the_schema_is_what_it_was() {
-        let finding = misspelt(DRAWING).related(at(DRAWING, "頭"), "the parent");
+        let finding = misspelled(DRAWING).related(at(DRAWING, "頭"), "the parent");
         let one = Findings {
             path: "a.svg",
             text: DRAWING,

@@ -34,9 +34,10 @@ pub fn drivers(compiled: &Compiled) -> Vec<Option<Driver<'_>>> {
 
 /// What happens to a part that no joint of a clip drives, and why.
 pub fn undriven(clip: &FigureClip, drive: &PartDrive) -> String {
-    match drive.part == clip.root {
-        true => format!("no joint drives it: {}", drive.why),
-        false => format!("follows its parent: {}", drive.why),
+    if drive.part == clip.root {
+        format!("no joint drives it: {}", drive.why)
+    } else {
+        format!("follows its parent: {}", drive.why)
     }
 }
 

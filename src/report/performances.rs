@@ -113,8 +113,8 @@ pub fn performed_mark<'a>(
     let plan = &performed.plan;
     let parts = &performed.channels[channel];
     let track = &performed.tracks.marks[parts.mark];
-    let [red, green, blue] = track.colour;
-    let emphasized = plan.emphasised == Some(channel);
+    let [red, green, blue] = track.color;
+    let emphasized = plan.emphasized == Some(channel);
     let ratio = plan.ratio(channel);
     let name = |part: &usize| own_name(compiled, &compiled.bindings.parts[*part]);
     PerformedMark {

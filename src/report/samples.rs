@@ -20,7 +20,7 @@ pub(crate) fn at(text: &str, word: &str) -> Span {
 }
 
 /// A finding with everything except related spans.
-pub(crate) fn misspelt(text: &str) -> Diagnostic {
+pub(crate) fn misspelled(text: &str) -> Diagnostic {
     let span = at(text, "Shap");
     Diagnostic::new(Code::UnknownKeyword, span, "unknown keyword `Shap`")
         .label("not a keyword")

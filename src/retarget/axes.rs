@@ -112,8 +112,5 @@ impl Axes {
 
 /// A left for bodies without sides: x, or z if x is up.
 fn any_left(up: DVec3) -> DVec3 {
-    match up.x == 0.0 {
-        true => DVec3::X,
-        false => DVec3::Z,
-    }
+    if up.x == 0.0 { DVec3::X } else { DVec3::Z }
 }

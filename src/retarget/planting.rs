@@ -81,13 +81,15 @@ impl Planting {
     /// The planting of feet, each of which touches the ground at points with these paths, frame by frame. `leg` is the length of a leg.
     pub(super) fn of(feet: &[Vec<Vec<DVec3>>], frame_time: f64, leg: f64) -> Self {
         let is_timed = frame_time > 0.0 && frame_time.is_finite();
-        let rate = match is_timed {
-            true => (frame_time * SAMPLES).ceil().clamp(1.0, MAX_SAMPLES) as usize,
-            false => 1,
+        let rate = if is_timed {
+            (frame_time * SAMPLES).ceil().clamp(1.0, MAX_SAMPLES) as usize
+        } else {
+            1
         };
-        let time = match is_timed {
-            true => frame_time / rate as f64,
-            false => 1.0 / SAMPLES,
+        let time = if is_timed {
+            frame_time / rate as f64
+        } else {
+            1.0 / SAMPLES
         };
         let mut lowest_heights = Vec::with_capacity(feet.len());
         let mut contacts = Vec::with_capacity(feet.len());
@@ -105,9 +107,10 @@ impl Planting {
         }
         Self {
             rate,
-            shares: match is_timed && leg > 0.0 {
-                true => shares(&contacts),
-                false => vec![Vec::new(); feet.len()],
+            shares: if is_timed && leg > 0.0 {
+                shares(&contacts)
+            } else {
+                vec![Vec::new(); feet.len()]
             },
             lowest: lowest_heights,
         }

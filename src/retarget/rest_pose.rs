@@ -104,9 +104,10 @@ fn nearest(
             let Some(tip) = drive.tip else { continue };
             let bone = tip.place(&clip.skeleton, pose) - pose[drive.joint].position;
             let drawn = part.tip - part.joint;
-            let angle = match bone.length_squared() > 0.0 && drawn.length_squared() > 0.0 {
-                true => (to_drawing * bone).angle_between(drawn),
-                false => 0.0,
+            let angle = if bone.length_squared() > 0.0 && drawn.length_squared() > 0.0 {
+                (to_drawing * bone).angle_between(drawn)
+            } else {
+                0.0
             };
             sum += angle * angle;
         }

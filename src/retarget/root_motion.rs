@@ -41,9 +41,10 @@ pub(super) fn root_motion(
     let Some(&main) = order.first() else {
         return motion;
     };
-    let scale = match legs[0] > 0.0 {
-        true => legs[1] / legs[0],
-        false => 0.0,
+    let scale = if legs[0] > 0.0 {
+        legs[1] / legs[0]
+    } else {
+        0.0
     };
     let start = rig.parts[main].node.position;
     let standing = walk.feet.iter().flat_map(|foot| &foot.parts);
@@ -144,16 +145,18 @@ fn rolled(before: &[Vec<DVec3>], now: &[Vec<DVec3>], height: f64) -> DVec3 {
     let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
     for (before, now) in before.iter().zip(now) {
         let at = height_of((before, now));
-        let weight = match at > lowest {
-            true => (-(at - lowest) / height).exp(),
-            false => 1.0,
+        let weight = if at > lowest {
+            (-(at - lowest) / height).exp()
+        } else {
+            1.0
         };
         sum += (*now - *before) * weight;
         weights += weight;
     }
-    match weights > 0.0 {
-        true => sum / weights,
-        false => DVec3::ZERO,
+    if weights > 0.0 {
+        sum / weights
+    } else {
+        DVec3::ZERO
     }
 }
 

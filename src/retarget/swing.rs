@@ -40,9 +40,9 @@ pub(super) fn swing(
     frame_time: f64,
     rotations: &mut Rotations,
 ) {
-    let metre = metre(rig);
+    let meter = meter(rig);
     let is_timed = frame_time > 0.0 && frame_time.is_finite();
-    if !(metre > 0.0 && metre.is_finite() && is_timed && path.len() > 1) {
+    if !(meter > 0.0 && meter.is_finite() && is_timed && path.len() > 1) {
         return;
     }
     let deviation = SMOOTHING / frame_time;
@@ -63,7 +63,7 @@ pub(super) fn swing(
             length,
             frame_time,
             stiffness: stiffness.min(MAX_STIFFNESS) * (std::f64::consts::TAU * FREQUENCY).powi(2),
-            gravity: GRAVITY * metre,
+            gravity: GRAVITY * meter,
             obstacle,
         };
         let directions = pendulum.swing(&carried, warm_up);
@@ -78,7 +78,7 @@ pub(super) fn swing(
 }
 
 /// Drawing units per metre.
-fn metre(rig: &Rig) -> f64 {
+fn meter(rig: &Rig) -> f64 {
     let ends = rig.parts.iter().flat_map(|part| [part.joint, part.tip]);
     height(ends) / HEIGHT
 }
@@ -125,9 +125,10 @@ impl Obstacle {
     fn outside(&self, node: &Transform, point: DVec3) -> DVec3 {
         let local = node.to_local(point);
         let level = self.level_at(local);
-        match level > 0.0 && level < self.level {
-            true => node.apply(self.center + (local - self.center) * (self.level / level)),
-            false => point,
+        if level > 0.0 && level < self.level {
+            node.apply(self.center + (local - self.center) * (self.level / level))
+        } else {
+            point
         }
     }
 }

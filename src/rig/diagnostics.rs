@@ -155,14 +155,11 @@ pub(super) fn mark_problem(
         MarkProblem::Untracked { mark, names } => (
             mark.span,
             format!("the track `{file}` has no mark like `{}`", mark.word),
-            match names.is_empty() {
-                true => format!("track it: `okoshi track CLIP -o {file} --mark {}`", mark.word),
-                false => format!(
+            if names.is_empty() { format!("track it: `okoshi track CLIP -o {file} --mark {}`", mark.word) } else { format!(
                     "its marks are {}: write one of them, or track the clip again with `--mark {}`",
                     listed(names),
                     mark.word
-                ),
-            },
+                ) },
         ),
         MarkProblem::UnknownFollower { follower, .. } => (
             follower.span,
@@ -217,16 +214,16 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
-/// What a performance has besides what one expects. `emphasised` are the emphasised part and its mark, `other` the part that moves most
+/// What a performance has besides what one expects. `emphasized` are the emphasised part and its mark, `other` the part that moves most
 /// in the motion.
 pub(super) fn odd_performance(
     finding: Finding,
-    emphasised: Option<(String, String)>,
+    emphasized: Option<(String, String)>,
     other: Option<String>,
     request: &PerformanceRequest<'_>,
 ) -> Diagnostic {
     let file = request.file;
-    let (part, mark) = emphasised.unwrap_or_default();
+    let (part, mark) = emphasized.unwrap_or_default();
     let cut = format!(
         "cut the clip to one action (`okoshi track CLIP --range 1:48`), or give the key frames of track and motion: `Perform \"{file}\" 31 44`"
     );

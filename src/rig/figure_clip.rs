@@ -227,9 +227,10 @@ pub(super) fn part_drives(
             Follow::Direction => drive.tip,
             Follow::Change | Follow::Trunk { .. } => None,
         }),
-        why: match swings(*part) {
-            true => format!("{}; it swings", matched.why),
-            false => matched.why.clone(),
+        why: if swings(*part) {
+            format!("{}; it swings", matched.why)
+        } else {
+            matched.why.clone()
         },
     });
     let mut drives: Vec<PartDrive> = drives.collect();

@@ -61,7 +61,7 @@ pub(super) struct Channels {
     /// Per channel the parts that are edited along with them.
     followers: Vec<Vec<usize>>,
     /// The channel that the string emphasises.
-    emphasised: Option<usize>,
+    emphasized: Option<usize>,
 }
 
 /// Everything that a plan follows from, as the key of a cached [`Plan`].
@@ -137,7 +137,7 @@ impl Channels {
         if found.marks.is_empty() && !has_mark {
             report(MarkProblem::Unmarked);
         }
-        if let Some(wanted) = request.emphasised {
+        if let Some(wanted) = request.emphasized {
             let names = || {
                 found
                     .marks
@@ -154,8 +154,8 @@ impl Channels {
                     .is_some_and(|name| same_name(name, wanted))
                     || words.any(|mark| same_name(mark.word, wanted))
             };
-            found.emphasised = (0..found.marks.len()).find(word);
-            if found.emphasised.is_none() && !found.marks.is_empty() {
+            found.emphasized = (0..found.marks.len()).find(word);
+            if found.emphasized.is_none() && !found.marks.is_empty() {
                 let names: Vec<&str> = names().collect();
                 report(MarkProblem::UnknownEmphasis { wanted, names });
             }
@@ -191,7 +191,7 @@ impl Channels {
             channels: self.marks.iter().map(channel).collect(),
             request: Request {
                 effects: effects(request),
-                emphasised: self.emphasised,
+                emphasized: self.emphasized,
                 keys: request.keys,
             },
             facing: matched.matching.facing,
@@ -217,7 +217,7 @@ impl Channels {
         matched: &MatchedFigure,
         rig: &Rig,
     ) -> Vec<Option<f64>> {
-        let Some(emphasised) = plan.emphasised.filter(|_| plan.is_damping) else {
+        let Some(emphasized) = plan.emphasized.filter(|_| plan.is_damping) else {
             return Vec::new();
         };
         let parents: Vec<Option<usize>> = rig.parts.iter().map(|part| part.parent).collect();
@@ -233,12 +233,12 @@ impl Channels {
             .map(|(_, places)| places.clone())
             .collect();
         let largest = plan.largest_inputs();
-        ratios(&limbs, &channels, &self.followers, &largest, emphasised)
+        ratios(&limbs, &channels, &self.followers, &largest, emphasized)
     }
 
     /// The part that the camera shows, in places of the group.
     pub(super) fn filmed(&self, plan: &Plan) -> Option<usize> {
-        self.marks[plan.emphasised?].1.first().copied()
+        self.marks[plan.emphasized?].1.first().copied()
     }
 
     /// The channels in parts of the drawing.
@@ -289,11 +289,11 @@ fn drive_steps(clip: &Clip, drives: &[Drive], hips: usize) -> Vec<DVec3> {
 fn mark_of(tracks: &MarkTracks, mark: &PartMark<'_>) -> Option<MarkId> {
     let position = |fits: &dyn Fn(&MarkTrack) -> bool| tracks.marks.position(fits);
     let named = tracks.mark_named(mark.word);
-    let exact = || position(&|track| track.colour == mark.colour);
+    let exact = || position(&|track| track.color == mark.color);
     let near = || {
-        let own = hue(mark.colour)?;
+        let own = hue(mark.color)?;
         let off = |track: &MarkTrack| {
-            let off = hue_difference(hue(track.colour)?, own).abs();
+            let off = hue_difference(hue(track.color)?, own).abs();
             (off <= SAME_HUE).then_some(off)
         };
         let offs = tracks.marks.iter_enumerated();
@@ -305,9 +305,9 @@ fn mark_of(tracks: &MarkTracks, mark: &PartMark<'_>) -> Option<MarkId> {
 }
 
 /// The hue of a colour, degrees; `None` for one that is nearly grey.
-fn hue(colour: [u8; 3]) -> Option<f64> {
-    let colour = Hsv::of(colour);
-    (colour.chroma >= LEAST_CHROMA).then_some(colour.hue)
+fn hue(color: [u8; 3]) -> Option<f64> {
+    let color = Hsv::of(color);
+    (color.chroma >= LEAST_CHROMA).then_some(color.hue)
 }
 
 /// The parts that a name in `Follow` means, in places of the group: the part of that name, else all that a joint of that name drives.
@@ -344,7 +344,7 @@ pub(super) fn report(
             let parts = channels[channel].parts.first();
             parts.map_or_else(String::new, |part| names(*part))
         };
-        let emphasised = plan.emphasised.map(|channel| {
+        let emphasized = plan.emphasized.map(|channel| {
             (
                 of(channel),
                 tracks.marks[channels[channel].mark].name.clone(),
@@ -354,7 +354,7 @@ pub(super) fn report(
             Finding::OtherJoint(channel) | Finding::TowardsViewer(channel) => Some(of(*channel)),
             _ => None,
         };
-        let diagnostic = diagnostics::odd_performance(*finding, emphasised, other, request);
+        let diagnostic = diagnostics::odd_performance(*finding, emphasized, other, request);
         if !diagnostics.contains(&diagnostic) {
             diagnostics.push(diagnostic);
         }
@@ -366,10 +366,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn marks_are_found_by_name_colour_and_hue() {
-        let track = |name: &str, colour| MarkTrack {
+    fn marks_are_found_by_name_color_and_hue() {
+        let track = |name: &str, color| MarkTrack {
             name: name.to_owned(),
-            colour,
+            color,
             ..MarkTrack::default()
         };
         let tracks = MarkTracks {
@@ -382,9 +382,9 @@ mod tests {
             .into(),
             ..MarkTracks::default()
         };
-        let find = |word: &'static str, colour| {
+        let find = |word: &'static str, color| {
             let span = Span::default();
-            mark_of(&tracks, &PartMark { word, colour, span }).map(usize::from)
+            mark_of(&tracks, &PartMark { word, color, span }).map(usize::from)
         };
         assert_eq!(find("red", [255, 0, 0]), Some(1), "names come first");
         assert_eq!(find("green", [0, 128, 0]), Some(0));

@@ -21,9 +21,12 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
     let part = |(place, &index): (usize, &usize)| {
         let part = &bindings.parts[index];
         let [one, other] = part.measure.ends.map(y_up);
-        let nearer = |to: DVec2| match one.distance_squared(to) <= other.distance_squared(to) {
-            true => [one, other],
-            false => [other, one],
+        let nearer = |to: DVec2| {
+            if one.distance_squared(to) <= other.distance_squared(to) {
+                [one, other]
+            } else {
+                [other, one]
+            }
         };
         let parent = group.parents[place];
         let [joint, tip] = match (part.parent, parent) {
@@ -31,10 +34,13 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
             (Some(_), _) => [y_up(part.origin), nearer(y_up(part.origin))[1]],
             (None, Some(parent)) => nearer(middle(group.parts[parent])),
             // A trunk has its joint at its lower end.
-            (None, None) => match one.y <= other.y {
-                true => [one, other],
-                false => [other, one],
-            },
+            (None, None) => {
+                if one.y <= other.y {
+                    [one, other]
+                } else {
+                    [other, one]
+                }
+            }
         };
         let own = context.parts_of_node[index]
             .iter()

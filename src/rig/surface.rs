@@ -37,9 +37,12 @@ pub(super) fn outermost(
         for direction in tilts.into_iter().chain(poles) {
             let reach = |point: &DVec3| point.dot(direction);
             let farthest = supports.iter().map(|support| support.point(direction));
-            let farthest = farthest.reduce(|best, next| match reach(&next) > reach(&best) {
-                true => next,
-                false => best,
+            let farthest = farthest.reduce(|best, next| {
+                if reach(&next) > reach(&best) {
+                    next
+                } else {
+                    best
+                }
             });
             points.extend(farthest.filter(|point| !points.contains(point)));
         }
@@ -63,9 +66,12 @@ impl Support {
         let own = &context.bindings.parts[part];
         let rings = own.outline.polygons.iter().filter_map(|p| p.rings.first());
         let points = rings.flatten().map(|point| y_up(*point));
-        let border = points.reduce(|best, next| match next.dot(around) > best.dot(around) {
-            true => next,
-            false => best,
+        let border = points.reduce(|best, next| {
+            if next.dot(around) > best.dot(around) {
+                next
+            } else {
+                best
+            }
         })?;
         let thickness = context.thicknesses.get(part).copied().flatten();
         Some(Self {

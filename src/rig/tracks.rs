@@ -55,9 +55,10 @@ impl AnimatedNodes {
             // Only children of the model's root change their position, and only they are in the world's axes.
             if let Some(positions) = clip.translations[index].as_ref().filter(|_| rest.is_rooted) {
                 let placed = |position: DVec3| {
-                    self.world.point(match rest.is_mirrored {
-                        true => position * MIRROR,
-                        false => position,
+                    self.world.point(if rest.is_mirrored {
+                        position * MIRROR
+                    } else {
+                        position
                     })
                 };
                 match shifts {
@@ -77,13 +78,15 @@ impl AnimatedNodes {
             }
             if let Some(rotations) = &clip.rotations[index] {
                 let rotations = keys.frames().iter().map(|frame| {
-                    let rotation = match rest.is_mirrored {
-                        true => mirrored(rotations[*frame]),
-                        false => rotations[*frame],
+                    let rotation = if rest.is_mirrored {
+                        mirrored(rotations[*frame])
+                    } else {
+                        rotations[*frame]
                     };
-                    match rest.is_rooted {
-                        true => self.world.rotate(rotation),
-                        false => rotation,
+                    if rest.is_rooted {
+                        self.world.rotate(rotation)
+                    } else {
+                        rotation
                     }
                 });
                 add(

@@ -93,9 +93,10 @@ impl Cells {
         // Most triangles are about as large as a cell: which cells of their box they do not reach is not worth finding out.
         let is_small = top - bottom <= 1 && right - left <= 1;
         (bottom..=top).any(|row| {
-            let [left, right] = match is_small {
-                true => [left, right],
-                false => self.columns_of([[a, b], [b, c], [c, a]], row),
+            let [left, right] = if is_small {
+                [left, right]
+            } else {
+                self.columns_of([[a, b], [b, c], [c, a]], row)
             };
             (left..=right).any(|column| is(row * self.size[0] + column))
         })

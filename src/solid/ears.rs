@@ -236,9 +236,9 @@ impl Clip<'_> {
                 self.corners[next as usize].before = before;
                 left -= 1;
                 reflex.remove(corner, self.at(corner));
-                for neighbour in [before, next] {
-                    if !self.is_reflex(neighbour) {
-                        reflex.remove(neighbour, self.at(neighbour));
+                for neighbor in [before, next] {
+                    if !self.is_reflex(neighbor) {
+                        reflex.remove(neighbor, self.at(neighbor));
                     }
                 }
                 // Skipping one makes fewer slivers than a fan does.

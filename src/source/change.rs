@@ -52,9 +52,10 @@ impl Change {
         let moves = start >= self.old_end;
         Span {
             start: if moves { self.behind(start) } else { start },
-            end: match end >= self.old_end && (moves || end > self.start) {
-                true => self.behind(end),
-                false => end,
+            end: if end >= self.old_end && (moves || end > self.start) {
+                self.behind(end)
+            } else {
+                end
             },
         }
     }
@@ -189,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_of_a_change_stay_or_move() {
+    fn neighbors_of_a_change_stay_or_move() {
         let change = Change {
             start: 10,
             old_end: 10,

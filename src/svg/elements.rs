@@ -119,9 +119,10 @@ fn desc_slot(node: Node<'_, '_>, prepared: &Prepared) -> Option<DescSlot> {
     let last = node.attributes().map(|attribute| attribute.range().end);
     let from = last.max().unwrap_or(start + 1 + name.len());
     let end = end_of_tag(&prepared.text, from)?;
-    let span = match prepared.text[..end].ends_with("/>") {
-        true => prepared.span(end - 2..end),
-        false => prepared.span(end..end),
+    let span = if prepared.text[..end].ends_with("/>") {
+        prepared.span(end - 2..end)
+    } else {
+        prepared.span(end..end)
     };
     let prefix = name.strip_suffix(known_tag(node.tag_name().name()))?;
     Some(DescSlot {
@@ -135,9 +136,10 @@ impl Element {
     pub fn with_description(&self, text: &str) -> Option<Edit> {
         let DescSlot { span, prefix } = self.desc_slot.as_ref()?;
         let desc = format!("<{prefix}desc>{}</{prefix}desc>", escape_xml(text));
-        let text = match span.start == span.end {
-            true => desc,
-            false => format!(">{desc}</{prefix}{}>", self.tag),
+        let text = if span.start == span.end {
+            desc
+        } else {
+            format!(">{desc}</{prefix}{}>", self.tag)
         };
         Some(Edit { span: *span, text })
     }

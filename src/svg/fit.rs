@@ -170,13 +170,15 @@ impl Place {
     /// Whether there is a rectangle for a picture with this ratio of width to height.
     fn fits(&self, ratio: f32) -> bool {
         let (width, height) = (self.rect.width(), self.rect.height());
-        let fills_width = match self.covers {
-            true => height * ratio <= width,
-            false => height * ratio >= width,
+        let fills_width = if self.covers {
+            height * ratio <= width
+        } else {
+            height * ratio >= width
         };
-        let (scaled_width, scaled_height) = match fills_width {
-            true => (width, width / ratio),
-            false => (height * ratio, height),
+        let (scaled_width, scaled_height) = if fills_width {
+            (width, width / ratio)
+        } else {
+            (height * ratio, height)
         };
         [MARGIN.recip(), 1.0, MARGIN].into_iter().all(|margin| {
             let (scaled_width, scaled_height) = (scaled_width * margin, scaled_height * margin);

@@ -55,9 +55,10 @@ pub(super) fn check(
     };
     let Size { elements, .. } = growth.size(document.root_element());
     if let Some(clone) = growth.blamed_clone.and_then(|node| document.get_node(node)) {
-        let message = match growth.has_detailed_clones {
-            true => format!("clones draw more than {MOST_CLONED_CORNERS} points"),
-            false => format!("clones expand to more than {MOST_CLONED} elements"),
+        let message = if growth.has_detailed_clones {
+            format!("clones draw more than {MOST_CLONED_CORNERS} points")
+        } else {
+            format!("clones expand to more than {MOST_CLONED} elements")
         };
         let help = "use fewer clones, or split the drawing into several files";
         return Err(Box::new(
@@ -70,9 +71,10 @@ pub(super) fn check(
     let blamed = growth.blamed.and_then(|node| document.get_node(node));
     let span = start_tag(blamed.unwrap_or(document.root_element()), prepared);
     let what = "nested clones, patterns, clips, masks or markers";
-    let message = match growth.too_deep {
-        true => format!("{what} are more than {} levels deep", nesting_limit()),
-        false => format!("{what} expand to more than {MOST} elements"),
+    let message = if growth.too_deep {
+        format!("{what} are more than {} levels deep", nesting_limit())
+    } else {
+        format!("{what} expand to more than {MOST} elements")
     };
     let help = "remove the nesting: use patterns of plain shapes, and clips of a single path";
     Err(Box::new(

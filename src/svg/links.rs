@@ -102,9 +102,10 @@ pub(super) fn report_links(
 }
 
 fn too_narrow(link: &str, span: Span) -> Diagnostic {
-    let picture = match link.trim_start().starts_with(EMBEDDED) {
-        true => "an embedded picture".to_owned(),
-        false => format!("the picture `{link}`"),
+    let picture = if link.trim_start().starts_with(EMBEDDED) {
+        "an embedded picture".to_owned()
+    } else {
+        format!("the picture `{link}`")
     };
     let message =
         format!("{picture} is too narrow to be shown: its sides are too unequal for its place");

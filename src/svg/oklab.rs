@@ -5,9 +5,10 @@
 pub fn oklab(color: [u8; 3]) -> [f64; 3] {
     let [r, g, b] = color.map(|channel| {
         let channel = f64::from(channel) / 255.0;
-        match channel <= 0.040_45 {
-            true => channel / 12.92,
-            false => ((channel + 0.055) / 1.055).powf(2.4),
+        if channel <= 0.040_45 {
+            channel / 12.92
+        } else {
+            ((channel + 0.055) / 1.055).powf(2.4)
         }
     });
     let l = (0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b).cbrt();

@@ -33,12 +33,13 @@ impl Label {
         let attributes = attributes_without(&self.start_tag[name.len()..], PLACED);
         let content = escape_xml(content);
         let prefix = name.strip_suffix("text")?;
-        let content = match attributes.contains("font-size") {
-            true => content,
-            false => format!(
+        let content = if attributes.contains("font-size") {
+            content
+        } else {
+            format!(
                 "<{prefix}tspan style=\"font-size:{}px\">{content}</{prefix}tspan>",
                 round(size)
-            ),
+            )
         };
         Some(format!(
             "<{name}{attributes} x=\"{x}\" y=\"{y}\">{content}</{name}>"

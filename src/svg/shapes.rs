@@ -33,13 +33,12 @@ pub(super) fn read(
     let unshown = Mutex::new(Vec::new());
     let places = Places::of(document);
     let styles = Styles::read(document);
-    let early_ids = match prepared.draws_again || prepared.has_clones {
-        true => {
-            let ids = Ids::read(document, prepared);
-            growth::check(document, prepared, &styles, &ids)?;
-            Some(ids)
-        }
-        false => None,
+    let early_ids = if prepared.draws_again || prepared.has_clones {
+        let ids = Ids::read(document, prepared);
+        growth::check(document, prepared, &styles, &ids)?;
+        Some(ids)
+    } else {
+        None
     };
     // usvg uses one core; the texts, which it does not read, need only the XML.
     let (tree, (labels, by_id, unseen)) = rayon::join(

@@ -130,17 +130,15 @@ fn in_column(
             continue;
         };
         let is_roof = matches!(segment.kind, GroupKind::Roof(_));
-        let foot = match is_roof {
-            true => None,
-            false => column.foot(index),
-        };
+        let foot = if is_roof { None } else { column.foot(index) };
         let base = foot.map_or(0, |(surface, fronts)| {
             levels.level[surface as usize] + fronts
         });
         let material = grid.cells[number * grid.rows + segment.start as usize];
-        let ([walls, roof], [height, depth]) = match is_roof {
-            true => ([0..0, here.clone()], [0, segment.rows()]),
-            false => ([here.clone(), 0..0], [segment.rows(), 0]),
+        let ([walls, roof], [height, depth]) = if is_roof {
+            ([0..0, here.clone()], [0, segment.rows()])
+        } else {
+            ([here.clone(), 0..0], [segment.rows(), 0])
         };
         let part = House {
             walls,

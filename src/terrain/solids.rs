@@ -190,9 +190,10 @@ impl Solids {
         let (fronts, _, _) = self.column.below(index);
         let [back, front] = [self.backs[index], segment.end + level];
         let bottom = self.bottom(context, index, surface, end);
-        let side = match context.groups.surfaces[surface as usize].water && bottom == level {
-            true => material,
-            false => self.side(context, number, index + 1, material),
+        let side = if context.groups.surfaces[surface as usize].water && bottom == level {
+            material
+        } else {
+            self.side(context, number, index + 1, material)
         };
         self.flush_below(context, number, index, [level, bottom], side);
         if fronts == 0 {

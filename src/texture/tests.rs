@@ -22,7 +22,7 @@ fn linear(spread: Spread) -> PaintServer {
 const BOX: [DVec2; 2] = [DVec2::ZERO, DVec2::splat(100.0)];
 
 #[test]
-fn a_linear_gradient_has_its_end_colours_at_its_ends() {
+fn a_linear_gradient_has_its_end_colors_at_its_ends() {
     let server = linear(Spread::Pad);
     let plan = server.plan(BOX, 1.0).unwrap();
     let baked = plan.bake().unwrap();
@@ -120,7 +120,7 @@ fn antialiased_borders_are_holes_and_half_tones_are_not() {
 }
 
 #[test]
-fn colours_bleed_into_transparent_pixels() {
+fn colors_bleed_into_transparent_pixels() {
     let pixels = image::load_from_memory(&read(&disc(1.0), Holes::Alpha).bytes)
         .unwrap()
         .to_rgba8();

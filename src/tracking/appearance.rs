@@ -1,6 +1,6 @@
 //! What a mark looks like.
 
-use super::colour::{Hsv, hue_difference};
+use super::color::{Hsv, hue_difference};
 
 /// The colours that are a mark's.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,16 +19,16 @@ pub(super) struct Appearance {
 
 impl Appearance {
     /// Whether a colour may be the mark's.
-    pub(super) fn has(&self, colour: Hsv) -> bool {
-        colour.chroma >= self.chroma
-            && colour.saturation >= self.saturation
-            && hue_difference(colour.hue, self.hue).abs() <= self.reach
+    pub(super) fn has(&self, color: Hsv) -> bool {
+        color.chroma >= self.chroma
+            && color.saturation >= self.saturation
+            && hue_difference(color.hue, self.hue).abs() <= self.reach
     }
 
     /// How much a colour that may be the mark's is like it, from just above 0 to 1.
-    pub(super) fn likeness(&self, colour: Hsv) -> f64 {
-        let away = (hue_difference(colour.hue, self.hue) / self.reach).clamp(-1.0, 1.0);
-        (colour.chroma / self.usual).clamp(0.05, 1.0) * (1.0 - 0.7 * away * away)
+    pub(super) fn likeness(&self, color: Hsv) -> f64 {
+        let away = (hue_difference(color.hue, self.hue) / self.reach).clamp(-1.0, 1.0);
+        (color.chroma / self.usual).clamp(0.05, 1.0) * (1.0 - 0.7 * away * away)
     }
 
     /// The colours that could be taken for the mark's in another light, or with noise.

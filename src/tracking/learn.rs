@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::appearance::Appearance;
 use super::clutter::{Clutter, likenesses};
-use super::colour::{HUES, Hsv, hue_difference, hue_name};
+use super::color::{HUES, Hsv, hue_difference, hue_name};
 use super::frame::Frame;
 use super::lookup::Lookup;
 use super::mark::Mark;
@@ -167,12 +167,12 @@ impl Learner {
                 if is_clutter || lookup.marks(*pixel) >> mark & 1 == 0 {
                     continue;
                 }
-                let colour = Hsv::of(*pixel);
-                let away = hue_difference(colour.hue, named.hue) / named.reach.max(1.0);
-                let weight = (colour.chroma * colour.saturation).powi(4)
-                    * (1.2 - away * away).clamp(0.2, 1.0);
-                bins[(colour.hue / STEP) as usize % bins.len()] += weight;
-                pixels.push((colour, weight));
+                let color = Hsv::of(*pixel);
+                let away = hue_difference(color.hue, named.hue) / named.reach.max(1.0);
+                let weight =
+                    (color.chroma * color.saturation).powi(4) * (1.2 - away * away).clamp(0.2, 1.0);
+                bins[(color.hue / STEP) as usize % bins.len()] += weight;
+                pixels.push((color, weight));
             }
         }
         if (pixels.len() as f64) < LEAST_PIXELS {
@@ -193,23 +193,23 @@ impl Learner {
         let peak = (peak as f64 + 0.5) * STEP;
         let near = || {
             let pixels = pixels.iter();
-            pixels.filter(|(colour, _)| hue_difference(colour.hue, peak).abs() < REACHES[1])
+            pixels.filter(|(color, _)| hue_difference(color.hue, peak).abs() < REACHES[1])
         };
         let total: f64 = near().map(|(_, weight)| weight).sum();
         let mean = |value: &dyn Fn(&Hsv) -> f64| {
             near()
-                .map(|(colour, weight)| value(colour) * weight)
+                .map(|(color, weight)| value(color) * weight)
                 .sum::<f64>()
                 / total
         };
-        let offset = mean(&|colour| hue_difference(colour.hue, peak));
-        let spread = mean(&|colour| (hue_difference(colour.hue, peak) - offset).powi(2)).sqrt();
-        let usual = mean(&|colour| colour.chroma);
+        let offset = mean(&|color| hue_difference(color.hue, peak));
+        let spread = mean(&|color| (hue_difference(color.hue, peak) - offset).powi(2)).sqrt();
+        let usual = mean(&|color| color.chroma);
         Some(Appearance {
             usual,
             hue: (peak + offset).rem_euclid(360.0),
             reach: (2.2 * spread).clamp(REACHES[0], REACHES[1]),
-            saturation: LEAST_SATURATION.max(PALEST[1] * mean(&|colour| colour.saturation)),
+            saturation: LEAST_SATURATION.max(PALEST[1] * mean(&|color| color.saturation)),
             chroma: LEAST_CHROMA.max(PALEST[0] * usual),
         })
     }
@@ -265,10 +265,10 @@ impl Learner {
         let mut counts = HUES.map(|(name, _)| (name, 0_usize));
         let mut all = 0;
         for pixel in self.samples.frames.iter().flatten() {
-            let colour = Hsv::of(*pixel);
+            let color = Hsv::of(*pixel);
             all += 1;
-            if colour.saturation >= LEAST_SATURATION && colour.chroma >= LEAST_CHROMA {
-                let name = hue_name(colour.hue);
+            if color.saturation >= LEAST_SATURATION && color.chroma >= LEAST_CHROMA {
+                let name = hue_name(color.hue);
                 if let Some(count) = counts.iter_mut().find(|(other, _)| *other == name) {
                     count.1 += 1;
                 }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::appearance::Appearance;
-use super::colour::Hsv;
+use super::color::Hsv;
 
 /// Bits of each channel that the table tells apart.
 const BITS: usize = 6;
@@ -29,10 +29,10 @@ impl Lookup {
                 cell >> BITS & (side - 1),
                 cell & (side - 1),
             ];
-            let colour = Hsv::of(levels.map(middle));
+            let color = Hsv::of(levels.map(middle));
             let marks = appearances.iter().enumerate();
             marks.fold(0, |set, (mark, appearance)| {
-                set | u64::from(appearance.has(colour)) << mark
+                set | u64::from(appearance.has(color)) << mark
             })
         };
         Self((0..side * side * side).map(set).collect())

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use thiserror::Error;
 
-use super::colour::Hsv;
+use super::color::Hsv;
 use super::frame::Frame;
 
 /// Below this saturation, a colour has no hue that a camera tells reliably.
@@ -15,7 +15,7 @@ const LEAST_CHROMA: f64 = 0.1;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
     pub(super) name: String,
-    pub(super) colour: [u8; 3],
+    pub(super) color: [u8; 3],
     pub(super) hue: f64,
 }
 
@@ -32,15 +32,16 @@ impl Mark {
     ///
     /// # Errors
     /// If the colour is nearly black, grey or white.
-    pub fn new(name: impl Into<String>, colour: [u8; 3]) -> Result<Self, MarkError> {
-        let hsv = Hsv::of(colour);
-        match hsv.saturation >= LEAST_SATURATION && hsv.chroma >= LEAST_CHROMA {
-            true => Ok(Self {
+    pub fn new(name: impl Into<String>, color: [u8; 3]) -> Result<Self, MarkError> {
+        let hsv = Hsv::of(color);
+        if hsv.saturation >= LEAST_SATURATION && hsv.chroma >= LEAST_CHROMA {
+            Ok(Self {
                 name: name.into(),
-                colour,
+                color,
                 hue: hsv.hue,
-            }),
-            false => Err(MarkError::NoHue),
+            })
+        } else {
+            Err(MarkError::NoHue)
         }
     }
 
@@ -71,9 +72,10 @@ impl Mark {
                 }
             }
         }
-        match weight > 0.0 {
-            true => Self::new(name, sum.map(|sum| (sum / weight).round() as u8)),
-            false => Err(MarkError::NoHue),
+        if weight > 0.0 {
+            Self::new(name, sum.map(|sum| (sum / weight).round() as u8))
+        } else {
+            Err(MarkError::NoHue)
         }
     }
 
@@ -83,8 +85,8 @@ impl Mark {
     }
 
     /// About its colour, sRGB.
-    pub fn colour(&self) -> [u8; 3] {
-        self.colour
+    pub fn color(&self) -> [u8; 3] {
+        self.color
     }
 
     /// Its hue in degrees.
@@ -98,7 +100,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn greys_are_no_marks() {
+    fn grays_are_no_marks() {
         assert_eq!(Mark::new("a", [90, 92, 90]), Err(MarkError::NoHue));
         assert_eq!(Mark::new("a", [9, 0, 0]), Err(MarkError::NoHue));
         assert!(Mark::new("a", [200, 40, 30]).is_ok());
@@ -111,7 +113,7 @@ mod tests {
         let frame = Frame::new([20, 10], &pixels).unwrap();
         for at in [DVec2::new(19.0, 9.0), DVec2::new(1e9, 1e9)] {
             assert_eq!(
-                Mark::picked("hand", frame, at).unwrap().colour,
+                Mark::picked("hand", frame, at).unwrap().color,
                 [10, 20, 200]
             );
         }

@@ -6,7 +6,7 @@
 
 mod appearance;
 mod clutter;
-mod colour;
+mod color;
 mod components;
 mod frame;
 mod learn;
@@ -15,7 +15,7 @@ mod mark;
 mod samples;
 mod track;
 
-pub use colour::{HUES, Hsv, hue_name};
+pub use color::{HUES, Hsv, hue_name};
 pub use frame::Frame;
 pub use learn::{LearnError, Learned, Learner};
 pub use mark::{Mark, MarkError};

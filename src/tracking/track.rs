@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::mark_tracks::{MarkTrack, MarkTracks, bridge};
 
-use super::colour::Hsv;
+use super::color::Hsv;
 use super::components::{Component, Run, components, push_pixel};
 use super::frame::Frame;
 use super::learn::Learned;
@@ -127,11 +127,11 @@ impl Tracker {
                     continue;
                 }
                 marks &= !clutter.marks[still + x * self.step / self.learned.step];
-                let colour = Hsv::of(pixel);
+                let color = Hsv::of(pixel);
                 while marks != 0 {
                     let mark = marks.trailing_zeros() as usize;
                     marks &= marks - 1;
-                    let weight = self.learned.marks[mark].appearance.likeness(colour);
+                    let weight = self.learned.marks[mark].appearance.likeness(color);
                     push_pixel(&mut self.runs[mark], x as u32, y as u32, weight);
                 }
             }
@@ -319,7 +319,7 @@ pub fn tracks(learned: &Learned, times: Vec<f64>, frames: &[Vec<Option<Sighting>
             .collect();
         MarkTrack {
             name: mark.mark.name.clone(),
-            colour: mark.mark.colour,
+            color: mark.mark.color,
             is_lost: seen.iter().map(Option::is_none).collect(),
             points: bridge(&times, &seen, otherwise),
         }

@@ -107,13 +107,15 @@ impl Drawing {
             return Ok(Outcome::Incomplete);
         }
         let linked = recorder.into_dependencies();
-        let model = match compiled.has_errors() {
-            true => Err(NoModel::Errors),
-            false => self.model(&compiled),
+        let model = if compiled.has_errors() {
+            Err(NoModel::Errors)
+        } else {
+            self.model(&compiled)
         };
-        let incomplete = match compiled.has_errors() && self.shows_incomplete {
-            true => self.incomplete(&compiled),
-            false => None,
+        let incomplete = if compiled.has_errors() && self.shows_incomplete {
+            self.incomplete(&compiled)
+        } else {
+            None
         };
         self.last = Some(Inputs { drawing, linked });
         let times = BuildTimes {

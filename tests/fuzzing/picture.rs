@@ -26,8 +26,8 @@ pub(super) fn seeds() -> Vec<Vec<u8>> {
         Rgba([200, 9, 9, 255 * ((x / 3 + y) % 2) as u8])
     });
     let glass = RgbaImage::from_fn(5, 6, |x, y| Rgba([9, 200, 9, (40 * x + 9 * y) as u8]));
-    let grey = DynamicImage::from(opaque.clone()).into_luma16();
-    let pictures: [DynamicImage; 4] = [opaque.into(), holes.into(), glass.into(), grey.into()];
+    let gray = DynamicImage::from(opaque.clone()).into_luma16();
+    let pictures: [DynamicImage; 4] = [opaque.into(), holes.into(), glass.into(), gray.into()];
     let formats = [
         ImageFormat::Png,
         ImageFormat::Jpeg,

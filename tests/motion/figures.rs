@@ -181,9 +181,10 @@ fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> boo
             splayed,
         } => {
             // Every second pair of legs follows the other side's.
-            let side = match class == Class::Leg && pair % 2 == 1 {
-                true => side.other(),
-                false => side,
+            let side = if class == Class::Leg && pair % 2 == 1 {
+                side.other()
+            } else {
+                side
             };
             let Some(limb) = anatomy.limb(class, side) else {
                 return found.is_none();

@@ -145,12 +145,11 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
             };
             let node = names[name];
             // What points like the chain: the part's axis, or if it keeps its drawn pose the mean of the chain; in the node's own frame.
-            let points = match drive.why.contains("keeps its drawn pose") {
-                true => {
-                    splayed += 1;
-                    body.mean(clip, |pose| chain(clip, pose, &drive.why))
-                }
-                false => axis(compiled, drive.part),
+            let points = if drive.why.contains("keeps its drawn pose") {
+                splayed += 1;
+                body.mean(clip, |pose| chain(clip, pose, &drive.why))
+            } else {
+                axis(compiled, drive.part)
             };
             let own = rest[node].rotation.inverse() * (turn * points);
             worst = worst.max(angle(

@@ -51,9 +51,10 @@ fn the_key_pose_stands_in_the_key_frame() {
             (7, last, 30),
             (31, last / 2, 31),
         ] {
-            let points = match input == end {
-                true => vec![[0, 0], [input, motion]],
-                false => vec![[0, 0], [input, motion], [end, last]],
+            let points = if input == end {
+                vec![[0, 0], [input, motion]]
+            } else {
+                vec![[0, 0], [input, motion], [end, last]]
             };
             let map = TimeMap::through(&points);
             let timed = Turns::new(clip, rig, landmarks).timed(&map).travel();

@@ -195,7 +195,7 @@ fn equation_1_holds_in_the_scene() {
             .as_ref()
             .expect("a performance")
             .plan;
-        assert_eq!(plan.emphasised, Some(0));
+        assert_eq!(plan.emphasized, Some(0));
         let ratio = plan.input.largest_of(1);
         assert!((ratio - share).abs() < 0.02, "{ratio} {share}");
         for limb in LIMBS {

@@ -135,9 +135,10 @@ impl World {
             };
             let [left, right, back, front] = place;
             for step in 0..steps {
-                let strip = match sideways {
-                    true => [left + step, left + step + 1, back, front],
-                    false => [left, right, front - step - 1, front - step],
+                let strip = if sideways {
+                    [left + step, left + step + 1, back, front]
+                } else {
+                    [left, right, front - step - 1, front - step]
                 };
                 self.fill(strip, height + step + 1, Top::Green);
             }

@@ -133,7 +133,7 @@ fn scene(discs: Vec<Disc>) -> Scene {
     Scene {
         size: [320, 240],
         discs,
-        colourful: 14,
+        colorful: 14,
         patches: Vec::new(),
         noise: 6.0,
         shutter: 0.5,
@@ -185,7 +185,7 @@ fn a_mark_that_is_gone_for_most_of_the_clip_is_found() {
     let scene = Scene {
         noise: 10.0,
         // Still patches of its hue would be taken for it while it is gone.
-        colourful: 0,
+        colorful: 0,
         ..scene(discs)
     };
     let accuracy = accuracy("mostly gone", &scene);
@@ -241,7 +241,7 @@ fn a_mark_that_moves_a_little_is_no_clutter() {
     let mut discs = discs();
     discs[1].path = |time| DVec2::new(80.0 + 2.0 * (time / 5.0).sin(), 60.0);
     let scene = Scene {
-        colourful: 0,
+        colorful: 0,
         ..scene(discs)
     };
     check("moving a little", &scene);
@@ -255,7 +255,7 @@ fn a_mark_that_never_moves_is_found() {
     check(
         "still",
         &Scene {
-            colourful: 0,
+            colorful: 0,
             ..scene(discs)
         },
     );
@@ -278,7 +278,7 @@ fn light_that_changes_over_things_of_the_same_hue_leaves_marks_alone() {
 #[test]
 fn a_hue_that_the_clip_has_not_is_refused_with_those_that_it_has() {
     let scene = Scene {
-        colourful: 0,
+        colorful: 0,
         ..scene(discs())
     };
     let background = scene.background();

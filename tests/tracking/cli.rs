@@ -17,8 +17,8 @@ const FRAMES: usize = 12;
 
 /// A red disc that goes around a green one.
 fn scene() -> Scene {
-    let disc = |name, colour, path| Disc {
-        mark: (name, colour),
+    let disc = |name, color, path| Disc {
+        mark: (name, color),
         radius: 7.0,
         path,
     };
@@ -32,7 +32,7 @@ fn scene() -> Scene {
                 ellipse(time, [60.0, 45.0], [40.0, 30.0], 8.0, 0.1)
             }),
         ],
-        colourful: 0,
+        colorful: 0,
         patches: Vec::new(),
         noise: 2.0,
         shutter: 0.0,

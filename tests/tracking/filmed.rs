@@ -25,7 +25,7 @@ fn a_filmed_clip_agrees_with_another_program() {
     let reference = MarkTracks::from_bytes(&reference).expect("a track");
     let frame = |number: usize| Frame::new(reference.size, &frames[number]).expect("it has pixels");
     let marks = [("red", [255, 0, 0]), ("green", [0, 128, 0])];
-    let marks = marks.map(|(name, colour)| Mark::new(name, colour).expect("it is coloured"));
+    let marks = marks.map(|(name, color)| Mark::new(name, color).expect("it is coloured"));
     let mut learner = Learner::new(reference.size, marks.to_vec());
     (0..frames.len()).for_each(|number| learner.push(frame(number)));
     let learned = learner.learned().expect("they are in the clip");

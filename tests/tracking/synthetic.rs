@@ -22,7 +22,7 @@ pub(crate) struct Scene {
     /// Discs, from back to front.
     pub(crate) discs: Vec<Disc>,
     /// How many still patches of any colours are behind the discs.
-    pub(crate) colourful: usize,
+    pub(crate) colorful: usize,
     /// The colours of more of them.
     pub(crate) patches: Vec<[u8; 3]>,
     /// The standard deviation of the noise, of 255.
@@ -53,21 +53,21 @@ impl Scene {
         let mut pixels: Vec<[f64; 3]> = (0..width * height)
             .map(|index| {
                 let (x, y) = (index % width, index / width);
-                let grey = 120.0 + 70.0 * x as f64 / width as f64 - 30.0 * y as f64 / height as f64;
-                [grey, grey * 0.97, grey * 0.9]
+                let gray = 120.0 + 70.0 * x as f64 / width as f64 - 30.0 * y as f64 / height as f64;
+                [gray, gray * 0.97, gray * 0.9]
             })
             .collect();
         let any = |random: &mut Rng| [(); 3].map(|()| random.f64() * 220.0 + 20.0);
-        let mut colours: Vec<[f64; 3]> = (0..self.colourful).map(|_| any(&mut random)).collect();
-        colours.extend(self.patches.iter().map(|colour| colour.map(f64::from)));
-        for colour in colours {
+        let mut colors: Vec<[f64; 3]> = (0..self.colorful).map(|_| any(&mut random)).collect();
+        colors.extend(self.patches.iter().map(|color| color.map(f64::from)));
+        for color in colors {
             let from = [random.f64() * width as f64, random.f64() * height as f64];
             let sides = [(); 2].map(|()| (10.0 + 30.0 * random.f64()) * scale);
             for (index, pixel) in pixels.iter_mut().enumerate() {
                 let place = [(index % width) as f64, (index / width) as f64];
                 if (0..2).all(|axis| (from[axis]..from[axis] + sides[axis]).contains(&place[axis]))
                 {
-                    *pixel = colour;
+                    *pixel = color;
                 }
             }
         }
@@ -106,15 +106,15 @@ impl Scene {
             let place = DVec2::new((index % width) as f64, (index / width) as f64);
             let mut sum = [0.0; 3];
             for time in &instants {
-                let mut colour = background[index];
+                let mut color = background[index];
                 for disc in &self.discs {
                     let cover =
                         (disc.radius + 0.5 - place.distance((disc.path)(*time))).clamp(0.0, 1.0);
-                    for (channel, own) in colour.iter_mut().zip(disc.mark.1) {
+                    for (channel, own) in color.iter_mut().zip(disc.mark.1) {
                         *channel += cover * (f64::from(own) - *channel);
                     }
                 }
-                for (sum, channel) in sum.iter_mut().zip(colour) {
+                for (sum, channel) in sum.iter_mut().zip(color) {
                     *sum += channel / INSTANTS as f64;
                 }
             }

@@ -265,7 +265,7 @@ fn views_less_than_15_degrees_apart_are_warned_of() {
 }
 
 #[test]
-fn like_neighbours_keep_their_order() {
+fn like_neighbors_keep_their_order() {
     // Each alone would rather be the other one's partner.
     let gains = Gains {
         rows: 2,

@@ -26,9 +26,10 @@ impl Canvas {
         let (inner_width, inner_height) = (picture.width() as usize, picture.height() as usize);
         let (width, height) = (inner_width + 2 * PAD, inner_height + 2 * PAD);
         let (colors, _) = picture.as_raw().as_chunks::<4>();
-        let background = match colors.iter().any(|color| color[3] <= TRANSPARENT) {
-            true => [0; 4],
-            false => commonest_on_border(colors, inner_width, inner_height),
+        let background = if colors.iter().any(|color| color[3] <= TRANSPARENT) {
+            [0; 4]
+        } else {
+            commonest_on_border(colors, inner_width, inner_height)
         };
         let mut pixels = vec![background; width * height];
         if inner_width > 0 {
@@ -133,9 +134,10 @@ pub(super) fn mixture(color: Color, first: Color, second: Color) -> (f32, f32) {
         along += (color[i] - first[i]) * (second[i] - first[i]);
         length += (second[i] - first[i]).powi(2);
     }
-    let share = match length > 0.0 {
-        true => (along / length).clamp(0.0, 1.0),
-        false => 0.0,
+    let share = if length > 0.0 {
+        (along / length).clamp(0.0, 1.0)
+    } else {
+        0.0
     };
     let mixed = |i: usize| first[i] + share * (second[i] - first[i]) - color[i];
     let distance = (0..4).map(|i| mixed(i).powi(2)).sum();
@@ -157,11 +159,12 @@ pub(super) fn mixture_of_three(color: Color, [a, b, c]: [Color; 3]) -> f32 {
     let area = ll * rr - lr * lr;
     let (second, third) = ((l * rr - r * lr) / area, (r * ll - l * lr) / area);
     let is_inside = second >= 0.0 && third >= 0.0 && second + third <= 1.0;
-    match is_inside {
-        true => (0..4)
+    if is_inside {
+        (0..4)
             .map(|i| (to[i] - second * along[i] - third * across[i]).powi(2))
-            .sum(),
-        false => f32::INFINITY,
+            .sum()
+    } else {
+        f32::INFINITY
     }
 }
 

@@ -177,9 +177,10 @@ fn bridge(canvas: &Canvas, seeds: &mut Seeds, kept: &[usize], label: u16, strang
                 continue;
             }
             let [first, second] = between;
-            let joint = match strangeness[first] >= strangeness[second] {
-                true => first,
-                false => second,
+            let joint = if strangeness[first] >= strangeness[second] {
+                first
+            } else {
+                second
             };
             if !canvas.is_rim(joint) && !seeds.is_fixed[joint] {
                 seeds.labels[joint] = label;

@@ -191,14 +191,12 @@ fn share_of_ink(color: Color, near: &[Color], ink: Color, touches: bool) -> f32 
         }
     }
     let same = SAME as f32;
-    let is_ink = match touches {
-        true => with_ink.1 <= without + same,
-        false => with_ink.1 + same < without,
+    let is_ink = if touches {
+        with_ink.1 <= without + same
+    } else {
+        with_ink.1 + same < without
     };
-    match is_ink {
-        true => with_ink.0,
-        false => 0.0,
-    }
+    if is_ink { with_ink.0 } else { 0.0 }
 }
 
 /// What each inked pixel is part of; `None` if there are no lines.

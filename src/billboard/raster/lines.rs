@@ -107,10 +107,7 @@ pub(super) fn inner_lines(
     let crossing = |a: usize, b: usize| {
         let covered = |at: usize| f64::from(ink.cover[at]) / 255.0;
         let inside = (covered(a) + covered(b) - 0.5).clamp(0.001, 0.999);
-        match labels[a] > 0 {
-            true => inside,
-            false => 1.0 - inside,
-        }
+        if labels[a] > 0 { inside } else { 1.0 - inside }
     };
     let mut map = Map::new(&labels, canvas.width, groups.len() + 1);
     let mut result = Vec::new();

@@ -140,9 +140,12 @@ fn crossing(canvas: &Canvas, areas: &Areas, ink: Option<&Ink>, a: usize, b: usiz
     let along = match ink.filter(|ink| ink.is_line(a) || ink.is_line(b)) {
         Some(ink) if ink.is_thick(a) || ink.is_thick(b) => 0.5,
         Some(ink) => {
-            let reach = |at: usize| match ink.is_line(at) {
-                true => areas.reach.distance(at),
-                false => 0.0,
+            let reach = |at: usize| {
+                if ink.is_line(at) {
+                    areas.reach.distance(at)
+                } else {
+                    0.0
+                }
             };
             let by_reach = || (reach(b) - reach(a)) / 2.0;
             let middle = ink
@@ -153,9 +156,10 @@ fn crossing(canvas: &Canvas, areas: &Areas, ink: Option<&Ink>, a: usize, b: usiz
         None => {
             let [first, second] = [a, b].map(|at| areas.colors[usize::from(areas.labels[at])]);
             let share = |at: usize| 1.0 - mixture(canvas.color(at), first, second).0;
-            match apart(first, second) > 0.0 {
-                true => share(a) + share(b) - 0.5,
-                false => 0.5,
+            if apart(first, second) > 0.0 {
+                share(a) + share(b) - 0.5
+            } else {
+                0.5
             }
         }
     };
@@ -168,9 +172,10 @@ fn straight(color: Color) -> [f64; 4] {
     let [r, g, b, a] = color;
     let step = |share: f32| f64::from((share * 255.0).round().clamp(0.0, 255.0) / 255.0);
     let by = |c: f32| step(c / a.max(1.0));
-    let alpha = match is_opaque(color) {
-        true => 1.0,
-        false => step(a / 255.0),
+    let alpha = if is_opaque(color) {
+        1.0
+    } else {
+        step(a / 255.0)
     };
     [by(r), by(g), by(b), alpha]
 }

@@ -96,12 +96,11 @@ fn corners(line: &[DVec2], tolerance: f64) -> Vec<usize> {
         let length = edge.length_squared();
         let distance = |index: usize| {
             let to_point = line[index] - line[from];
-            match length > 0.0 {
-                true => {
-                    let along = (to_point.dot(edge) / length).clamp(0.0, 1.0);
-                    (to_point - edge * along).length_squared()
-                }
-                false => to_point.length_squared(),
+            if length > 0.0 {
+                let along = (to_point.dot(edge) / length).clamp(0.0, 1.0);
+                (to_point - edge * along).length_squared()
+            } else {
+                to_point.length_squared()
             }
         };
         let mut farthest = (tolerance * tolerance, None);
@@ -154,9 +153,10 @@ fn balanced(line: &[DVec2], kept: &[usize], tolerance: f64, ends: Ends) -> Vec<D
 fn fitted(points: &[DVec2]) -> Edge {
     let (first, last) = (points[0], points[points.len() - 1]);
     let chord = (last - first).normalize_or_zero();
-    let inner = match points.len() >= LONG {
-        true => &points[TRIM..points.len() - TRIM],
-        false => points,
+    let inner = if points.len() >= LONG {
+        &points[TRIM..points.len() - TRIM]
+    } else {
+        points
     };
     // Each stretch between two points counts by its length, so that unequal steps do not matter.
     let (mut length, mut sum) = (0.0, DVec2::ZERO);
@@ -254,9 +254,10 @@ fn sharpened(line: Vec<DVec2>, is_closed: bool) -> Vec<DVec2> {
             (None, None) => result.push(line[index]),
         }
     }
-    match is_closed {
-        true => result.extend(result.first().copied()),
-        false => result.push(line[count]),
+    if is_closed {
+        result.extend(result.first().copied())
+    } else {
+        result.push(line[count])
     }
     result
 }

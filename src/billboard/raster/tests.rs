@@ -121,7 +121,7 @@ fn regions_reach_the_edge_of_the_picture() {
 }
 
 #[test]
-fn neighbours_share_their_border() {
+fn neighbors_share_their_border() {
     let mut drawing = Drawing::new(160, 160, NOTHING);
     drawing.fill(disc(80.0, 80.0, 70.0), GREEN);
     let whole = area(&regions(&drawing.picture()).regions[0].outline);

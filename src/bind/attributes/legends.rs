@@ -98,20 +98,12 @@ impl Legend {
         strings: &TiSlice<StringId, DrawingString>,
     ) -> Diagnostic {
         let swatch = &drawing.shapes[self.swatch].element;
-        let what = match self.is_for_tiles() {
-            true => "tile",
-            false => "part",
-        };
+        let what = if self.is_for_tiles() { "tile" } else { "part" };
         let swatch_name = drawing.describe(self.swatch);
         let message = format!("no {what} has the paint of this legend, {swatch_name}");
         let place = strings[self.string].text.whole();
         Diagnostic::new(Code::UnusedLegend, place, message)
         .related(swatch.span, "the legend")
-        .help(match self.is_for_tiles() {
-            true => "pick the sample's colour from the tiles with the colour picker, or delete the legend",
-            false => {
-                "pick the sample's colour from the parts with the colour picker; if the attributes are for the shape itself, write its name before `$`"
-            }
-        })
+        .help(if self.is_for_tiles() { "pick the sample's colour from the tiles with the colour picker, or delete the legend" } else { "pick the sample's colour from the parts with the colour picker; if the attributes are for the shape itself, write its name before `$`" })
     }
 }

@@ -10,7 +10,7 @@ pub struct PartMark<'a> {
     /// Its colour as it is written, in lower case: `red`, `#ff8000`.
     pub word: &'a str,
     /// Red, green, blue, sRGB.
-    pub colour: [u8; 3],
+    pub color: [u8; 3],
     /// The place of the setting.
     pub span: Span,
 }
@@ -30,7 +30,7 @@ impl Bindings {
         let mark = self.attributes(part).mark()?;
         Some(PartMark {
             word: &mark.value.word,
-            colour: mark.value.colour,
+            color: mark.value.color,
             span: self.span_of(&mark.source),
         })
     }

@@ -57,7 +57,7 @@ pub struct PerformanceRequest<'a> {
     /// What the performance does to the clip.
     pub effects: PerformanceEffects,
     /// The name of the mark that is emphasised, if the string gives one.
-    pub emphasised: Option<&'a str>,
+    pub emphasized: Option<&'a str>,
     /// The key frames of the track and of the motion, if the string gives them, counted from 1 at 24 frames a second.
     pub keys: Option<[usize; 2]>,
     /// The place of the setting.
@@ -113,7 +113,7 @@ impl<'a> PerformanceRequest<'a> {
                 file: &performance.file,
                 written: Written::first_of(string, setting),
                 effects: performance.effects,
-                emphasised: performance.emphasised.as_deref(),
+                emphasized: performance.emphasized.as_deref(),
                 keys: performance.keys,
                 span: string.text.span(setting.range.clone()),
             }),

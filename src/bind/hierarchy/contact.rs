@@ -181,9 +181,12 @@ impl NamedBodies {
     /// The part that carries another by anatomy, or for a part without a name the named part that it overlaps most.
     fn carrier(&self, place: usize) -> Option<usize> {
         let own = &self.bodies[place];
-        let rank = |other: &usize| match own.named {
-            true => own.carried_by(&self.bodies[*other]),
-            false => self.bodies[*other].named.then_some(0),
+        let rank = |other: &usize| {
+            if own.named {
+                own.carried_by(&self.bodies[*other])
+            } else {
+                self.bodies[*other].named.then_some(0)
+            }
         };
         let ranked = self.touching[place]
             .iter()

@@ -184,9 +184,10 @@ fn automatic(
     let (by_string, mut by_element): (Vec<usize>, Vec<usize>) = named
         .iter()
         .partition(|part| matched.parts[**part].string.is_some());
-    let carriers = match by_string.is_empty() && by_element.len() < 2 {
-        true => vec![],
-        false => named,
+    let carriers = if by_string.is_empty() && by_element.len() < 2 {
+        vec![]
+    } else {
+        named
     };
     if by_string.is_empty() {
         by_element.clear();

@@ -369,9 +369,10 @@ impl<'a> Binder<'a> {
             runner_up,
         } in matches
         {
-            let by = match has_leader(string) {
-                true => BoundBy::Leader,
-                false => BoundBy::Nearest,
+            let by = if has_leader(string) {
+                BoundBy::Leader
+            } else {
+                BoundBy::Nearest
             };
             self.bind(string, part, by);
             self.bound[string].runner_up = runner_up;

@@ -19,7 +19,7 @@ const GROUND_CORNERS: usize = 2;
 /// What share of a part lies on another one that it is said to lie on.
 const LIES_ON: f64 = 0.9;
 /// How many parts are compared with a part at most: in a higher pile, the rest would hardly be seen.
-const MAX_NEIGHBOURS: usize = 512;
+const MAX_NEIGHBORS: usize = 512;
 /// How many parts that a part lies on are noted, once it is known what shows directly under it.
 const MAX_HOSTS: usize = 8;
 
@@ -114,9 +114,12 @@ impl Stacking {
         let boxes = boxes.map(|(index, part)| indexed_box(part.bounds, index));
         let tree = BoxTree::bulk_load(boxes.collect());
         let nothing = Outline::default();
-        let outlines = parts.iter().map(|part| match part.takes_part {
-            true => &*part.outline,
-            false => &nothing,
+        let outlines = parts.iter().map(|part| {
+            if part.takes_part {
+                &*part.outline
+            } else {
+                &nothing
+            }
         });
         let ground = ground_count(outlines, page);
         let mut stacking = Self {
@@ -203,8 +206,8 @@ impl Stacking {
         near.clear();
         let around = area_around((low, high), 0.0);
         let boxes = self.tree.locate_in_envelope_intersecting(around);
-        near.extend(boxes.take(MAX_NEIGHBOURS).map(|found| found.data));
-        if near.len() == MAX_NEIGHBOURS {
+        near.extend(boxes.take(MAX_NEIGHBORS).map(|found| found.data));
+        if near.len() == MAX_NEIGHBORS {
             near.extend(members);
         }
         if let ([part], [near]) = (members, near.as_slice())

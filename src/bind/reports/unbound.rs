@@ -35,12 +35,13 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
     let all_taken = AllTaken::of(drawing, matched);
     let mut left_over = Vec::new();
     for string in &waiting {
-        let (cause, help) = match string.scope.is_some() {
-            true => (
+        let (cause, help) = if string.scope.is_some() {
+            (
                 "every shape in its group has a string already".to_owned(),
                 HELP.to_owned(),
-            ),
-            false => all_taken.cause_and_help(),
+            )
+        } else {
+            all_taken.cause_and_help()
         };
         let help = match string.annotation {
             Annotation::Legend(_) => LEGEND_HELP.to_owned(),

@@ -181,9 +181,10 @@ fn range(text: &str) -> Result<Range, String> {
 }
 
 fn plot(text: &str) -> Result<PathBuf, String> {
-    match text.to_lowercase().ends_with(".svg") {
-        true => Ok(PathBuf::from(text)),
-        false => Err("the name of the chart must end in .svg".to_owned()),
+    if text.to_lowercase().ends_with(".svg") {
+        Ok(PathBuf::from(text))
+    } else {
+        Err("the name of the chart must end in .svg".to_owned())
     }
 }
 

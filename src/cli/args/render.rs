@@ -117,7 +117,7 @@ impl Render {
 pub(in crate::cli) enum Background {
     Transparent,
     /// In sRGB.
-    Colour([u8; 3]),
+    Color([u8; 3]),
 }
 
 /// How surfaces are shaded.
@@ -206,8 +206,8 @@ fn background(text: &str) -> Result<Background, String> {
     let number = u32::from_str_radix(digits, 16).ok().filter(|_| valid);
     match number {
         Some(number) => {
-            let [_, colour @ ..] = number.to_be_bytes();
-            Ok(Background::Colour(colour))
+            let [_, color @ ..] = number.to_be_bytes();
+            Ok(Background::Color(color))
         }
         None => Err(
             "expected a colour of six digits, for example '#ffffff' for white, or transparent"

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::mark_tracks::{MAX_NAME, is_name, named_colour, parse_hex};
+use crate::mark_tracks::{MAX_NAME, is_name, named_color, parse_hex};
 use crate::tracking::Mark;
 
 const EXAMPLES: &str = "\
@@ -42,8 +42,8 @@ pub(in crate::cli) struct Track {
 }
 
 fn mark(text: &str) -> Result<Mark, String> {
-    let (name, colour) = match text.split_once('=') {
-        Some((name, colour)) => (name, colour),
+    let (name, color) = match text.split_once('=') {
+        Some((name, color)) => (name, color),
         None => (text.trim_start_matches('#'), text),
     };
     if !is_name(name) {
@@ -51,13 +51,13 @@ fn mark(text: &str) -> Result<Mark, String> {
             "the name of a mark has letters, digits, `-` and `_`, {MAX_NAME} at most, as in `hand=red`"
         ));
     }
-    let rgb = parse_hex(colour).or_else(|| named_colour(colour));
+    let rgb = parse_hex(color).or_else(|| named_color(color));
     let rgb = rgb.ok_or_else(|| {
-        format!("`{colour}` is no colour: expected a CSS name or a number, such as `{name}=red` or `{name}=#d03020`")
+        format!("`{color}` is no colour: expected a CSS name or a number, such as `{name}=red` or `{name}=#d03020`")
     })?;
     Mark::new(name, rgb).map_err(|_| {
         format!(
-            "`{colour}` has no hue to find it by: marks are red, yellow, green or blue, for example"
+            "`{color}` has no hue to find it by: marks are red, yellow, green or blue, for example"
         )
     })
 }

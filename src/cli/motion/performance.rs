@@ -49,7 +49,7 @@ pub(super) fn perform(
             eprintln!("  help: {help}");
             outcome
         })?;
-    let emphasised = match &arguments.emphasize {
+    let emphasized = match &arguments.emphasize {
         Some(wanted) => {
             let is_it =
                 |channel: &JointChannel| same_name(&tracks.marks[channel.mark].name, wanted);
@@ -74,7 +74,7 @@ pub(super) fn perform(
                 args::Filming::None => Filming::None,
             },
         },
-        emphasised,
+        emphasized,
         keys: arguments.keys,
     };
     let PerformedClip { prepared, plan } = perform_clip(prepared, &tracks, &channels, &request);
@@ -85,7 +85,7 @@ pub(super) fn perform(
     };
     let mark = |channel: usize| tracks.marks[channels[channel].mark].name.as_str();
     let messages = describe(&plan, joint, mark);
-    let film = plan.emphasised.map(|channel| Film {
+    let film = plan.emphasized.map(|channel| Film {
         filming: plan.filming,
         joint: channels[channel].joint,
     });
@@ -163,16 +163,16 @@ fn describe<'a>(
     mark: impl Fn(usize) -> &'a str,
 ) -> String {
     let mut out = String::new();
-    if let Some(emphasised) = plan.emphasised {
+    if let Some(emphasized) = plan.emphasized {
         let _ = writeln!(
             out,
             "  performed: `{}` moves most, so {} is emphasised",
-            mark(emphasised),
-            joint(emphasised)
+            mark(emphasized),
+            joint(emphasized)
         );
         if plan.is_damping {
             for channel in 0..plan.input.curves.len() {
-                if channel != emphasised {
+                if channel != emphasized {
                     let percent = 100.0 * plan.ratio(channel);
                     let _ = writeln!(
                         out,

@@ -65,12 +65,13 @@ fn rounded(seconds: f64) -> f64 {
 /// Refuses a time after the end of a clip.
 pub(super) fn within(clip: &Clip, option: &str, time: f64) -> Result<f64, String> {
     // Lengths are printed in milliseconds: whoever types a printed length means the end.
-    match time <= clip.seconds + 0.0005 {
-        true => Ok(time.min(clip.seconds)),
-        false => Err(format!(
+    if time <= clip.seconds + 0.0005 {
+        Ok(time.min(clip.seconds))
+    } else {
+        Err(format!(
             "has a clip of {} seconds: {option} {time} is after its end",
             rounded(clip.seconds)
-        )),
+        ))
     }
 }
 
@@ -178,7 +179,7 @@ pub(super) fn movie(
     let early = RefCell::new(VecDeque::new());
     counting("drawing", count, |done| {
         let shooting = film.shooting(&options)?;
-        let colours = || {
+        let colors = || {
             let mut early = early.borrow_mut();
             let mut indices = (0..pictures.len()).step_by(palette_step(pictures.len(), &options));
             let moments = indices.clone().map(|index| pictures[index].time);
@@ -190,7 +191,7 @@ pub(super) fn movie(
             let samples: Vec<&Image> = early.iter().map(|(_, image)| image).collect();
             Ok(Palette::new(samples, options.background))
         };
-        movie.write(&target, colours, |push| {
+        movie.write(&target, colors, |push| {
             let mut early = early.take();
             let is_early = |index: &usize| early.iter().any(|(other, _)| other == index);
             let late: Vec<usize> = (0..pictures.len())

@@ -147,9 +147,10 @@ impl Encoder {
         let was_open = self.frames.take().is_some();
         let status = self.child.wait()?;
         let told = self.errors.take().and_then(|errors| errors.join().ok());
-        match status.success() && was_open {
-            true => Ok(()),
-            false => Err(io::Error::other(failure(&told.unwrap_or_default()))),
+        if status.success() && was_open {
+            Ok(())
+        } else {
+            Err(io::Error::other(failure(&told.unwrap_or_default())))
         }
     }
 }
@@ -209,9 +210,10 @@ fn failure(told: &str) -> String {
         .filter(|line| !line.is_empty())
         .take(MAX_ERROR_LINES)
         .collect();
-    match lines.is_empty() {
-        true => "ffmpeg failed without a message; write a .gif or .apng instead".to_owned(),
-        false => format!("ffmpeg failed: {}", lines.join("; ")),
+    if lines.is_empty() {
+        "ffmpeg failed without a message; write a .gif or .apng instead".to_owned()
+    } else {
+        format!("ffmpeg failed: {}", lines.join("; "))
     }
 }
 

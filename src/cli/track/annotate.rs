@@ -53,18 +53,18 @@ fn draw(canvas: &mut Pixmap, tracks: &MarkTracks, mark: &MarkTrack, number: usiz
     } else {
         sign.push_circle(x, y, radius);
     }
-    let [r, g, b] = mark.colour;
+    let [r, g, b] = mark.color;
     for path in [trail, sign] {
         let Some(path) = path.finish() else {
             continue;
         };
         // White around the mark's colour is seen on the mark, and on anything else.
-        for (colour, width) in [
+        for (color, width) in [
             (Color::WHITE, 2.2 * width),
             (Color::from_rgba8(r, g, b, 255), width),
         ] {
             let mut paint = Paint::default();
-            paint.set_color(colour);
+            paint.set_color(color);
             let stroke = Stroke {
                 width,
                 ..Stroke::default()

@@ -163,9 +163,10 @@ impl Source {
             [0x89, b'P', b'N', b'G', ..] => {
                 let decoder = PngDecoder::new(bytes(file)?);
                 let is_animated = decoder.and_then(|decoder| decoder.is_apng());
-                match is_animated.map_err(|error| broken(file, &error))? {
-                    true => Ok(Self::Apng(own)),
-                    false => Ok(Self::Pictures(vec![own])),
+                if is_animated.map_err(|error| broken(file, &error))? {
+                    Ok(Self::Apng(own))
+                } else {
+                    Ok(Self::Pictures(vec![own]))
                 }
             }
             [
@@ -185,9 +186,10 @@ impl Source {
             ] => {
                 let decoder =
                     WebPDecoder::new(bytes(file)?).map_err(|error| broken(file, &error))?;
-                match decoder.has_animation() {
-                    true => Ok(Self::WebP(own)),
-                    false => Ok(Self::Pictures(vec![own])),
+                if decoder.has_animation() {
+                    Ok(Self::WebP(own))
+                } else {
+                    Ok(Self::Pictures(vec![own]))
                 }
             }
             [0xff, 0xd8, 0xff, ..] => Ok(Self::Pictures(vec![own])),

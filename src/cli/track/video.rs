@@ -73,9 +73,10 @@ pub(super) fn read(file: &Path, look: Look<'_>) -> Result<(), String> {
     let told = errors
         .and_then(|errors| errors.join().ok())
         .unwrap_or_default();
-    match status.is_ok_and(|status| status.success()) && frames > 0 {
-        true => Ok(()),
-        false => Err(not_decoded(file, &told)),
+    if status.is_ok_and(|status| status.success()) && frames > 0 {
+        Ok(())
+    } else {
+        Err(not_decoded(file, &told))
     }
 }
 
@@ -97,8 +98,8 @@ fn stream_frames(
         if stream.read_exact(&mut planes).is_err() {
             break;
         }
-        let (y, colour) = planes.split_at(pixels);
-        let (u, v) = colour.split_at(pixels);
+        let (y, color) = planes.split_at(pixels);
+        let (u, v) = color.split_at(pixels);
         let mut image = RgbImage::new(width, height);
         for (index, pixel) in image.pixels_mut().enumerate() {
             *pixel = rgb(y[index], u[index], v[index]);

@@ -233,9 +233,10 @@ impl Batch {
                 if unmapped && material.textures().next().is_some() {
                     return Err(invalid("a textured surface without texture coordinates"));
                 }
-                match surface.triangles.is_empty() {
-                    true => Ok(()),
-                    false => self.push(surface, joints),
+                if surface.triangles.is_empty() {
+                    Ok(())
+                } else {
+                    self.push(surface, joints)
                 }
             })?;
             self.primitives.push(first..self.accessors.len());

@@ -80,9 +80,10 @@ fn material(alpha: f32) -> Material {
         metallic: 0.0,
         roughness: 0.9,
         emissive: [0.0, 0.25, 0.0],
-        alpha_mode: match alpha < 1.0 {
-            true => AlphaMode::Blend,
-            false => AlphaMode::Opaque,
+        alpha_mode: if alpha < 1.0 {
+            AlphaMode::Blend
+        } else {
+            AlphaMode::Opaque
         },
         double_sided: alpha < 1.0,
         ..Material::default()

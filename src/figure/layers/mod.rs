@@ -306,9 +306,12 @@ fn covers(shapes: &[Shape], nodes: &Nodes, overlaps: &[Vec<Overlap>], is_one: bo
     let chords: Vec<Vec<wraps::Chord>> = shapes
         .par_iter()
         .zip(has_chords)
-        .map(|(shape, wanted)| match wanted && may_be_wrapped(shape) {
-            true => wraps::chords(shape),
-            false => Vec::new(),
+        .map(|(shape, wanted)| {
+            if wanted && may_be_wrapped(shape) {
+                wraps::chords(shape)
+            } else {
+                Vec::new()
+            }
         })
         .collect();
     let reached: Vec<Vec<usize>> = overlaps
@@ -362,9 +365,12 @@ fn steps(
             root[node] = root[parent];
         }
     }
-    let figure = |shape: usize| match is_one {
-        true => 0,
-        false => root[nodes.of_shape[shape]],
+    let figure = |shape: usize| {
+        if is_one {
+            0
+        } else {
+            root[nodes.of_shape[shape]]
+        }
     };
     let mut figures: Vec<Option<(glam::DVec2, glam::DVec2)>> = vec![None; nodes.len().max(1)];
     let mut highest = vec![1; figures.len()];

@@ -18,7 +18,7 @@ impl Cursor<'_> {
         }
         choose(marks, |(mark, _)| mark, word).map(|(mark, part)| Proposal {
             text: self.escape(&quoted_if_needed(mark, NamePlace::Argument)),
-            ..simple(mark, ProposalKind::Colour, &format!("the mark of {part}"))
+            ..simple(mark, ProposalKind::Color, &format!("the mark of {part}"))
         })
     }
 }

@@ -76,7 +76,7 @@ fn the_marks_of_the_drawing_are_proposed_behind_a_track() {
     let (_, found) = proposed(&drawing("%Motion walk Perform \"f.csv\" ¦")).unwrap();
     let marks: Vec<_> = found
         .iter()
-        .filter(|proposal| proposal.kind == ProposalKind::Colour)
+        .filter(|proposal| proposal.kind == ProposalKind::Color)
         .map(|proposal| (proposal.text.as_str(), proposal.detail.as_str()))
         .collect();
     let expected = [

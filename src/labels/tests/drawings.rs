@@ -176,10 +176,10 @@ fn a_spider_faces_the_viewer_on_eight_legs() {
     }
     let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
     check(&spider(), &expected);
-    let labelled = label_drawn(&figure(&spider()));
-    assert_eq!(labelled.facing, Facing::Viewer);
-    assert_eq!(labelled.splayed[..3], [false; 3]);
-    assert!(labelled.splayed[3..].iter().all(|splayed| *splayed));
+    let labeled = label_drawn(&figure(&spider()));
+    assert_eq!(labeled.facing, Facing::Viewer);
+    assert_eq!(labeled.splayed[..3], [false; 3]);
+    assert!(labeled.splayed[3..].iter().all(|splayed| *splayed));
 }
 
 #[test]

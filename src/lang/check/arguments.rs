@@ -4,7 +4,7 @@ use super::Checker;
 use crate::diagnostic::{Code, Diagnostic, has_one_near_word, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Name};
 use crate::lang::evaluate::{EvaluationError, Lookup, evaluate};
-use crate::lang::keyword::colours::{self, COLOURS};
+use crate::lang::keyword::colors::{self, COLORS};
 use crate::lang::keyword::kinds::Kind;
 use crate::lang::keyword::signature::{Bounds, Form, Parameter, Takes};
 use crate::lang::keyword::{Keyword, vocabulary};
@@ -23,7 +23,7 @@ pub(super) enum ArgumentValue {
     /// A word in its canonical spelling, an axis, or a variable's name.
     Word(String),
     /// A colour, and how it is written.
-    Colour([u8; 4], String),
+    Color([u8; 4], String),
     /// A file name, or text.
     Text(String),
     /// One of several names.
@@ -125,16 +125,16 @@ impl Checker<'_> {
                 let names = vocabulary::AXES.iter().map(|axis| axis.name);
                 return self.word(callee, argument, word, names);
             }
-            (Takes::ColourName, ArgumentKind::Word(word)) => match colours::colour(word) {
-                Some(colour) => Some(ArgumentValue::Colour(colour, word.to_ascii_lowercase())),
+            (Takes::ColorName, ArgumentKind::Word(word)) => match colors::color(word) {
+                Some(color) => Some(ArgumentValue::Color(color, word.to_ascii_lowercase())),
                 None => {
-                    let names = COLOURS.iter().copied();
+                    let names = COLORS.iter().copied();
                     return self.word(callee, argument, word, names);
                 }
             },
             (Takes::Hex, ArgumentKind::Hex(digits)) => match hex(digits) {
-                Some(colour) => Some(ArgumentValue::Colour(
-                    colour,
+                Some(color) => Some(ArgumentValue::Color(
+                    color,
                     format!("#{}", digits.to_ascii_lowercase()),
                 )),
                 None => {
@@ -204,9 +204,10 @@ impl Checker<'_> {
             // Up to 300 digits otherwise.
             false => format!("{owner} cannot be {value:e}"),
         };
-        let expected = match is_usable || !bounds.contains(value) {
-            true => bounds.describe(),
-            false => format!("a number from -{MAX_NUMBER} to {MAX_NUMBER}"),
+        let expected = if is_usable || !bounds.contains(value) {
+            bounds.describe()
+        } else {
+            format!("a number from -{MAX_NUMBER} to {MAX_NUMBER}")
         };
         self.diagnostics.push(
             Diagnostic::new(
@@ -269,9 +270,10 @@ impl Checker<'_> {
                     span,
                     self.text.escape_at(argument.range.start, near),
                 );
-                match has_one_near_word(word, names) {
-                    true => diagnostic.safe(),
-                    false => diagnostic,
+                if has_one_near_word(word, names) {
+                    diagnostic.safe()
+                } else {
+                    diagnostic
                 }
             }
             None if all.len() > 20 => {
@@ -430,11 +432,11 @@ fn hex(digits: &str) -> Option<[u8; 4]> {
         6 | 8 => digits.to_owned(),
         _ => return None,
     };
-    let mut colour = [255; 4];
-    for (index, channel) in colour.iter_mut().enumerate() {
+    let mut color = [255; 4];
+    for (index, channel) in color.iter_mut().enumerate() {
         if let Some(pair) = long.get(2 * index..2 * index + 2) {
             *channel = u8::from_str_radix(pair, 16).ok()?;
         }
     }
-    Some(colour)
+    Some(color)
 }

@@ -32,7 +32,7 @@ impl Checker<'_> {
         if attribute.keyword == Keyword::Shape {
             return self.shape(attribute, callee);
         }
-        if attribute.keyword == Keyword::Color && self.reports_byte_colour(attribute) {
+        if attribute.keyword == Keyword::Color && self.reports_byte_color(attribute) {
             return None;
         }
         let form = self.form(callee, attribute)?;
@@ -67,7 +67,7 @@ impl Checker<'_> {
         let with_words = forms.iter().find(|form| {
             form.parameters
                 .iter()
-                .any(|parameter| matches!(parameter.takes, Takes::Choice(_) | Takes::ColourName))
+                .any(|parameter| matches!(parameter.takes, Takes::Choice(_) | Takes::ColorName))
         });
         let fallback = match first.kind {
             ArgumentKind::Word(_) => with_words.unwrap_or(only),
@@ -82,7 +82,7 @@ impl Checker<'_> {
     }
 
     /// Reports `Color 255 128 0`, with a fix; returns whether it did.
-    fn reports_byte_colour(&mut self, attribute: &Attribute) -> bool {
+    fn reports_byte_color(&mut self, attribute: &Attribute) -> bool {
         let mut bytes = vec![];
         for argument in &attribute.arguments {
             match argument.kind {
@@ -280,7 +280,7 @@ fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
     let pair = || Some([number(0)?, number(1)?]);
     Some(match keyword {
         Keyword::Color => match values.first()? {
-            ArgumentValue::Colour([r, g, b, a], written) => Value::Color {
+            ArgumentValue::Color([r, g, b, a], written) => Value::Color {
                 rgb: [r, g, b].map(|channel| f64::from(*channel) / 255.),
                 alpha: gives_alpha(written).then_some(f64::from(*a) / 255.),
             },
@@ -302,9 +302,9 @@ fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
             _ => Ground::Point(pair()?),
         }),
         Keyword::Mark => match values.first()? {
-            ArgumentValue::Colour([r, g, b, _], written) => Value::Mark(Mark {
+            ArgumentValue::Color([r, g, b, _], written) => Value::Mark(Mark {
                 word: written.clone(),
-                colour: [*r, *g, *b],
+                color: [*r, *g, *b],
             }),
             _ => return None,
         },
@@ -353,7 +353,7 @@ fn performance(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Perfor
     let (ArgumentValue::Text(file), others) = values.split_first()? else {
         return None;
     };
-    let emphasised = others.iter().find_map(|value| match value {
+    let emphasized = others.iter().find_map(|value| match value {
         ArgumentValue::Text(mark) => Some(mark.clone()),
         _ => None,
     });
@@ -376,7 +376,7 @@ fn performance(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Perfor
             emphasis: !has_flag(attribute, 'e'),
             camerawork,
         },
-        emphasised,
+        emphasized,
         keys: <[usize; 2]>::try_from(keys).ok(),
     })
 }
@@ -438,7 +438,7 @@ fn signed_axis(word: &str) -> Option<SignedAxis> {
 fn print(value: &ArgumentValue) -> String {
     match value {
         ArgumentValue::Number(number) => format!("{number}"),
-        ArgumentValue::Word(word) | ArgumentValue::Colour(_, word) => word.clone(),
+        ArgumentValue::Word(word) | ArgumentValue::Color(_, word) => word.clone(),
         ArgumentValue::Text(text) | ArgumentValue::Name(text) => format!("\"{text}\""),
     }
 }

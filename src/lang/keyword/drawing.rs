@@ -3,7 +3,7 @@
 use super::signature::{Bounds, Form, POINT, Parameter, Takes, number};
 use super::{Row, vocabulary};
 
-static CENTIMETRES: [Parameter; 1] = [number(
+static CENTIMETERS: [Parameter; 1] = [number(
     "s",
     Bounds::POSITIVE,
     "centimetres per drawing unit",
@@ -50,7 +50,7 @@ static STROKES_WORD: [Parameter; 1] = [Parameter {
 }];
 
 pub(super) static SCALE: Row = Row {
-    forms: &[Form::new(&CENTIMETRES, &[1])],
+    forms: &[Form::new(&CENTIMETERS, &[1])],
     default: "1",
     summary: "the size of the model: one drawing unit is `s` centimetres",
     long: "With `Scale 1`, a figure that is 170 units high in the drawing becomes 1.7 metres high. \

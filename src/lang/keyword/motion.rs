@@ -45,7 +45,7 @@ static CARRY_WORD: [Parameter; 1] = [Parameter {
 static MARK_NAME: [Parameter; 1] = [Parameter {
     name: "colour",
     summary: "the CSS name of the mark's colour",
-    takes: Takes::ColourName,
+    takes: Takes::ColorName,
 }];
 static MARK_HEX: [Parameter; 1] = [Parameter {
     name: "hex",

@@ -1,7 +1,7 @@
 //! Rows of the table: the shape, position and material of a part.
 
 use super::signature::{
-    Bounds, COLOUR_NAME, DISTANCE, FILE, Form, HEX, POINT, Parameter, Restriction, Takes, number,
+    Bounds, COLOR_NAME, DISTANCE, FILE, Form, HEX, POINT, Parameter, Restriction, Takes, number,
 };
 use super::{Flag, Row, vocabulary};
 
@@ -56,7 +56,7 @@ pub(super) static COLOR: Row = Row {
     forms: &[
         Form::new(&RGBA, &[3, 4]),
         Form::new(&HEX, &[1]),
-        Form::new(&COLOUR_NAME, &[1]),
+        Form::new(&COLOR_NAME, &[1]),
     ],
     default: "the shape's own fill",
     summary: "the part's colour",

@@ -32,7 +32,7 @@ pub enum Takes {
     /// `#rgb`, `#rrggbb`, `#rrggbbaa`
     Hex,
     /// A CSS colour name.
-    ColourName,
+    ColorName,
     /// A kind of `Shape`; the kind's own parameters follow.
     Kind,
     /// `+x` and the like.
@@ -137,7 +137,7 @@ impl Takes {
                 format!("one of {}", names.join(", "))
             }
             Self::Hex => "a colour as `#rrggbb`".to_owned(),
-            Self::ColourName => "a CSS colour name, `orange` for example".to_owned(),
+            Self::ColorName => "a CSS colour name, `orange` for example".to_owned(),
             Self::Kind => "a kind of shape, `roundv` for example".to_owned(),
             Self::SignedAxis => "one of `+x`, `-x`, `+y`, `-y`, `+z`, `-z`".to_owned(),
             Self::File => "a file name in quotes".to_owned(),
@@ -222,10 +222,10 @@ pub(super) static HEX: [Parameter; 1] = [Parameter {
     takes: Takes::Hex,
 }];
 /// A colour by name.
-pub(super) static COLOUR_NAME: [Parameter; 1] = [Parameter {
+pub(super) static COLOR_NAME: [Parameter; 1] = [Parameter {
     name: "colour",
     summary: "the colour's CSS name",
-    takes: Takes::ColourName,
+    takes: Takes::ColorName,
 }];
 /// A list of names.
 pub(super) static NAMES: [Parameter; 1] = [Parameter {

@@ -1,6 +1,6 @@
 //! The words that are not keywords: arguments that are one of a few words, functions, kinds of string.
 
-use super::{colours, kinds};
+use super::{colors, kinds};
 use crate::lang::ast::Function;
 
 /// A word that an attribute takes as an argument.
@@ -294,7 +294,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
 
 /// Whether `word` has a meaning in any attribute, colour names included.
 pub fn is_known(word: &str) -> bool {
-    all().any(|known| known.eq_ignore_ascii_case(word)) || colours::is_colour(word)
+    all().any(|known| known.eq_ignore_ascii_case(word)) || colors::is_color(word)
 }
 
 #[cfg(test)]

@@ -134,15 +134,16 @@ impl Parser<'_> {
             let message = format!("`{sign}` is not allowed here");
             let diagnostic = Diagnostic::new(Code::UnexpectedSign, span, message);
             let doubled = self.normalized.as_str()[..at].ends_with(sign);
-            let diagnostic = match doubled {
-                true => diagnostic
+            let diagnostic = if doubled {
+                diagnostic
                     .label("the sign was typed twice")
                     .fix("Delete the second sign", span, "")
-                    .safe(),
-                false => diagnostic.label("a new string seems to begin here").help(
+                    .safe()
+            } else {
+                diagnostic.label("a new string seems to begin here").help(
                     "two strings seem to have been typed into one text: cut the second one out and \
                      paste it into a text of its own",
-                ),
+                )
             };
             self.report(diagnostic);
         }

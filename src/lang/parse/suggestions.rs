@@ -7,7 +7,7 @@ use super::names::shorten;
 use crate::diagnostic::{Code, Diagnostic, has_one_near_word};
 use crate::lang::ast::{Argument, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
-use crate::lang::keyword::{Keyword, colours, kinds, vocabulary};
+use crate::lang::keyword::{Keyword, colors, kinds, vocabulary};
 use crate::source::{Span, Text};
 
 /// Whether `word`, found while looking for the next attribute, is a misspelled keyword.
@@ -46,9 +46,10 @@ pub(in crate::lang) fn unknown_keyword(
         let name = keyword.name();
         let diagnostic = write(diagnostic.label(format!("did you mean `{name}`?")), name);
         let names = Keyword::ALL.iter().map(|keyword| keyword.name());
-        return match has_one_near_word(found, names) {
-            true => diagnostic.safe(),
-            false => diagnostic,
+        return if has_one_near_word(found, names) {
+            diagnostic.safe()
+        } else {
+            diagnostic
         };
     }
     match owner {
@@ -77,7 +78,7 @@ fn owner_of(word: &str) -> Option<Keyword> {
             Takes::Choice(words) => words
                 .iter()
                 .any(|known| known.name.eq_ignore_ascii_case(word)),
-            Takes::ColourName => colours::is_colour(word),
+            Takes::ColorName => colors::is_color(word),
             _ => false,
         })
     };
@@ -138,9 +139,10 @@ pub(super) fn malformed(
             .help("use the straight quotation mark `\"`");
         let inner = run.trim_matches(['“', '”', '„', '«', '»', '‘', '’']);
         let closed = run.ends_with(['“', '”', '«', '»', '‘', '’']) && !inner.is_empty();
-        return match closed {
-            true => location.write(diagnostic, &format!("\"{inner}\"")).safe(),
-            false => diagnostic,
+        return if closed {
+            location.write(diagnostic, &format!("\"{inner}\"")).safe()
+        } else {
+            diagnostic
         };
     }
     let ascii = run.replace(['−', '–', '—', '‐', '‑', 'ー'], "-");
@@ -209,9 +211,10 @@ fn commas(location: &Location<'_>, run: &str, shown: &str) -> Diagnostic {
     match parts.as_slice() {
         [whole, decimals] if numbers && decimals.bytes().all(|b| b.is_ascii_digit()) => {
             let decimal = format!("{whole}.{decimals}");
-            let diagnostic = match lexical::is(&decimal, lexical::number) {
-                true => location.write(diagnostic, &decimal),
-                false => diagnostic,
+            let diagnostic = if lexical::is(&decimal, lexical::number) {
+                location.write(diagnostic, &decimal)
+            } else {
+                diagnostic
             };
             location.write(diagnostic, &format!("{whole} {decimals}"))
         }

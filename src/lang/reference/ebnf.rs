@@ -101,7 +101,7 @@ fn term(parameter: &Parameter) -> String {
             format!("( {} )", words.join(" | "))
         }
         Takes::Hex => "hex".to_owned(),
-        Takes::ColourName | Takes::Variable => "word".to_owned(),
+        Takes::ColorName | Takes::Variable => "word".to_owned(),
         Takes::Kind => "kind".to_owned(),
         Takes::SignedAxis => "( \"+\" | \"-\" ) ( \"x\" | \"y\" | \"z\" )".to_owned(),
         Takes::File | Takes::Text => "( word | quoted )".to_owned(),

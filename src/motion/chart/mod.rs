@@ -378,9 +378,10 @@ fn legend(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
     }
     if !chart.held.is_empty() {
         // If frames are too narrow for marks, only the exposure sheet shows holds.
-        let mark = match scale.wide >= MIN_MARK_WIDTH {
-            true => dot(6.5, HELD) + &dot(3.5, "#ffffff"),
-            false => format!(r#"<path d="M2 -6h12v12h-12Z" fill="{SHOWN}"/>"#),
+        let mark = if scale.wide >= MIN_MARK_WIDTH {
+            dot(6.5, HELD) + &dot(3.5, "#ffffff")
+        } else {
+            format!(r#"<path d="M2 -6h12v12h-12Z" fill="{SHOWN}"/>"#)
         };
         entry(&mark, format!("{} held", chart.held.len()));
     }

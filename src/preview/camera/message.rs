@@ -52,6 +52,7 @@ pub(super) enum ToCamera {
 #[derive(Debug, Serialize, PartialEq)]
 pub(super) struct MarkFacts {
     pub(super) name: String,
-    /// As `#rrggbb`.
-    pub(super) colour: String,
+    /// As `#rrggbb`; the key is that of track files.
+    #[serde(rename = "colour")]
+    pub(super) color: String,
 }

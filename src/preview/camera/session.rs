@@ -30,7 +30,7 @@ pub(super) enum Refusal {
     #[error("there is no picture yet")]
     NoPicture,
     #[error("there is no colour: choose a coloured mark, not a grey, black or white one")]
-    Grey,
+    Gray,
     #[error("the mark is too small: bring it nearer to the camera")]
     Small,
     #[error("there are {MAX_MARKS} marks already")]
@@ -197,7 +197,7 @@ impl Session {
         let frame = picture.frame().ok_or(Refusal::NoPicture)?;
         let size = DVec2::from_array(picture.size.map(f64::from));
         let at = at.clamp(DVec2::ZERO, size - 1.0);
-        let mark = Mark::picked("", frame, at).map_err(|_| Refusal::Grey)?;
+        let mark = Mark::picked("", frame, at).map_err(|_| Refusal::Gray)?;
         let is_same = |other: &Mark| {
             let difference = (mark.hue() - other.hue() + 180.0).rem_euclid(360.0) - 180.0;
             difference.abs() < SAME_HUE
@@ -212,7 +212,7 @@ impl Session {
             Some(same) => same.name().to_owned(),
             None => self.unused_name(hue_name(mark.hue())),
         };
-        let mark = Mark::new(name, mark.colour()).map_err(|_| Refusal::Grey)?;
+        let mark = Mark::new(name, mark.color()).map_err(|_| Refusal::Gray)?;
         match self.marks.get_mut(index) {
             Some(same) => {
                 *same = mark;
@@ -241,13 +241,13 @@ impl Session {
     }
 
     fn rename(&mut self, mark: usize, name: String) -> Result<Vec<ToCamera>, Refusal> {
-        let colour = self.marks.get(mark).ok_or(Refusal::NoMark)?.colour();
+        let color = self.marks.get(mark).ok_or(Refusal::NoMark)?.color();
         let mut others = self.marks.iter().enumerate();
         let is_taken = others.any(|(other, taken)| other != mark && taken.name() == name);
         if is_taken || !is_name(&name) {
             return Err(Refusal::Name);
         }
-        self.marks[mark] = Mark::new(name.clone(), colour).map_err(|_| Refusal::Grey)?;
+        self.marks[mark] = Mark::new(name.clone(), color).map_err(|_| Refusal::Gray)?;
         let mut answers = vec![self.facts()];
         if let Some(track) = &mut self.track
             && let Some(mark) = track.marks.get_mut(MarkId::from(mark))
@@ -302,7 +302,7 @@ impl Session {
     fn facts(&self) -> ToCamera {
         let facts = |mark: &Mark| MarkFacts {
             name: mark.name().to_owned(),
-            colour: hex(mark.colour()),
+            color: hex(mark.color()),
         };
         ToCamera::Marks {
             marks: self.marks.iter().map(facts).collect(),

@@ -109,14 +109,14 @@ fn applied(before: &[u8], delta: &[u8]) -> Vec<Node> {
 /// A figure whose parts hang on the first one.
 fn drawing(parts: &[(u32, u32, usize, usize)]) -> String {
     const KINDS: [&str; 4] = ["default -9 9", "roundv", "flat", "conev -8 8 0.5"];
-    const COLOURS: [&str; 3] = ["#c83737", "#2a7fff", "#37c871"];
-    let shapes = parts.iter().enumerate().map(|(at, (x, width, kind, colour))| {
+    const COLORS: [&str; 3] = ["#c83737", "#2a7fff", "#37c871"];
+    let shapes = parts.iter().enumerate().map(|(at, (x, width, kind, color))| {
         let y = 40 * at;
         let (x, width) = (x + 10, width + 10);
         let parent = if at > 0 { "@P0" } else { "" };
         format!(
             r#"<rect id="p{at}" x="{x}" y="{y}" width="{width}" height="20" fill="{}"/><text x="{}" y="{}" font-size="3">P{at}{parent}$Shape {}</text>"#,
-            COLOURS[colour % 3], x + 2, y + 10, KINDS[kind % 4],
+            COLORS[color % 3], x + 2, y + 10, KINDS[kind % 4],
         )
     });
     let shapes: String = shapes.collect();
@@ -124,7 +124,7 @@ fn drawing(parts: &[(u32, u32, usize, usize)]) -> String {
 }
 
 #[test]
-fn a_changed_colour_is_one_mesh() {
+fn a_changed_color_is_one_mesh() {
     let before = glb(&drawing(&[(0, 30, 0, 0), (9, 20, 1, 1), (3, 20, 0, 0)]));
     let after = glb(&drawing(&[(0, 30, 0, 0), (9, 20, 1, 2), (3, 20, 0, 0)]));
     let delta = delta(&before, &after, 7).expect("a delta");
@@ -158,8 +158,8 @@ proptest! {
         edits in prop::collection::vec((0..5_usize, 0..60_u32, 0..60_u32, 0..4_usize, 0..3_usize), 0..4),
     ) {
         let mut after = before.clone();
-        for (at, x, width, kind, colour) in edits {
-            after[at] = (x, width, kind, colour);
+        for (at, x, width, kind, color) in edits {
+            after[at] = (x, width, kind, color);
         }
         let [before, after] = [glb(&drawing(&before)), glb(&drawing(&after))];
         let delta = delta(&before, &after, 7).expect("a delta");

@@ -7,8 +7,8 @@ const BLUE: [u8; 4] = [0, 0, 255, 255];
 /// A unit cube at the origin that extends to the right, up and to the front, with a colour for each face: top red, front green,
 /// right side blue.
 fn cube() -> [Shape; 3] {
-    let face = |corners: [[f32; 3]; 4], colour: [u8; 4]| {
-        let [r, g, b] = [0, 1, 2].map(|channel| f32::from(colour[channel]) / 255.0);
+    let face = |corners: [[f32; 3]; 4], color: [u8; 4]| {
+        let [r, g, b] = [0, 1, 2].map(|channel| f32::from(color[channel]) / 255.0);
         let mut shape = shape(
             corners.map(Vec3::from).to_vec(),
             vec![[0, 1, 2], [0, 2, 3]],
@@ -47,9 +47,9 @@ fn seen_from(yaw: f64, pitch: f64, bend: bool) -> Options {
 
 /// Width and height in pixels of the coloured area, which must fill its bounding box except for the corners.
 #[track_caller]
-fn sides(image: &Image, colour: [u8; 4]) -> [u32; 2] {
+fn sides(image: &Image, color: [u8; 4]) -> [u32; 2] {
     let alike = |pixel: &image::Rgba<u8>| {
-        (0..4).all(|channel| pixel.0[channel].abs_diff(colour[channel]) < 100)
+        (0..4).all(|channel| pixel.0[channel].abs_diff(color[channel]) < 100)
     };
     let places: Vec<[u32; 2]> = image
         .enumerate_pixels()
@@ -252,7 +252,7 @@ fn children_of_a_bent_node_bend_with_it_once() {
 }
 
 #[test]
-fn visible_surfaces_have_their_base_colour_without_light() {
+fn visible_surfaces_have_their_base_color_without_light() {
     let mut shape = square(Vec3::ZERO, 1.0, plain(0.5, 0.25, 1.0, 1.0));
     shape.more.push((
         "COLOR_0",

@@ -173,9 +173,10 @@ fn a_moving_camera_moves_the_picture() {
 fn pictures_are_equal_if_the_camera_is_too() {
     let count = |model: &Model, is_filmed: bool| {
         let film = Film::new(model, &model.clips()[0], [0.0, 3.0]).unwrap();
-        let film = match is_filmed {
-            true => film.filmed_by(&model.cameras()[0]).unwrap(),
-            false => film,
+        let film = if is_filmed {
+            film.filmed_by(&model.cameras()[0]).unwrap()
+        } else {
+            film
         };
         film.held_frames(24).unwrap().len()
     };
@@ -294,11 +295,11 @@ fn lines_show_how_far_a_moving_camera_goes() {
         let film = Film::new(&model, &model.clips()[0], [0.0, 3.0]).unwrap();
         let film = film.filmed_by(&model.cameras()[0]).unwrap();
         let image = frames(&film, &[1.0]).remove(0);
-        let grey = image.pixels().filter(|pixel| {
+        let gray = image.pixels().filter(|pixel| {
             let [r, g, b, alpha] = pixel.0;
             r == g && g == b && (90..=150).contains(&r) && alpha > 5
         });
-        grey.count()
+        gray.count()
     };
     assert!(lines(true) > 20, "{}", lines(true));
     assert_eq!(lines(false), 0);
@@ -311,7 +312,7 @@ fn only_what_is_between_the_planes_is_shown() {
         square(Vec3::ZERO, 0.5, unlit(1.0, 0.0, 0.0, 1.0)),
         square(Vec3::Z * -3.0, 2.0, unlit(0.0, 1.0, 0.0, 1.0)),
     ];
-    let colours = |lens: Value| {
+    let colors = |lens: Value| {
         let node = json!({ "translation": [0, 0, 4] });
         let model = model(&with_camera(&shapes, node, lens));
         let posed = PosedModel::new(&model, &model.rest()).unwrap();
@@ -334,10 +335,10 @@ fn only_what_is_between_the_planes_is_shown() {
         far.inspect(|far| lens["perspective"]["zfar"] = (*far).into());
         lens
     };
-    assert_eq!(colours(lens(0.1, None)), [blue, blue]);
-    assert_eq!(colours(lens(2.0, None)), [red, green]);
-    assert_eq!(colours(lens(2.0, Some(5.0))), [red, [0; 3]]);
-    assert_eq!(colours(orthographic(1.2)), [blue, green]);
+    assert_eq!(colors(lens(0.1, None)), [blue, blue]);
+    assert_eq!(colors(lens(2.0, None)), [red, green]);
+    assert_eq!(colors(lens(2.0, Some(5.0))), [red, [0; 3]]);
+    assert_eq!(colors(orthographic(1.2)), [blue, green]);
 }
 
 #[test]

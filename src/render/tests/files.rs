@@ -36,7 +36,7 @@ fn texture_coordinates_are_applied() {
 }
 
 #[test]
-fn corners_colours_and_sides() {
+fn corners_colors_and_sides() {
     let mut shape = square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0));
     shape.more.push((
         "COLOR_0",

@@ -324,11 +324,11 @@ fn the_ground_stays_in_the_world_while_the_camera_moves() {
         ..options
     };
     let image = &drawn(&film, &unlit, &[0.3])[0];
-    let grey = |pixel: &&image::Rgba<u8>| {
+    let gray = |pixel: &&image::Rgba<u8>| {
         let [r, g, b, alpha] = pixel.0;
         r == g && g == b && (90..=150).contains(&r) && alpha > 20
     };
-    assert!(image.pixels().filter(grey).count() > 200);
+    assert!(image.pixels().filter(gray).count() > 200);
 }
 
 #[test]

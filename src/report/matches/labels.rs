@@ -118,11 +118,12 @@ impl Labels {
             return middles;
         }
         let mut room = vec![0.0_f32; self.shown.len()];
-        let step = |room: &[f32], at: usize, other: usize, length: f32| match self.shown[other]
-            == self.shown[at]
-        {
-            true => room[other] + length,
-            false => length / 2.0,
+        let step = |room: &[f32], at: usize, other: usize, length: f32| {
+            if self.shown[other] == self.shown[at] {
+                room[other] + length
+            } else {
+                length / 2.0
+            }
         };
         for row in 1..height {
             for column in 1..width - 1 {

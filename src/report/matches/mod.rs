@@ -3,7 +3,7 @@
 //! Each character is a row, and each of its views a drawing in it. Regions that are a pair have one colour and one number in all
 //! views; regions without a partner are grey with stripes.
 
-mod colours;
+mod colors;
 mod digits;
 mod labels;
 
@@ -166,7 +166,7 @@ impl Cell<'_> {
             };
             let mut paint = Paint::default();
             if self.is_matched(*track) {
-                paint.set_color(color(colours::numbered((*track).into())));
+                paint.set_color(color(colors::numbered((*track).into())));
             } else {
                 let quality = FilterQuality::Nearest;
                 let still = Transform::identity();

@@ -11,7 +11,7 @@ use glam::DVec3;
 
 use crate::labels::Figure;
 use crate::labels::{
-    Anatomy, Carry, Class, Facing, Label, LabelledFigure, Limb, Piece, Side, Tip, label_drawn,
+    Anatomy, Carry, Class, Facing, Label, LabeledFigure, Limb, Piece, Side, Tip, label_drawn,
 };
 use crate::mocap::{Skeleton, Transform};
 pub use elbows::bent_arms;
@@ -153,7 +153,7 @@ pub enum Problem {
 /// pieces are spread over the spine, the topmost on the chest. Hips follow the hips. Splayed limbs keep their drawn pose and
 /// follow only the change, unless `Carry` says otherwise. `anatomy` belongs to the skeleton.
 pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
-    let LabelledFigure {
+    let LabeledFigure {
         labels,
         splayed,
         facing,

@@ -119,7 +119,7 @@ impl Discs {
     }
 
     /// The largest disc that touches the border at `foot`. That of a neighbour shows about how large it can be.
-    pub(super) fn disc(&self, foot: DVec2, inward: DVec2, neighbour: Disc) -> Disc {
+    pub(super) fn disc(&self, foot: DVec2, inward: DVec2, neighbor: Disc) -> Disc {
         // The disc through a point of the border is an upper limit.
         let through = |point: DVec2| {
             let to = point - foot;
@@ -129,10 +129,10 @@ impl Discs {
             radius: self.reach,
             opposite: None,
         };
-        if let Some(opposite) = neighbour.opposite {
+        if let Some(opposite) = neighbor.opposite {
             let radius = through(opposite);
             // Near the foot, flattening shrinks the disc.
-            let is_far = opposite.distance(foot) > neighbour.radius;
+            let is_far = opposite.distance(foot) > neighbor.radius;
             if is_far && radius > 0.0 && radius < disc.radius {
                 disc = Disc {
                     radius,

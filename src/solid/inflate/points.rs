@@ -109,7 +109,7 @@ fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: 
         if turn > CONVEX {
             continue;
         }
-        let neighbour = corners[(i + n - 1) % n];
+        let neighbor = corners[(i + n - 1) % n];
         let crowded = ring[i].distance(last) < LEAST_ALONG * apart;
         let count = if turn < -FAN {
             (-turn / FAN).ceil() as usize
@@ -117,7 +117,7 @@ fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: 
             0
         };
         if crowded && count == 0 {
-            corners[i] = neighbour;
+            corners[i] = neighbor;
             continue;
         }
         for k in 0..=count {
@@ -127,7 +127,7 @@ fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: 
                 k as f64 / count as f64
             };
             let inward = DVec2::from_angle(turn * part).rotate(before).perp();
-            let disc = discs.disc(ring[i], inward, neighbour);
+            let disc = discs.disc(ring[i], inward, neighbor);
             if disc.radius > corners[i].radius {
                 corners[i] = disc;
             }

@@ -21,9 +21,12 @@ impl Sides {
         let mesh = &field.mesh;
         let count = mesh.points.len();
         let least = MIN_HEIGHT * middle.abs();
-        let height = |i: usize| match mesh.on_border[i] {
-            true => 0.0,
-            false => field.heights[i].max(least),
+        let height = |i: usize| {
+            if mesh.on_border[i] {
+                0.0
+            } else {
+                field.heights[i].max(least)
+            }
         };
         let mut points = Vec::with_capacity(2 * count);
         let front = mesh.points.iter().enumerate();

@@ -55,22 +55,22 @@ impl Field {
         let tolerance = target.lay.tolerance();
         // Skins of plates and lines have no heights of their own.
         let is_round = target.lay.form != LayForm::Ink && target.lay.bulge > 0.0;
-        let mut all = match is_round {
-            true => points(outline, target.lay.segments.unwrap_or(steps)),
-            false => Points {
+        let mut all = if is_round {
+            points(outline, target.lay.segments.unwrap_or(steps))
+        } else {
+            Points {
                 points: Vec::new(),
                 edges: Vec::new(),
-            },
+            }
         };
         if !target.is_lifting(&all.points) {
             return None;
         }
-        let rings = match is_round {
-            true => rings(&all),
-            false => {
-                let polygons = outline.polygons.iter();
-                polygons.flat_map(|polygon| polygon.rings.clone()).collect()
-            }
+        let rings = if is_round {
+            rings(&all)
+        } else {
+            let polygons = outline.polygons.iter();
+            polygons.flat_map(|polygon| polygon.rings.clone()).collect()
         };
         let inner = all.points.split_off(all.edges.len());
         let mut all = border(&rings, target, tolerance);

@@ -384,9 +384,10 @@ impl Pile {
         let placement = &mut solid.options.placement;
         placement.translation.z = (body.depth - body.node_depth) / placement.scale;
         solid.texture = None;
-        let field = match self.carries[index] {
-            true => self.recent.solid_field(self.solids[index], &body.solid),
-            false => None,
+        let field = if self.carries[index] {
+            self.recent.solid_field(self.solids[index], &body.solid)
+        } else {
+            None
         };
         let surface = field.and_then(|field| solid.surface_of(&field));
         surface.unwrap_or_else(|| solid.surface())

@@ -54,20 +54,21 @@ pub(super) fn empty(
     let group = bindings.layers[layer].group;
     let element = &drawing.groups[group].element;
     let name = &bindings.layers[layer].name;
-    let (message, help) = match holds {
-        true => (
+    let (message, help) = if holds {
+        (
             format!(
                 "the tile layer `{name}` has no tiles: no shape covers the centre of a cell, or legends set `none` for all that do"
             ),
             "write the size that the tiles are drawn with, so that each covers the centre of a cell",
-        ),
-        false => (
+        )
+    } else {
+        (
             format!(
                 "the tile layer `{name}` has no tiles: nothing is painted in {}",
                 drawing.describe_group(group)
             ),
             "put the string into the group or layer that contains the tiles",
-        ),
+        )
     };
     Diagnostic::new(Code::NoTiles, size_span(bindings, layer), message)
         .related(element.span, "the group")

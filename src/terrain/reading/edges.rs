@@ -78,15 +78,14 @@ impl Sides {
         let last = (right + NEAR).floor().min(columns - 1.0);
         let mut line = first;
         while line <= last {
-            let span = match slope == 0.0 {
-                true => [low, high],
-                false => {
-                    let ends = [line - NEAR, line + NEAR].map(|x| from.y + (x - from.x) / slope);
-                    [
-                        ends[0].min(ends[1]).max(low),
-                        ends[0].max(ends[1]).min(high),
-                    ]
-                }
+            let span = if slope == 0.0 {
+                [low, high]
+            } else {
+                let ends = [line - NEAR, line + NEAR].map(|x| from.y + (x - from.x) / slope);
+                [
+                    ends[0].min(ends[1]).max(low),
+                    ends[0].max(ends[1]).min(high),
+                ]
             };
             self.cover(line as usize - 1, span);
             line += 1.0;
@@ -105,9 +104,10 @@ impl Sides {
             let end = past.min((row + 1) * PLACES as usize);
             let (low, high) = (at % PLACES as usize, end - row * PLACES as usize);
             let bits = (((1_u32 << high) - 1) & !((1_u32 << low) - 1)) as u16;
-            let cell = match self.swapped {
-                true => column * rows + row,
-                false => row * columns + column,
+            let cell = if self.swapped {
+                column * rows + row
+            } else {
+                row * columns + column
             };
             self.covered[cell] |= bits;
             at = end;

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::colours;
+use super::colors;
 use super::raster::{Code, paint_of, pixel_of};
 use crate::bind::{Bindings, MaterialFactors, StringId};
 use crate::source::Span;
@@ -127,7 +127,7 @@ impl<'a> Paints<'a> {
         let attributes = self.bindings.tile_attributes(self.layer, legend);
         let tile = match attributes.tile() {
             Some(word) => Some(tile(word)),
-            None => colours::kind(color),
+            None => colors::kind(color),
         };
         Meaning {
             tile,

@@ -4,7 +4,7 @@
 //! runs along their common side.
 
 mod classify;
-mod colours;
+mod colors;
 mod content;
 mod diagnostics;
 mod edges;

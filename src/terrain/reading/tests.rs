@@ -100,7 +100,7 @@ fn squares_rectangles_and_free_shapes_are_tiles() {
 }
 
 #[test]
-fn materials_have_the_colours_that_are_drawn() {
+fn materials_have_the_colors_that_are_drawn() {
     let layer = only(&island(&format!(
         "{}{}{}",
         rect(0.0, 0.0, 20.0, 10.0, GREEN),
@@ -167,7 +167,7 @@ fn unused_legends_are_reported() {
 }
 
 #[test]
-fn unclear_colours_are_errors_that_name_cells() {
+fn unclear_colors_are_errors_that_name_cells() {
     let (layers, told) = read_svg(&island(&format!(
         "{}{}{}",
         rect(0.0, 0.0, 20.0, 10.0, GREEN),
@@ -305,7 +305,7 @@ fn pictures_that_are_drawings_are_read_too() {
 }
 
 #[test]
-fn pictures_of_many_colours_have_a_material_for_each_kind() {
+fn pictures_of_many_colors_have_a_material_for_each_kind() {
     let near = |base: &str, x: u32| {
         let [r, g, b, _] = rgba(base);
         [

@@ -39,17 +39,19 @@ impl Lines {
 
     /// The next line after one on an axis.
     fn after(&self, axis: usize, at: i32) -> i32 {
-        match axis == UP && at % 2 == 0 && !self.undersides.contains(&(at + 1)) {
-            true => at + 2,
-            false => at + 1,
+        if axis == UP && at % 2 == 0 && !self.undersides.contains(&(at + 1)) {
+            at + 2
+        } else {
+            at + 1
         }
     }
 
     /// The last line before one on an axis.
     fn before(&self, axis: usize, at: i32) -> i32 {
-        match axis == UP && at % 2 == 0 && !self.undersides.contains(&(at - 1)) {
-            true => at - 2,
-            false => at - 1,
+        if axis == UP && at % 2 == 0 && !self.undersides.contains(&(at - 1)) {
+            at - 2
+        } else {
+            at - 1
         }
     }
 
@@ -445,9 +447,10 @@ fn runs_forward((facing, square): (Facing, Point), start: Point, axis: usize) ->
 /// The columns that strips and patches of a stripe begin in.
 pub(super) fn columns(stripe: usize, stripes: usize) -> std::ops::Range<i32> {
     let start = (stripe * STRIPE) as i32;
-    let end = match stripe + 1 == stripes {
-        true => i32::MAX,
-        false => start + STRIPE as i32,
+    let end = if stripe + 1 == stripes {
+        i32::MAX
+    } else {
+        start + STRIPE as i32
     };
     start..end
 }

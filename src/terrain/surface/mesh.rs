@@ -73,7 +73,7 @@ impl Mesh {
             let [a, b] = [sides[0][0], sides[2][0]].map(steps::place);
             let middle = [0, 1, 2].map(|axis| (a[axis] + b[axis]) / 2.0);
             let surface = &mut self.materials[usize::from(material)].surface;
-            let centre = push_corner(
+            let center = push_corner(
                 surface,
                 self.middle,
                 facing.normal(),
@@ -85,7 +85,7 @@ impl Mesh {
             let fan = ring
                 .iter()
                 .zip(next)
-                .map(|(one, other)| [centre, *one, *other]);
+                .map(|(one, other)| [center, *one, *other]);
             surface.triangles.extend(fan);
         }
     }
@@ -158,14 +158,15 @@ impl Mesh {
         let middle = sum(&|at| ring[at].0).map(|value| value / ring.len() as f64);
         let normal = sum(&|at| ring[at].1.normal().map(f64::from));
         let length = normal.iter().map(|value| value * value).sum::<f64>().sqrt();
-        let normal = match length > 1e-6 {
-            true => normal.map(|value| (value / length) as f32),
-            false => facing.normal(),
+        let normal = if length > 1e-6 {
+            normal.map(|value| (value / length) as f32)
+        } else {
+            facing.normal()
         };
-        let centre = add(middle, normal);
+        let center = add(middle, normal);
         let next = ids.iter().cycle().skip(1);
         for (one, other) in ids.iter().zip(next) {
-            push_triangle(surface, [centre, *one, *other]);
+            push_triangle(surface, [center, *one, *other]);
         }
     }
 
@@ -197,9 +198,10 @@ fn halves(surface: &Surface, [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
         areas[0].min(areas[1])
     };
     let [usual, other] = [[[a, b, c], [a, c, d]], [[a, b, d], [b, c, d]]];
-    match least(&usual) < 0.0 && least(&other) > least(&usual) {
-        true => other,
-        false => usual,
+    if least(&usual) < 0.0 && least(&other) > least(&usual) {
+        other
+    } else {
+        usual
     }
 }
 

@@ -45,9 +45,10 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
         .flat_map(|house| roofs::eaves(house))
         .collect();
     let gables = roofs::gables(&houses, &rects, factor);
-    let (lines, mut squares) = match radius > 0.0 {
-        true => (Lines::new(rects.iter().flatten()), vec![vec![]; stripes]),
-        false => (Lines::default(), vec![]),
+    let (lines, mut squares) = if radius > 0.0 {
+        (Lines::new(rects.iter().flatten()), vec![vec![]; stripes])
+    } else {
+        (Lines::default(), vec![])
     };
     for (squares, rects) in squares.iter_mut().zip(&mut rects) {
         let mut rest = vec![];

@@ -130,9 +130,10 @@ pub(super) fn roof(
     let [near_left, near_right, far_right, far_left] = eaves(house);
     let inset = gables.map(|gable| if gable == Gable::Touched { HIP } else { 0.0 });
     let ridge = |x: i32| {
-        let x = match x == house.roof.start {
-            true => f64::from(x) + inset[0],
-            false => f64::from(x) - inset[1],
+        let x = if x == house.roof.start {
+            f64::from(x) + inset[0]
+        } else {
+            f64::from(x) - inset[1]
         };
         [x, y + rise, middle]
     };
@@ -175,9 +176,10 @@ pub(super) fn roof(
         }
         let length = rise.hypot(inset[end]);
         // Of a roof without height, a gable has no area.
-        let [out, up] = match length > 0.0 {
-            true => [out * rise / length, inset[end] / length],
-            false => [out, 0.0],
+        let [out, up] = if length > 0.0 {
+            [out * rise / length, inset[end] / length]
+        } else {
+            [out, 0.0]
         };
         let normal = [out as f32, up as f32, 0.0];
         let wall = house.materials[1];

@@ -101,12 +101,11 @@ impl Drawing {
             counts[index].2 += either;
         };
         for (drawn, painted) in colors(&self.hard).zip(colors(&painted)) {
-            match is_near(drawn, painted) {
-                true => count(drawn, 1, 1),
-                false => {
-                    count(drawn, 0, 1);
-                    count(painted, 0, 1);
-                }
+            if is_near(drawn, painted) {
+                count(drawn, 1, 1)
+            } else {
+                count(drawn, 0, 1);
+                count(painted, 0, 1);
             }
         }
         assert!(counts.len() > 1);

@@ -346,9 +346,10 @@ fn nearest(tree: &RTree<Member>, point: DVec2, count: usize) -> Vec<(usize, f64)
 /// The cost of a distance in font sizes: the distance itself, but what is far is about equally far, so that a text far from
 /// everything does not displace one that lies on what it means.
 fn cost_of(distance: f64) -> f64 {
-    match distance > NEAR {
-        true => NEAR * (1.0 + (distance / NEAR).ln()),
-        false => distance,
+    if distance > NEAR {
+        NEAR * (1.0 + (distance / NEAR).ln())
+    } else {
+        distance
     }
 }
 

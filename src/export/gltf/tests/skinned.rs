@@ -96,9 +96,12 @@ fn a_skinned_model_stands_and_moves_like_the_other() {
         for exporter in BOTH {
             let [plain, skin] = [&scene, &skinned].map(|scene| bytes(scene, exporter));
             for turned in [usize::MAX, 1] {
-                let pose = |index: usize| match index == turned {
-                    true => glam::Mat4::from_rotation_y(1.0),
-                    false => glam::Mat4::IDENTITY,
+                let pose = |index: usize| {
+                    if index == turned {
+                        glam::Mat4::from_rotation_y(1.0)
+                    } else {
+                        glam::Mat4::IDENTITY
+                    }
                 };
                 let [plain, skin] = [&plain, &skin].map(|bytes| corners(bytes, pose));
                 assert_eq!(plain.len(), skin.len());

@@ -66,16 +66,18 @@ fn hint(
         }
         (true, false) => format!("{what} float in front of {by}, on which they are drawn"),
     };
-    let whose = match given.is_in_legend() {
-        true => "parts with this paint lie".to_owned(),
-        false => format!("{} lies", name(found[0].given)),
+    let whose = if given.is_in_legend() {
+        "parts with this paint lie".to_owned()
+    } else {
+        format!("{} lies", name(found[0].given))
     };
     let mut hint = Diagnostic::new(Code::Buried, span, message).label(format!(
         "this says how deep {whose}, whatever the order of drawing"
     ));
-    let [of_part, of_other] = match floats {
-        true => ["this floats", "it is drawn on this"],
-        false => ["this is hidden", "this hides it"],
+    let [of_part, of_other] = if floats {
+        ["this floats", "it is drawn on this"]
+    } else {
+        ["this is hidden", "this hides it"]
     };
     let place = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
     let parts = found.iter().map(|found| (found.part, of_part));
@@ -87,9 +89,10 @@ fn hint(
         return Some(hint.help("change the depth, or draw in the order in which things lie"));
     };
     hint.fixes.push(Fix {
-        title: match given.is_in_legend() {
-            true => "Take the depth out of the legend".to_owned(),
-            false => format!("Take the depth of {} away", name(found[0].given)),
+        title: if given.is_in_legend() {
+            "Take the depth out of the legend".to_owned()
+        } else {
+            format!("Take the depth of {} away", name(found[0].given))
         },
         edits,
         safe: false,

@@ -165,9 +165,10 @@ impl Search<'_> {
     /// How deep the front of a shape by itself may be at least, drawing units.
     fn lowest(&self, shape: usize) -> f64 {
         let own = &self.arrangement.shapes[shape];
-        let front = match own.is_soft {
-            true => 0.0,
-            false => own.plate[1] + self.layers.raised(own.part)[1],
+        let front = if own.is_soft {
+            0.0
+        } else {
+            own.plate[1] + self.layers.raised(own.part)[1]
         };
         self.arrangement.plane(shape) + front
     }
@@ -332,9 +333,10 @@ impl Search<'_> {
                 .iter()
                 .max_by(|a, b| a.depth.total_cmp(&b.depth));
             if let Some(below) = below {
-                let back = match own.is_soft {
-                    true => own.front(point.at),
-                    false => own.plate[0],
+                let back = if own.is_soft {
+                    own.front(point.at)
+                } else {
+                    own.plate[0]
                 };
                 gaps.push((
                     self.arrangement.plane(shape) - back - below.depth,

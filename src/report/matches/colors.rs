@@ -50,9 +50,10 @@ fn linear([lightness, chroma, hue]: [f64; 3]) -> [f64; 3] {
 
 /// The sRGB value of a linear one, both 0 to 1.
 fn encoded(channel: f64) -> f64 {
-    match channel <= 0.003_130_8 {
-        true => 12.92 * channel,
-        false => 1.055 * channel.powf(1.0 / 2.4) - 0.055,
+    if channel <= 0.003_130_8 {
+        12.92 * channel
+    } else {
+        1.055 * channel.powf(1.0 / 2.4) - 0.055
     }
 }
 
@@ -67,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_are_different_and_none_is_grey() {
+    fn colors_are_different_and_none_is_gray() {
         let colors: Vec<[f64; 3]> = (0..55).map(|number| oklab(numbered(number))).collect();
         for (index, color) in colors.iter().enumerate() {
             let chroma = color[1].hypot(color[2]);

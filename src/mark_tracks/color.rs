@@ -22,10 +22,10 @@ pub fn parse_hex(text: &str) -> Option<[u8; 3]> {
 }
 
 /// The colour with this CSS name, in small or capital letters.
-pub fn named_colour(name: &str) -> Option<[u8; 3]> {
+pub fn named_color(name: &str) -> Option<[u8; 3]> {
     let is_word = name.bytes().all(|byte| byte.is_ascii_alphabetic());
-    let colour = svgtypes::Color::from_str(&name.to_ascii_lowercase()).ok()?;
-    (is_word && colour.alpha == 255).then_some([colour.red, colour.green, colour.blue])
+    let color = svgtypes::Color::from_str(&name.to_ascii_lowercase()).ok()?;
+    (is_word && color.alpha == 255).then_some([color.red, color.green, color.blue])
 }
 
 /// A colour by its hue.

@@ -12,7 +12,7 @@ const FAR: f64 = 0.13;
 /// a cliff.
 const CLEARLY: f64 = 0.6;
 /// Colours of less chroma are grey, which is the colour of no kind.
-const GREY: f64 = 0.02;
+const GRAY: f64 = 0.02;
 
 /// The kind of tile for an sRGB colour: the one with that default colour, or else the one whose default colour is clearly
 /// nearest.
@@ -21,7 +21,7 @@ pub(super) fn kind(color: [u8; 3]) -> Option<Tile> {
         return Some(*tile);
     }
     let lab = oklab(color);
-    if lab[1].hypot(lab[2]) < GREY {
+    if lab[1].hypot(lab[2]) < GRAY {
         return None;
     }
     let mut near = Tile::DRAWN.map(|tile| (distance(lab, oklab(tile.color())), tile));
@@ -45,7 +45,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_that_maps_are_drawn_with_are_clear() {
+    fn colors_that_maps_are_drawn_with_are_clear() {
         let five = Tile::DRAWN.map(Some);
         for map in [
             ["4caf50", "8d6e63", "42a5f5", "e53935", "f5deb3"],
@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_that_could_be_anything_are_not() {
+    fn colors_that_could_be_anything_are_not() {
         for hex in [
             "000000", "404040", "808080", "c0c0c0", "ffffff", "ff00ff", "800080", "ffff00",
             "ffa500", "00ffff", "008080", "a52a2a", "000080", "556b2f",

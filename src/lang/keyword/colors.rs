@@ -2,7 +2,7 @@
 
 /// All CSS colour names.
 #[rustfmt::skip]
-pub static COLOURS: [&str; 148] = [
+pub static COLORS: [&str; 148] = [
     "aliceblue", "antiquewhite", "aqua", "aquamarine", "azure", "beige", "bisque", "black",
     "blanchedalmond", "blue", "blueviolet", "brown", "burlywood", "cadetblue", "chartreuse",
     "chocolate", "coral", "cornflowerblue", "cornsilk", "crimson", "cyan", "darkblue",
@@ -29,12 +29,12 @@ pub static COLOURS: [&str; 148] = [
 ];
 
 /// Whether `word` is a CSS colour name.
-pub fn is_colour(word: &str) -> bool {
-    colour(word).is_some()
+pub fn is_color(word: &str) -> bool {
+    color(word).is_some()
 }
 
 /// The CSS colour called `name`: red, green, blue and alpha, each 0 to 255.
-pub fn colour(name: &str) -> Option<[u8; 4]> {
+pub fn color(name: &str) -> Option<[u8; 4]> {
     use std::str::FromStr as _;
     // CSS colour names consist of letters. Functions such as `rgb()` and `currentColor` are not names.
     if !name.bytes().all(|byte| byte.is_ascii_alphabetic()) || name.len() > 24 {
@@ -47,8 +47,8 @@ pub fn colour(name: &str) -> Option<[u8; 4]> {
         "rebeccapurple" => return Some([102, 51, 153, 255]),
         _ => {}
     }
-    let colour = svgtypes::Color::from_str(&lower).ok()?;
-    Some([colour.red, colour.green, colour.blue, colour.alpha])
+    let color = svgtypes::Color::from_str(&lower).ok()?;
+    Some([color.red, color.green, color.blue, color.alpha])
 }
 
 #[cfg(test)]
@@ -56,13 +56,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_the_css_colours() {
-        assert_eq!(colour("Orange"), Some([255, 165, 0, 255]));
-        assert_eq!(colour("currentColor"), None);
-        assert_eq!(colour("rgb"), None);
-        assert_eq!(colour("orang"), None);
-        for name in COLOURS {
-            assert!(is_colour(name), "{name}");
+    fn colors_are_the_css_colors() {
+        assert_eq!(color("Orange"), Some([255, 165, 0, 255]));
+        assert_eq!(color("currentColor"), None);
+        assert_eq!(color("rgb"), None);
+        assert_eq!(color("orang"), None);
+        for name in COLORS {
+            assert!(is_color(name), "{name}");
         }
     }
 }

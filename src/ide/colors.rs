@@ -5,7 +5,7 @@ use super::at::attributes;
 use crate::diagnostic::Edit;
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
-use crate::lang::keyword::colours::{COLOURS, colour};
+use crate::lang::keyword::colors::{COLORS, color};
 use crate::lang::value::Value;
 use crate::source::Span;
 
@@ -24,7 +24,7 @@ impl Analysis {
         let mut out = vec![];
         for string in &self.bindings().strings {
             let all = attributes(&string.annotation).iter();
-            for attribute in all.filter(|attribute| is_colour(attribute)) {
+            for attribute in all.filter(|attribute| is_color(attribute)) {
                 let setting = string
                     .settings
                     .iter()
@@ -35,7 +35,7 @@ impl Analysis {
                         [r, g, b, alpha.unwrap_or(1.0)]
                     }
                     Some(Value::Mark(mark)) => {
-                        let [r, g, b] = mark.colour.map(|channel| f64::from(channel) / 255.0);
+                        let [r, g, b] = mark.color.map(|channel| f64::from(channel) / 255.0);
                         [r, g, b, 1.0]
                     }
                     _ => continue,
@@ -56,14 +56,14 @@ impl Analysis {
     }
 
     /// The ways to write `rgba` in place of the colour at `span`, the present notation first.
-    pub fn colour_edits(&self, span: Span, rgba: [f64; 4]) -> Vec<(String, Vec<Edit>)> {
+    pub fn color_edits(&self, span: Span, rgba: [f64; 4]) -> Vec<(String, Vec<Edit>)> {
         let Some((index, _)) = self.string_at(span.start) else {
             return vec![];
         };
         let string = &self.bindings().strings[index];
         let mut all = attributes(&string.annotation).iter();
         let Some(attribute) = all.find(|attribute| {
-            is_colour(attribute)
+            is_color(attribute)
                 && string
                     .text
                     .span(attribute.range.clone())
@@ -85,9 +85,10 @@ impl Analysis {
             (true, [r, g, b, _]) => [r, g, b, 1.0],
             (false, rgba) => rgba,
         };
-        let mut forms = match is_mark {
-            true => vec![hex(rgba, false)],
-            false => vec![hex(rgba, had_alpha), numbers(rgba, had_alpha)],
+        let mut forms = if is_mark {
+            vec![hex(rgba, false)]
+        } else {
+            vec![hex(rgba, had_alpha), numbers(rgba, had_alpha)]
         };
         match first.kind {
             ArgumentKind::Hex(_) => {}
@@ -109,7 +110,7 @@ impl Analysis {
 }
 
 /// Whether an attribute's arguments are a colour.
-fn is_colour(attribute: &Attribute) -> bool {
+fn is_color(attribute: &Attribute) -> bool {
     matches!(attribute.keyword, Keyword::Color | Keyword::Mark)
 }
 
@@ -140,10 +141,10 @@ fn bytes(rgba: [f64; 4]) -> [u8; 4] {
 /// The CSS name of exactly this colour.
 fn css_name(rgba: [f64; 4]) -> Option<&'static str> {
     let wanted = bytes(rgba);
-    COLOURS
+    COLORS
         .iter()
         .copied()
-        .find(|name| colour(name) == Some(wanted))
+        .find(|name| color(name) == Some(wanted))
 }
 
 #[cfg(test)]
@@ -151,7 +152,7 @@ mod tests {
     use super::super::fixtures::{analysis, figure};
 
     #[test]
-    fn colours_are_found_and_written_as_they_were() {
+    fn colors_are_found_and_written_as_they_were() {
         for (string, rgba, first) in [
             ("Body$Color 1 0.5 0", [1.0, 0.5, 0.0, 1.0], "0 0.502 1"),
             (
@@ -178,7 +179,7 @@ mod tests {
             let swatches = analysis.swatches();
             assert_eq!(swatches.len(), 1, "{string}");
             assert_eq!(swatches[0].rgba, rgba, "{string}");
-            let edits = analysis.colour_edits(swatches[0].span, [0.0, 0.502, 1.0, 1.0]);
+            let edits = analysis.color_edits(swatches[0].span, [0.0, 0.502, 1.0, 1.0]);
             assert_eq!(edits[0].0, first, "{string}");
             assert_eq!(edits[0].1[0].span, swatches[0].span);
         }
@@ -187,7 +188,7 @@ mod tests {
     #[test]
     fn a_name_is_offered_where_css_has_one() {
         let (analysis, _) = analysis(&figure(["Body$Color red", "", "", "", ""]));
-        let edits = analysis.colour_edits(analysis.swatches()[0].span, [0.0, 0.0, 1.0, 1.0]);
+        let edits = analysis.color_edits(analysis.swatches()[0].span, [0.0, 0.0, 1.0, 1.0]);
         let forms: Vec<_> = edits.iter().map(|(form, _)| form.as_str()).collect();
         assert_eq!(forms, ["blue", "0 0 1", "#0000ff"]);
     }
