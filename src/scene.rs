@@ -311,7 +311,7 @@ pub struct Material {
 }
 
 impl Default for Material {
-    /// White and opaque, with the default roughness of parts (language.md, `Roughness`).
+    /// White and opaque, with the default roughness of parts.
     fn default() -> Self {
         Self {
             name: String::new(),

@@ -1,6 +1,7 @@
-//! The recipes of docs/development.md name every place that has to change.
+//! What pages and sources say about each other is true.
 //!
-//! For each recipe, something that was added by it is looked for in the sources: each file that names it must be in the recipe.
+//! The recipes of docs/development.md name every place that has to change: for each, something that was added by it is looked for in the
+//! sources, and each file that names it must be in the recipe. Sources cite only pages that are there.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -100,37 +101,44 @@ fn paths(recipe: &str, name: &str) -> Vec<String> {
         .collect()
 }
 
-/// The files of `src` with one of the words that a recipe's paths do not name.
-fn omitted(recipe: &str, name: &str, known_by: &[&str]) -> Vec<String> {
+/// The files of `src` that are no tests, by their paths below it, each with its words.
+fn sources() -> Vec<(String, BTreeSet<String>)> {
     let mut sources = Vec::new();
     files(&root().join("src"), &mut sources);
-    let paths = paths(recipe, name);
-    let mut found = 0;
-    let mut omitted = Vec::new();
-    for path in &sources {
-        let words = words(&fs::read_to_string(path).expect("a source file"));
-        if !known_by.iter().any(|word| words.contains(*word)) {
-            continue;
-        }
-        found += 1;
+    let read = |path: &PathBuf| {
         let place = path.strip_prefix(root().join("src")).expect("below src");
-        let place = place.to_string_lossy().replace('\\', "/");
-        let is_named =
-            |path: &String| place == *path || (path.ends_with('/') && place.starts_with(path));
-        if !paths.iter().any(is_named) {
-            omitted.push(place);
-        }
-    }
-    assert!(found > 1, "only {found} files have {known_by:?}");
-    omitted
+        let text = fs::read_to_string(path).expect("a source file");
+        (place.to_string_lossy().replace('\\', "/"), words(&text))
+    };
+    sources.iter().map(read).collect()
+}
+
+/// The files with one of the words that a recipe's paths do not name.
+fn omitted(
+    sources: &[(String, BTreeSet<String>)],
+    paths: &[String],
+    known_by: &[&str],
+) -> Vec<String> {
+    let has = |words: &BTreeSet<String>| known_by.iter().any(|word| words.contains(*word));
+    let found = sources.iter().filter(|(_, words)| has(words));
+    let found: Vec<&String> = found.map(|(place, _)| place).collect();
+    assert!(found.len() > 1, "only {found:?} have {known_by:?}");
+    let is_named = |place: &str| {
+        let mut paths = paths.iter();
+        paths.any(|path| place == path || (path.ends_with('/') && place.starts_with(path)))
+    };
+    let omitted = found.into_iter().filter(|place| !is_named(place));
+    omitted.cloned().collect()
 }
 
 #[test]
 fn recipes_name_every_place() {
     let page = fs::read_to_string(root().join("docs/development.md")).expect("the page");
+    let sources = sources();
     let mut all = Vec::new();
     for (heading, name, known_by) in RECIPES {
-        let omitted = omitted(&recipe(&page, heading), name, known_by);
+        let paths = paths(&recipe(&page, heading), name);
+        let omitted = omitted(&sources, &paths, known_by);
         all.extend(omitted.into_iter().map(|place| (*heading, *name, place)));
     }
     assert!(
@@ -144,18 +152,10 @@ fn recipes_name_every_place() {
 fn the_recipe_of_diagnostics_names_every_list_of_codes() {
     let page = fs::read_to_string(root().join("docs/development.md")).expect("the page");
     let paths = paths(&recipe(&page, "A new diagnostic"), "");
-    let mut sources = Vec::new();
-    files(&root().join("src"), &mut sources);
     let mut lists = 0;
-    for path in sources {
-        let text = fs::read_to_string(&path).expect("a source file");
-        let place = path.strip_prefix(root().join("src")).expect("below src");
-        let place = place.to_string_lossy().replace('\\', "/");
-        let words = words(&text);
-        let makes = ["new", "diagnostics", "diagnostic"]
-            .iter()
-            .any(|word| words.contains(*word));
-        if words.contains("Code") && !makes {
+    for (place, words) in sources() {
+        let mut makers = ["new", "diagnostics", "diagnostic"].iter();
+        if words.contains("Code") && !makers.any(|word| words.contains(*word)) {
             lists += 1;
             assert!(
                 paths.contains(&place),
@@ -164,6 +164,32 @@ fn the_recipe_of_diagnostics_names_every_list_of_codes() {
         }
     }
     assert!(lists > 0, "no list of codes was found");
+}
+
+#[test]
+fn sources_cite_pages_that_are_there() {
+    let mut cited = 0;
+    let mut sources = Vec::new();
+    files(&root().join("src"), &mut sources);
+    for path in sources {
+        let text = fs::read_to_string(&path).expect("a source file");
+        let comments = text
+            .lines()
+            .filter(|line| line.trim_start().starts_with("//"));
+        let names = comments
+            .flat_map(|line| line.split(|c: char| !(c.is_alphanumeric() || "-_./".contains(c))));
+        for name in names.filter(|name| name.ends_with(".md") && !name.starts_with('.')) {
+            cited += 1;
+            let is_there = name.starts_with("docs/") && root().join(name).is_file()
+                || root().join(name).is_file();
+            assert!(
+                is_there,
+                "{} cites `{name}`, which is not there",
+                path.display()
+            );
+        }
+    }
+    assert!(cited > 5, "only {cited} pages are cited");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What closes the gaps between regions (billboard.md, Result: Backing).
+//! What closes the gaps between regions.
 
 use std::sync::Arc;
 

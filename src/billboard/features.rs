@@ -1,4 +1,4 @@
-//! Feature points: names beside places of outlines that belong together in all views (billboard.md, Shape).
+//! Feature points: names beside places of outlines that belong together in all views.
 
 use glam::DVec2;
 use typed_index_collections::{TiSlice, TiVec};

@@ -1,4 +1,4 @@
-//! Characters that turn although they are only drawn from a few sides (billboard.md).
+//! Characters that turn although they are only drawn from a few sides.
 //!
 //! Invariants: outlines are in drawing units, y down; places are in the character's space, x its left, y up, z its front, in heights
 //! of its first view. At each drawn view the model looks like the drawing.

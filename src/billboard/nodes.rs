@@ -1,4 +1,4 @@
-//! The nodes of characters that turn: one for each region (billboard.md, Result).
+//! The nodes of characters that turn: one for each region.
 
 use std::sync::Arc;
 

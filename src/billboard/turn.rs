@@ -1,4 +1,4 @@
-//! What lies between the views of a character (billboard.md, Shape: more than two views).
+//! What lies between the views of a character.
 
 use glam::DVec2;
 

@@ -23,7 +23,7 @@ index_type!(
 /// The strings and parts of a drawing, and which belong together.
 #[derive(Debug, Default)]
 pub struct Bindings {
-    /// Whether the drawing is annotated at all (language.md, Where strings live).
+    /// Whether the drawing is annotated at all.
     pub annotated: bool,
     /// The strings, in the order of the file.
     pub strings: TiVec<StringId, DrawingString>,

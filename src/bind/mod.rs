@@ -1,6 +1,6 @@
 //! Binds strings to parts, and resolves attributes and the hierarchy of parts.
 //!
-//! This is the only module that knows both the drawing and the language. [`bind`] applies the rules of figure.md in four steps,
+//! This is the only module that knows both the drawing and the language. [`bind`] applies the rules in four steps,
 //! each of which is a module and knows only the results of those before it: `matching`, `attributes`, `hierarchy`, `reports`. The
 //! result, a [`Bindings`], has everything that models are built from and that editors ask about.
 

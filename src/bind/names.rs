@@ -1,4 +1,4 @@
-//! The names that are in a drawing without a string: labels and ids that a person wrote (figure.md, Names).
+//! The names that are in a drawing without a string: labels and ids that a person wrote.
 
 use std::borrow::Cow;
 

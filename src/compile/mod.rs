@@ -22,7 +22,7 @@ use crate::threads;
 
 pub use incremental::Compiler;
 
-/// How far a flattened curve may deviate, as a share of its part's larger extent (figure.md, Parts).
+/// How far a flattened curve may deviate, as a share of its part's larger extent.
 pub const TOLERANCE: f64 = 0.001;
 
 /// Options of a compile.

@@ -1,4 +1,4 @@
-//! The articulated figure: from the bindings to nodes, joints and solids (figure.md).
+//! The articulated figure: from the bindings to nodes, joints and solids.
 //!
 //! Invariant: a node's mesh is described in the part's own frame, +Y along its axis away from the joint,
 //! +Z towards the viewer; turning the node turns the limb about its joint.

@@ -1,4 +1,4 @@
-//! Local frames of parts (paper, section 3.5; figure.md, Hierarchy and local frames).
+//! Local frames of parts (Arai & Horry, section 3.5).
 
 use glam::{DAffine2, DVec2};
 

@@ -1,4 +1,4 @@
-//! Axis, centre and end points of a part (Arai & Horry, section 3.3; figure.md, Parts).
+//! Axis, centre and end points of a part (Arai & Horry, section 3.3).
 //!
 //! Drawing units, y down. The paper fits a regression line to the vertices; here the axis is the principal axis of the
 //! area within the borders, so that it depends neither on how curves are flattened nor on the frame.

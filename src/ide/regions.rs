@@ -1,4 +1,4 @@
-//! Regions of characters: which regions of the other views show the same thing (billboard.md, Matching).
+//! Regions of characters: which regions of the other views show the same thing.
 
 use std::fmt::Write as _;
 

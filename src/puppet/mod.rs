@@ -1,5 +1,4 @@
-//! Printable puppets: the figures of a drawing as a sheet of pieces to cut out, pin together and film (motion.md,
-//! Performance).
+//! Printable puppets: the figures of a drawing as a sheet of pieces to cut out, pin together and film.
 //!
 //! `pieces` says which parts are a piece of paper, in drawing units; `paper` cuts it out at a scale, and `layout` finds the
 //! scale and the places, both in millimetres, x to the right, y down; `instructions` says what to do with the sheet, and `sheet`

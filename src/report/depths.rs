@@ -1,4 +1,4 @@
-//! How far in front of others parts lie, and why (layers.md), for people.
+//! How far in front of others parts lie, and why, for people.
 
 use crate::bind::Bindings;
 use crate::compile::Compiled;

@@ -1,4 +1,4 @@
-//! One skinned mesh instead of a mesh for each node (figure.md, glTF), for engines that need that.
+//! One skinned mesh instead of a mesh for each node, for engines that need that.
 
 use glam::{DQuat, DVec3, Vec3};
 

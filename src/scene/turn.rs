@@ -1,4 +1,4 @@
-//! Characters that turn with the viewer (billboard.md, Result).
+//! Characters that turn with the viewer.
 
 use glam::{DVec2, DVec3};
 

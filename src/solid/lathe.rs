@@ -1,4 +1,4 @@
-//! Outlines turned about their axis (language.md, Shapes).
+//! Outlines turned about their axis.
 //!
 //! The turned profile is the union of the outline's right half and the mirror image of its left half. So the solid covers the
 //! whole drawing as seen from the front, and a small change of the drawing makes a small change of the solid. A turn of less

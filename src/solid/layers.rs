@@ -1,4 +1,4 @@
-//! Layers: the scaled copies of an outline that most kinds of solids join (language.md, Shapes).
+//! Layers: the scaled copies of an outline that most kinds of solids join.
 
 use glam::DVec2;
 

@@ -1,4 +1,4 @@
-//! Solids: outlines that are given thickness (Arai & Horry, section 3.4; language.md, Shapes).
+//! Solids: outlines that are given thickness (Arai & Horry, section 3.4).
 //!
 //! Conventions, stated once: outlines are in their part's frame, x across the axis, y along it,
 //! y **up**, the part's centre at the origin. Borders run counter-clockwise, so their shoelace sum

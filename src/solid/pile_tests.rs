@@ -447,7 +447,7 @@ fn ellipse(radii: DVec2, turn: f64) -> Ring {
 #[derive(Debug, Default, Clone, Copy)]
 struct Lie {
     points: usize,
-    /// Where the front is higher than layers.md says, by more than three steps.
+    /// Where the front is higher by more than three steps than what it lies on requires.
     high: usize,
     /// Where it is no higher than what it lies on.
     under: usize,

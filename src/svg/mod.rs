@@ -122,7 +122,7 @@ pub struct DescSlot {
 /// The paint of a shape.
 #[derive(Debug, Clone)]
 pub struct Paint {
-    /// Its identity (language.md, Paint identity).
+    /// Its identity.
     pub key: PaintKey,
     /// Its colour, or the mean of its colours, sRGB, each 0 to 255.
     pub color: [u8; 3],

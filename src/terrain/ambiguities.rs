@@ -1,4 +1,4 @@
-//! The ambiguities of a map, and how each was decided (terrain.md: one warning a group, with its cells).
+//! The ambiguities of a map, and how each was decided.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! A column of the map as a list of segments from the top (terrain.md, rule 1).
+//! A column of the map as a list of segments from the top.
 
 use super::grid::Grid;
 use super::groups::{GROUND, GroupKind, Groups};

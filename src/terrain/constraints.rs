@@ -1,4 +1,4 @@
-//! Height constraints: by how much one surface is higher than another, as read from the columns (terrain.md, rule 3).
+//! Height constraints: by how much one surface is higher than another, as read from the columns.
 
 use std::cmp::{Ordering, Reverse};
 use std::hash::Hash;

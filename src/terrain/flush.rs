@@ -1,4 +1,4 @@
-//! Fronts that end flush with what is behind them (terrain.md, rule 6).
+//! Fronts that end flush with what is behind them.
 
 use super::column::{Below, Column};
 use super::grid::Grid;

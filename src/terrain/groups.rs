@@ -1,4 +1,4 @@
-//! Groups: tiles of one kind that are connected through sides without an edge (terrain.md, rules 2, 4 and 8).
+//! Groups: tiles of one kind that are connected through sides without an edge.
 
 use super::grid::Grid;
 use super::map::Tile;

@@ -1,4 +1,4 @@
-//! Houses: a block under a roof (terrain.md, rule 8).
+//! Houses: a block under a roof.
 
 use std::ops::Range;
 

@@ -1,4 +1,4 @@
-//! The height of every surface: constraints applied one after another (terrain.md, rule 3).
+//! The height of every surface: constraints applied one after another.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 

@@ -1,4 +1,4 @@
-//! The map: what is drawn in each cell of a tile layer's grid (terrain.md, Input).
+//! The map: what is drawn in each cell of a tile layer's grid.
 
 /// The kinds of tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]

@@ -1,4 +1,4 @@
-//! Terrain: landscapes of blocks from tile maps, which show tops and fronts at once (terrain.md).
+//! Terrain: landscapes of blocks from tile maps, which show tops and fronts at once.
 //!
 //! Invariants: one unit is one tile; x grows to the right with the columns, y upwards, z towards the viewer; a point
 //! at height y that is visible at row r lies at z = r + y.

@@ -1,4 +1,4 @@
-//! The nodes of landscapes: one for each tile layer (terrain.md).
+//! The nodes of landscapes: one for each tile layer.
 
 use glam::DQuat;
 

@@ -1,4 +1,4 @@
-//! The solid blocks of each column (terrain.md, rules 1 and 5 to 9).
+//! The solid blocks of each column.
 //!
 //! A column consists of blocks one tile wide. Visible blocks follow from what is drawn. Where something nearer hides the space
 //! behind or below it, blocks continue there as far as they stay hidden.

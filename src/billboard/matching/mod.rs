@@ -1,4 +1,4 @@
-//! Which regions of a character's views show the same thing (billboard.md, Matching).
+//! Which regions of a character's views show the same thing.
 //!
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, section 4.2.3, for the similarity; the one-to-one assignment
 //! is our own.

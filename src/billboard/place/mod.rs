@@ -1,7 +1,7 @@
-//! Where the regions of a character are in space, and which of them is in front (billboard.md, Position).
+//! Where the regions of a character are in space, and which of them is in front.
 //!
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, section 4.2.4, after Rivers et al., *2.5D Cartoon Models*.
-//! Lengths are in heights of the character, in the axes of billboard.md.
+//! Lengths are in heights of the character, in the character's axes.
 
 mod frame;
 mod order;

@@ -1,4 +1,4 @@
-//! Puts what is painted over something else in front of it (billboard.md, Position: Order).
+//! Puts what is painted over something else in front of it.
 
 use std::collections::VecDeque;
 

@@ -1,4 +1,4 @@
-//! The point nearest to several rays (billboard.md, Position).
+//! The point nearest to several rays.
 
 use glam::{DMat3, DVec2, DVec3};
 

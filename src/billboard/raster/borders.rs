@@ -1,4 +1,4 @@
-//! The borders of labelled pixels (billboard.md, Regions from a raster, step 7).
+//! The borders of labelled pixels.
 //!
 //! A border crosses the line between the centres of two neighbouring pixels, where their colours say. Between two nodes, the
 //! places where more than two labels meet, it is simplified once for both of its sides, so that neighbours share it exactly.

@@ -1,4 +1,4 @@
-//! Details without flat pixels, such as thin mouths (billboard.md, Regions from a raster, step 5).
+//! Details without flat pixels, such as thin mouths.
 
 use super::canvas::{Canvas, Color, mixture, mixture_of_three};
 use super::fill::Seeds;

@@ -1,4 +1,4 @@
-//! Labels for all pixels: seeds grow over edges and ink (billboard.md, Regions from a raster, step 4).
+//! Labels for all pixels: seeds grow over edges and ink.
 
 use super::canvas::{Canvas, Color, apart, mixture, mixture_of_three};
 use super::components::{Component, components};

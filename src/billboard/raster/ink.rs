@@ -1,4 +1,4 @@
-//! The ink: thin dark outlines (billboard.md, Regions from a raster, step 3).
+//! The ink: thin dark outlines.
 
 use super::canvas::{Canvas, Color, mixture};
 use super::components::{Component, components};

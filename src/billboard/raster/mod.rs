@@ -1,4 +1,4 @@
-//! Regions from the pixels of a flat-coloured drawing (billboard.md, Regions from a raster).
+//! Regions from the pixels of a flat-coloured drawing.
 //!
 //! Flat areas are the seeds. Soft edges and dark lines are divided between them, so that neighbours share their borders. A dark line
 //! becomes the stroke of the regions beside it, centred on their borders as in a vector drawing; dark lines that end or branch

@@ -1,4 +1,4 @@
-//! Which regions lie inside of which others (billboard.md, Regions from a raster, step 6).
+//! Which regions lie inside of which others.
 
 use super::canvas::Color;
 use super::components::components;

@@ -1,4 +1,4 @@
-//! The flat colours of a picture (billboard.md, Regions from a raster, step 2).
+//! The flat colours of a picture.
 
 use rustc_hash::FxHashMap;
 

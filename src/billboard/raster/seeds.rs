@@ -1,4 +1,4 @@
-//! The components that become regions (billboard.md, Regions from a raster, steps 1, 2 and 4).
+//! The components that become regions.
 
 use super::canvas::{Canvas, Color, mixture};
 use super::components::Component;

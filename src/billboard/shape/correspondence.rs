@@ -1,4 +1,4 @@
-//! Which place of one contour belongs to which of another (billboard.md, Shape).
+//! Which place of one contour belongs to which of another.
 
 use glam::{DMat2, DVec2};
 

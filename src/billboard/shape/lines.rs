@@ -1,4 +1,4 @@
-//! Drawn lines as meshes that keep their width (billboard.md, Shape: line widths and inner lines are kept).
+//! Drawn lines as meshes that keep their width.
 
 use glam::DVec2;
 

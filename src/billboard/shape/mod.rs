@@ -1,4 +1,4 @@
-//! A region's outline between the views in which it is drawn, and one triangle list for the whole range (billboard.md, Shape).
+//! A region's outline between the views in which it is drawn, and one triangle list for the whole range.
 //!
 //! Outlines are interpolated linearly between corresponding points. The triangles are the same for all blends, so that a
 //! region is one mesh with a morph target for each view.

@@ -1,4 +1,4 @@
-//! One triangle list for a polygon's whole range (billboard.md, Shape: Triangles).
+//! One triangle list for a polygon's whole range.
 
 use glam::DVec2;
 

@@ -1,7 +1,7 @@
 //! Characters with known answers: bodies of ellipsoids and boxes with details on their surfaces, drawn from any direction as
 //! flat drawings show them. For tests only.
 //!
-//! Axes and directions are those of billboard.md. A character's height is 1 before it is drawn; drawings have y down and the
+//! Axes and directions are those of characters. A character's height is 1 before it is drawn; drawings have y down and the
 //! character's centre at their origin.
 
 mod body;

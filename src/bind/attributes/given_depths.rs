@@ -1,4 +1,4 @@
-//! Depths that numbers give to a part: those of `Shape`, and `Offset`, in its own string or in its legend (layers.md, Words).
+//! Depths that numbers give to a part: those of `Shape`, and `Offset`, in its own string or in its legend.
 
 use std::ops::Range;
 

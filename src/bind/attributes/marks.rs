@@ -1,4 +1,4 @@
-//! Characteristic joints: the parts with `Mark`, and what `Follow` names (motion.md, Performance).
+//! Characteristic joints: the parts with `Mark`, and what `Follow` names.
 
 use crate::bind::bindings::Bindings;
 use crate::lang::ast::ArgumentKind;

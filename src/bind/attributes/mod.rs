@@ -1,5 +1,5 @@
 //! The attributes of parts and tile layers as typed values, each with its source: own string, legend of the paint, `%`,
-//! built-in default (figure.md, Attributes of a part).
+//! built-in default.
 //!
 //! This is the one place where an attribute's keyword is matched with the type of its value.
 

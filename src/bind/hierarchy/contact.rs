@@ -1,5 +1,4 @@
-//! The hierarchy of a drawing in which no string names a part, but labels or ids do: parts that touch hang on each other
-//! (figure.md, Hierarchy).
+//! The hierarchy of a drawing in which no string names a part, but labels or ids do: parts that touch hang on each other.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,4 +1,4 @@
-//! Details: parts without a string stay with the part that they lie on (figure.md, Binding, rule 5).
+//! Details: parts without a string stay with the part that they lie on.
 
 use rustc_hash::FxHashSet;
 

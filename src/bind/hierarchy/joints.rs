@@ -1,4 +1,4 @@
-//! The joints of parts: where they turn (figure.md, Hierarchy and local frames).
+//! The joints of parts: where they turn.
 
 use glam::DVec2;
 

@@ -1,4 +1,4 @@
-//! Names, parents and joints (figure.md, Hierarchy and local frames).
+//! Names, parents and joints.
 
 mod contact;
 mod details;

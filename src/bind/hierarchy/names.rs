@@ -1,4 +1,4 @@
-//! The names of parts: those that strings give them, and those that people gave their shapes and groups (figure.md, Names).
+//! The names of parts: those that strings give them, and those that people gave their shapes and groups.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 

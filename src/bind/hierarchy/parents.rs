@@ -1,4 +1,4 @@
-//! The parents of parts and tile layers: the names after `@` (figure.md, Hierarchy and local frames).
+//! The parents of parts and tile layers: the names after `@`.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 

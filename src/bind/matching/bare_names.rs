@@ -1,4 +1,4 @@
-//! Texts that are names and nothing more: `Head`, without any sign of the language (figure.md, Names).
+//! Texts that are names and nothing more: `Head`, without any sign of the language.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The rules by which strings are bound to parts, in their order (figure.md, Binding).
+//! The rules by which strings are bound to parts, in their order.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};

@@ -1,4 +1,4 @@
-//! Ink: strokes without fill that are drawn on a shape belong to its part (figure.md, Line art).
+//! Ink: strokes without fill that are drawn on a shape belong to its part.
 //!
 //! A stroke is ink on the topmost earlier shape that holds nine tenths of it, else on the one that holds most of it, at least
 //! half. A shape holds what lies in it, or beside it by less than three quarters of the stroke's width. The amounts are those

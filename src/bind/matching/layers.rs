@@ -1,4 +1,4 @@
-//! Layers: groups with a string of their own, such as a map of tiles (terrain.md, Input).
+//! Layers: groups with a string of their own, such as a map of tiles.
 
 use rayon::prelude::*;
 use typed_index_collections::TiSlice;

@@ -1,4 +1,4 @@
-//! Lines that lead from a string to what it names (figure.md, Binding, rule 3).
+//! Lines that lead from a string to what it names.
 
 use std::cell::LazyCell;
 

@@ -1,4 +1,4 @@
-//! Matches the strings of a drawing with its parts (figure.md, Binding).
+//! Matches the strings of a drawing with its parts.
 
 mod areas;
 mod bare_names;
@@ -44,7 +44,7 @@ use node_groups::NodeGroups;
 
 /// The strings and parts of a drawing, matched with each other.
 pub(in crate::bind) struct Matched {
-    /// Whether the drawing is annotated at all (language.md, Where strings live).
+    /// Whether the drawing is annotated at all.
     pub(in crate::bind) annotated: bool,
     /// The strings, in the order of the file.
     pub(in crate::bind) strings: TiVec<StringId, DrawingString>,

@@ -1,4 +1,4 @@
-//! Assigns strings to parts one to one, closest pairs first (figure.md, Binding, rule 4).
+//! Assigns strings to parts one to one, closest pairs first.
 //!
 //! Sorting all pairs is quadratic. If each of a pair is the nearest of the other, no closer pair can separate them, so the pair
 //! can be assigned at once. Following nearest neighbours from any string ends in such a pair: the nearest-neighbour chain

@@ -1,4 +1,4 @@
-//! Node groups: which shapes become one node of the hierarchy (figure.md, Groups).
+//! Node groups: which shapes become one node of the hierarchy.
 //!
 //! A part has a source: the fill of a shape, or its stroke if that is built. All sources in a node group share a node, but ink
 //! goes with what it lies on; the back-most of the others is the main part candidate.

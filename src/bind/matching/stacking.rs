@@ -1,4 +1,4 @@
-//! What parts cover of each other on the page: the order of drawing as people see it (figure.md, Binding, rules 4 and 5).
+//! What parts cover of each other on the page: the order of drawing as people see it.
 
 use std::sync::Arc;
 

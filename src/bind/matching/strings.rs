@@ -22,7 +22,7 @@ use crate::threads::GRAIN;
 /// The strings of a drawing, and what its `%` strings set.
 #[derive(Debug, Default)]
 pub(super) struct Strings {
-    /// Whether the drawing is annotated at all (language.md, Where strings live).
+    /// Whether the drawing is annotated at all.
     pub(super) annotated: bool,
     /// In the order of the file.
     pub(super) all: TiVec<StringId, ReadString>,

@@ -1,4 +1,4 @@
-//! Groups that group nothing, and backgrounds (figure.md, Wrappers).
+//! Groups that group nothing, and backgrounds.
 //!
 //! Drawing programs put everything into one group, frame or artboard, and a rectangle of the page's size behind it. Neither
 //! says anything about the figure.

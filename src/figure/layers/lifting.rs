@@ -1,4 +1,4 @@
-//! What lifts the surface of each shape (layers.md, steps 6 and 7).
+//! What lifts the surface of each shape.
 //!
 //! Plates and sheets that lie on plates and sheets alone stay exact: their faces are moved outwards. All others that lie over
 //! something are laid on a pile.

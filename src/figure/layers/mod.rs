@@ -1,4 +1,4 @@
-//! Layers (layers.md): how far in front of the drawing plane each part lies, and what lifts its surface, so that seen from the
+//! Layers: how far in front of the drawing plane each part lies, and what lifts its surface, so that seen from the
 //! front the model is the drawing.
 
 mod buried;

@@ -1,4 +1,4 @@
-//! The depths of nodes, from the order of drawing and the hierarchy (layers.md, steps 2 to 5).
+//! The depths of nodes, from the order of drawing and the hierarchy.
 
 use glam::DVec2;
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! Which shapes reach around others: a belt, a sleeve, a cap of hair (layers.md, step 1).
+//! Which shapes reach around others: a belt, a sleeve, a cap of hair.
 
 use glam::DVec2;
 

@@ -1,4 +1,4 @@
-//! A picture of a matching: which regions of a character's views are taken for the same thing (billboard.md, Matching).
+//! A picture of a matching: which regions of a character's views are taken for the same thing.
 //!
 //! Each character is a row, and each of its views a drawing in it. Regions that are a pair have one colour and one number in all
 //! views; regions without a partner are grey with stripes.

@@ -1,4 +1,4 @@
-//! Outlines blown up like a balloon (language.md, Shapes).
+//! Outlines blown up like a balloon.
 //!
 //! The height over a point is 2√u, scaled to the requested maximum, where u solves the Poisson equation Δu = −1 inside the
 //! outline with u = 0 on its border. Over a disc this is a sphere or a spheroid, over a bar an elliptic cylinder. Thin limbs

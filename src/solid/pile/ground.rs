@@ -1,4 +1,4 @@
-//! What a solid lies on, and how far it has to come out in front of that (layers.md, step 6).
+//! What a solid lies on, and how far it has to come out in front of that.
 
 use glam::{DAffine2, DVec2};
 

@@ -1,4 +1,4 @@
-//! Solids that lie over one another (layers.md, Surfaces): each comes out in front of what is drawn before it.
+//! Solids that lie over one another: each comes out in front of what is drawn before it.
 //!
 //! A solid that is lifted by what lies below it becomes two height fields over one mesh of its outline, joined by walls where
 //! they differ at the border. The heights below are looked up in the surfaces that are written, so that what is drawn later lies

@@ -1,4 +1,4 @@
-//! Finds the kind of tile that a colour means (terrain.md, Input).
+//! Finds the kind of tile that a colour means.
 
 use crate::svg::oklab;
 use crate::terrain::Tile;

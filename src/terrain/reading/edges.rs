@@ -1,4 +1,4 @@
-//! Edges: strokes that run along grid lines (terrain.md, Input).
+//! Edges: strokes that run along grid lines.
 
 use glam::DVec2;
 

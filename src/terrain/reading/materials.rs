@@ -1,4 +1,4 @@
-//! The kinds and the materials of a layer's paints (terrain.md, Input; figure.md, Attributes of a part).
+//! The kinds and the materials of a layer's paints.
 
 use rustc_hash::FxHashMap;
 

@@ -1,4 +1,4 @@
-//! Tile maps read from drawings (terrain.md, Input).
+//! Tile maps read from drawings.
 //!
 //! Invariant: the kind of a cell is that of the front-most paint at its middle; two cells have an edge between them if a stroke
 //! runs along their common side.

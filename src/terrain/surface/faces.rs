@@ -1,4 +1,4 @@
-//! The faces of solids: where solid space borders on air (terrain.md: no faces between solids that touch).
+//! The faces of solids: where solid space borders on air.
 
 use std::ops::Range;
 

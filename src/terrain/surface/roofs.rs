@@ -1,4 +1,4 @@
-//! Roofs: triangular prisms on the walls of houses (terrain.md, rule 8; equation 3.1).
+//! Roofs: triangular prisms on the walls of houses.
 
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};

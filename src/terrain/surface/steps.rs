@@ -2,7 +2,7 @@
 //!
 //! Even steps are whole tiles; the odd step below each is the underside of a plate. A tile therefore has two steps of unequal height.
 
-/// How thick ground and water are that have nothing below them (terrain.md, rule 11), in tiles.
+/// How thick ground and water are that have nothing below them, in tiles.
 const THICKNESS: f64 = 0.25;
 
 /// The step of a height in whole tiles.

@@ -1,5 +1,4 @@
-//! Which shape a text means: the one that its beginning, middle or end lies on or is nearest to, all texts together
-//! (figure.md, Binding, rule 4).
+//! Which shape a text means: the one that its beginning, middle or end lies on or is nearest to, all texts together.
 
 mod units;
 

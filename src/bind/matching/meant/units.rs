@@ -1,4 +1,4 @@
-//! Units, which texts name, and what each would cost a text (figure.md, Binding, rule 4).
+//! Units, which texts name, and what each would cost a text.
 
 use std::sync::Arc;
 

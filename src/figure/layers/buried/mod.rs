@@ -1,4 +1,4 @@
-//! Parts that given depths hide, although they are drawn later, or let float (layers.md, Words).
+//! Parts that given depths hide, although they are drawn later, or let float.
 //!
 //! Looked for over a few lines across each part: at points where the drawing shows it, the fronts of what it lies over are
 //! compared with its own. Fronts are those of the solids by themselves, lifted by what they lie on.
