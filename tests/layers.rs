@@ -55,6 +55,7 @@ const USES: &[(&str, &[&str])] = &[
             "assignment",
             "diagnostic",
             "geometry",
+            "index",
             "lang",
             "memo",
             "solid",
