@@ -4,14 +4,14 @@
 //! nothing: it sees the key, and the files that it reads through the [`Resolver`] that it is given, so that no result
 //! can depend on anything else. A result is used only if the function is the same, its whole key is equal, and what
 //! was read is as it was; tests/again.rs holds the compiler to that. Keys whose parts have no bitwise `Eq` are wrapped
-//! in [`Exactly`]; [`exact!`](exact) compares structures field by field, and does not compile if a field is forgotten.
+//! in `Exactly`; `exact!` compares structures field by field, and does not compile if a field is forgotten.
 //! Results that were not used between two calls of [`Memo::next_generation`] are dropped, so that a memo is about as
 //! large as the last drawing.
 //!
 //! The crate `comemo` works alike: it tracks files as they are read, as `Memo::get_reading` does. But it hashes all arguments
 //! at every call, takes two with the same hash for equal, and has one cache for the whole process, where each compiler
 //! has its own here. Found again for 2,000 unchanged outlines of 100 points, its results took five times as long as those
-//! of [`Memo::get`], whose keys compare the outlines' addresses. The generations are those of `salsa`, without its macros:
+//! of `Memo::get`, whose keys compare the outlines' addresses. The generations are those of `salsa`, without its macros:
 //! the functions cached here are few and coarse.
 
 use std::any::{Any, TypeId};

@@ -27,6 +27,7 @@ pub trait Resolver: Sync {
 
 /// Why a link cannot be followed. Messages go behind the link's name: ``link `a.png` `` …
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LinkError {
     /// No such file.
     #[error("is not there")]

@@ -95,7 +95,12 @@ tests() {
     !passes || /^skipped: / { print; fflush() }
   '
 }
-manual() { RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps; }
+manual() {
+  rm -rf "$target/doc/okoshi"
+  RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps --lib
+  need node
+  node $tools/public_items.mjs "$target/doc/okoshi" 250
+}
 
 # The core alone, with its tests; each feature alone, for all together are the default; and a program that embeds the core.
 features() {

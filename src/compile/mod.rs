@@ -42,20 +42,27 @@ impl Default for Options {
 
 /// A compiled drawing. Errors are in the diagnostics; whatever they do not affect is built.
 #[derive(Debug, Default)]
+#[non_exhaustive]
 pub struct Compiled {
     /// The model.
     pub scene: Scene,
     /// Which strings are bound to which parts.
+    #[doc(hidden)]
     pub bindings: Bindings,
     /// The tile maps.
+    #[doc(hidden)]
     pub layers: Vec<terrain::Layer>,
     /// The characters that turn.
+    #[doc(hidden)]
     pub characters: Vec<Character>,
     /// The clips that figures play.
+    #[doc(hidden)]
     pub clips: Vec<rig::FigureClip>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
+    #[doc(hidden)]
     pub depths: Vec<Option<NodeDepth>>,
     /// The drawing. Its outlines and texts are shared with the bindings.
+    #[doc(hidden)]
     pub drawing: Arc<Drawing>,
     /// The diagnostics, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,

@@ -7,6 +7,7 @@ use crate::import::ImportError;
 
 /// Why a picture cannot be rendered. Messages follow the name of the file.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RenderError {
     /// The file cannot be read.
     #[error(transparent)]
