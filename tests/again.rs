@@ -4,6 +4,7 @@ mod common;
 mod histories;
 
 use std::cell::Cell;
+use std::fmt::Debug;
 use std::fs;
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
@@ -299,6 +300,20 @@ fn all(compiled: &Compiled) -> String {
     format!("{:?}\n{:?}", compiled.bindings, compiled.drawing)
 }
 
+/// Whether both ways to compile a text give the same. `act` is the step that made it.
+fn equals(
+    incremental: &Compiled,
+    fresh: &Compiled,
+    act: &dyn Debug,
+    text: &str,
+) -> Result<(), TestCaseError> {
+    let (found, expected) = (described(incremental), described(fresh));
+    prop_assert_eq!(found, expected, "{:?} made {}", act, text);
+    prop_assert!(all(incremental) == all(fresh), "{:?} made {}", act, text);
+    prop_assert!(incremental.scene == fresh.scene, "{:?} made {}", act, text);
+    Ok(())
+}
+
 /// The model, written with cached surfaces of the one before.
 fn written(compiled: &Compiled, surfaces: &mut Memo) -> Vec<u8> {
     let model = to_memory(&GLB, &compiled.scene, Some(surfaces));
@@ -336,15 +351,7 @@ fn agree(drawing: &str, acts: &[Step]) -> Result<usize, TestCaseError> {
         let incremental = compiler.compile(&text, &options, &files);
         let fresh = compile(&text, &options, &files);
         partial += usize::from(compiler.last_was_partial());
-        prop_assert_eq!(
-            described(&incremental),
-            described(&fresh),
-            "{:?} made {}",
-            act,
-            text
-        );
-        prop_assert!(all(&incremental) == all(&fresh), "{:?} made {}", act, text);
-        prop_assert!(incremental.scene == fresh.scene, "{:?} made {}", act, text);
+        equals(&incremental, &fresh, &act, &text)?;
         if step % 3 == 0 {
             let written = written(&incremental, &mut surfaces);
             prop_assert!(written == common::glb(&fresh), "{:?} made {}", act, text);

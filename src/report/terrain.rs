@@ -43,7 +43,7 @@ pub struct House {
     pub width: i32,
     /// The depth from front to back.
     pub depth: i32,
-    /// The width of its walls.
+    /// The height of its walls.
     pub height: i32,
     /// The height of its ridge.
     pub ridge: f64,

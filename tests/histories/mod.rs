@@ -14,7 +14,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{FileFailurePersistence, TestRunner};
 
-use super::{all, common, described, written};
+use super::{common, equals, written};
 use files::{Files, LINKS};
 
 /// A small drawing with places for strings, each `{}`, and what is written there.
@@ -290,15 +290,7 @@ fn agree(
         let incremental = compiler.compile(&text, &options, &files);
         let fresh = compile(&text, &options, &files);
         prop_assert!(!fresh.has_crashed(), "{:?} made {}", act, text);
-        prop_assert_eq!(
-            described(&incremental),
-            described(&fresh),
-            "{:?} made {}",
-            act,
-            text
-        );
-        prop_assert!(all(&incremental) == all(&fresh), "{:?} made {}", act, text);
-        prop_assert!(incremental.scene == fresh.scene, "{:?} made {}", act, text);
+        equals(&incremental, &fresh, &act, &text)?;
         if number == steps.len() {
             let written = written(&incremental, &mut surfaces);
             prop_assert!(written == common::glb(&fresh), "{:?} made {}", act, text);
