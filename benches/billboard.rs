@@ -11,8 +11,8 @@ use std::io::Cursor;
 use std::time::{Duration, Instant};
 
 use image::{Rgba, RgbaImage};
-use okoshi::billboard::stages;
 use okoshi::compile::{Options, compile};
+use okoshi::internals::billboard::stages;
 use okoshi::resolver::MemoryResolver;
 
 /// Repetitions, of which the median is printed.

@@ -13,12 +13,12 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use okoshi::bind::{bind, in_layers_of_pixels};
+use okoshi::Memo;
 use okoshi::compile::{Options, compile};
 use okoshi::export::{GLB, to_memory};
-use okoshi::memo::Memo;
+use okoshi::internals::bind::{bind, in_layers_of_pixels};
+use okoshi::internals::svg;
 use okoshi::resolver::MemoryResolver;
-use okoshi::svg;
 
 use drawing::{Random, drawing};
 use sizes::sizes;

@@ -14,7 +14,7 @@ mod sizes;
 use std::process::Command;
 
 use okoshi::compile::{Options, compile};
-use okoshi::geometry::area;
+use okoshi::internals::geometry::area;
 use okoshi::resolver::MemoryResolver;
 
 use drawing::drawing;

@@ -12,8 +12,8 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use okoshi::FolderResolver;
 use okoshi::compile::{Options, compile};
-use okoshi::disk::FolderResolver;
 use okoshi::export::{GLB, to_memory};
 use okoshi::render::{self, Film, Model, PosedModel, RenderError};
 use okoshi::resolver::MemoryResolver;

@@ -16,12 +16,12 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use glam::DVec3;
-use okoshi::limited::{Length, Options, Poses, compare, drawings, limit};
-use okoshi::mocap::bvh;
-use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton};
-use okoshi::motion::PointChoice;
-use okoshi::motion::edit::{self, ExposureMethod, edit};
-use okoshi::prepare;
+use okoshi::internals::limited::{Length, Options, Poses, compare, drawings, limit};
+use okoshi::internals::mocap::bvh;
+use okoshi::internals::mocap::{Axis, Channel, Clip, Joint, Skeleton};
+use okoshi::internals::motion::PointChoice;
+use okoshi::internals::motion::edit::{self, ExposureMethod, edit};
+use okoshi::internals::prepare;
 use plain_limited::{plain, repeats};
 
 /// Joints of the figure.

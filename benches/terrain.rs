@@ -18,7 +18,7 @@ use block_mesh::{
 };
 use fastrand::Rng;
 use ndshape::{ConstShape, ConstShape3u32};
-use okoshi::terrain::{Landscape, Map};
+use okoshi::internals::terrain::{Landscape, Map};
 use rayon::prelude::*;
 
 /// Repetitions, of which the median is printed.

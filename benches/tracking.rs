@@ -12,7 +12,7 @@ mod synthetic;
 
 use std::time::Instant;
 
-use okoshi::tracking::{Frame, Learner, Mark, Tracker};
+use okoshi::internals::tracking::{Frame, Learner, Mark, Tracker};
 use synthetic::{Disc, Scene, ellipse};
 
 /// Frames of the clip.

@@ -68,7 +68,7 @@
 //! `render` draws pictures of models, `disk` reads and writes files, `cli` (the default) is the program. The modules behind
 //! `tracking`, `watch`, `preview` and `lsp` are parts of the program.
 //!
-//! Everything that is documented here is kept stable between minor versions; what is hidden is not.
+//! Everything that is documented here is kept stable between minor versions. All else is private.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a test that fails to unwrap has failed")
@@ -81,95 +81,67 @@
         reason = "what only the rim uses is unused without it"
     )
 )]
+#![allow(
+    rustdoc::private_intra_doc_links,
+    reason = "what is public for the program's own tests is documented for readers of the source"
+)]
 
 mod anatomy;
-#[doc(hidden)]
-pub mod assemble;
+mod assemble;
 mod assignment;
-#[doc(hidden)]
-pub mod billboard;
-#[doc(hidden)]
-pub mod bind;
+mod billboard;
+mod bind;
 #[cfg(feature = "cli")]
-#[doc(hidden)]
-pub mod cli;
-#[doc(hidden)]
-pub mod clips;
+mod cli;
+mod clips;
 pub mod compile;
-#[doc(hidden)]
-pub mod crash;
+mod crash;
 pub mod diagnostic;
 #[cfg(feature = "disk")]
-#[doc(hidden)]
-pub mod disk;
+mod disk;
 pub mod export;
-#[doc(hidden)]
-pub mod figure;
-#[doc(hidden)]
-pub mod geometry;
-#[doc(hidden)]
-pub mod ide;
-#[doc(hidden)]
-pub mod import;
+mod figure;
+mod geometry;
+mod ide;
+mod import;
 mod index;
 #[doc(hidden)]
-pub mod labels;
-#[doc(hidden)]
-pub mod lang;
-#[doc(hidden)]
-pub mod limited;
+pub mod internals;
+mod labels;
+mod lang;
+mod limited;
 #[cfg(feature = "render")]
-#[doc(hidden)]
-pub mod look;
+mod look;
 #[cfg(feature = "lsp")]
-#[doc(hidden)]
-pub mod lsp;
-#[doc(hidden)]
-pub mod mark_tracks;
-#[doc(hidden)]
-pub mod memo;
-#[doc(hidden)]
-pub mod mocap;
-#[doc(hidden)]
-pub mod motion;
-#[doc(hidden)]
-pub mod performance;
-#[doc(hidden)]
-pub mod prepare;
+mod lsp;
+mod mark_tracks;
+mod memo;
+mod mocap;
+mod motion;
+mod performance;
+mod prepare;
 #[cfg(feature = "preview")]
-#[doc(hidden)]
-pub mod preview;
-#[doc(hidden)]
-pub mod puppet;
+mod preview;
+mod puppet;
 mod regions;
 #[cfg(feature = "render")]
 pub mod render;
-#[doc(hidden)]
-pub mod report;
+mod report;
 pub mod resolver;
-#[doc(hidden)]
-pub mod retarget;
-#[doc(hidden)]
-pub mod rig;
+mod retarget;
+mod rig;
 pub mod scene;
 mod smoothing;
-#[doc(hidden)]
-pub mod solid;
-#[doc(hidden)]
-pub mod source;
-#[doc(hidden)]
-pub mod svg;
-#[doc(hidden)]
-pub mod terrain;
-#[doc(hidden)]
-pub mod texture;
+mod solid;
+mod source;
+mod svg;
+mod terrain;
+mod texture;
 mod threads;
 #[cfg(feature = "tracking")]
-#[doc(hidden)]
-pub mod tracking;
+mod tracking;
 #[cfg(feature = "watch")]
-#[doc(hidden)]
-pub mod watch;
+mod watch;
 
 pub use compile::{Compiled, Compiler, Options, compile};
 pub use diagnostic::Diagnostic;

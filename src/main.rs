@@ -1,4 +1,4 @@
-//! The `okoshi` command: a thin door to [`okoshi::cli`].
+//! The `okoshi` command: a thin door to [`okoshi::internals::cli`].
 
 use std::process::ExitCode;
 
@@ -7,5 +7,5 @@ use std::process::ExitCode;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    okoshi::cli::run(std::env::args_os())
+    okoshi::internals::cli::run(std::env::args_os())
 }

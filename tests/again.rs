@@ -9,11 +9,11 @@ use std::fs;
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
+use okoshi::Memo;
 use okoshi::compile::{Compiled, Compiler, Options, compile};
 use okoshi::export::{GLB, to_memory};
-use okoshi::memo::Memo;
+use okoshi::internals::source::Text;
 use okoshi::resolver::{LinkError, Resolver};
-use okoshi::source::Text;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{FileFailurePersistence, TestRunner};

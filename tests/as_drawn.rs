@@ -15,11 +15,11 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use okoshi::bind::PartKind;
+use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
 use okoshi::diagnostic::Code;
-use okoshi::disk::FolderResolver;
-use okoshi::look::{DrawnView, Instead, Look, compare, hints};
+use okoshi::internals::bind::PartKind;
+use okoshi::internals::look::{DrawnView, Instead, Look, compare, hints};
 use okoshi::render::{self, Options, PosedModel, Shading};
 use okoshi::resolver::{MemoryResolver, Resolver};
 use resvg::tiny_skia::{Pixmap, Transform};

@@ -8,9 +8,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use glam::DVec2;
+use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
-use okoshi::disk::FolderResolver;
-use okoshi::look::DrawnView;
+use okoshi::internals::look::DrawnView;
 use okoshi::render::{self, Options, PosedModel, Shading, Sheet};
 use okoshi::resolver::{MemoryResolver, Resolver as _};
 use okoshi::scene::view_axes;
@@ -240,12 +240,13 @@ fn seen(character: &Character) -> Vec<Seen> {
     };
     let page = compiled.drawing.page.0;
     let root = &compiled.scene.nodes[compiled.scene.roots[0]];
-    let meters = okoshi::assemble::world_transform(&compiled.bindings, &compiled.layers).scale;
+    let meters =
+        okoshi::internals::assemble::world_transform(&compiled.bindings, &compiled.layers).scale;
     let view = |(index, direction): (usize, &[f64; 2])| {
         let [right, up, _] = view_axes(*direction);
         let frame = &shown.frames[index];
         let boxes = shown.views[index].regions.iter();
-        let boxes = boxes.filter_map(|region| okoshi::geometry::bounds(&region.outline));
+        let boxes = boxes.filter_map(|region| okoshi::internals::geometry::bounds(&region.outline));
         let (low, high) = boxes
             .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
             .expect("regions");
@@ -438,9 +439,11 @@ fn backing_fills_gaps_and_changes_nothing_else() {
         let shown = &plain.compiled.characters[0];
         let [from, to] = [shown.turn.views[0], shown.turn.views[1]];
         let [right, up, _] = view_axes([(from[0] + to[0]) / 2.0, (from[1] + to[1]) / 2.0]);
-        let meters =
-            okoshi::assemble::world_transform(&plain.compiled.bindings, &plain.compiled.layers)
-                .scale;
+        let meters = okoshi::internals::assemble::world_transform(
+            &plain.compiled.bindings,
+            &plain.compiled.layers,
+        )
+        .scale;
         let size = (shown.frames[0].height * 1.5 * SCALE) as u32;
         let half = f64::from(size) / 2.0 * meters / SCALE;
         let halfway = |character: &Character| {
@@ -500,7 +503,8 @@ fn feature_points_tie_places_of_outlines_together() {
 fn what_a_set_depth_hides_is_found() {
     let resolver = MemoryResolver::default();
     let look = |character: &Character| {
-        okoshi::look::compare(&character.compiled, &character.text, &resolver, 400).expect("a look")
+        okoshi::internals::look::compare(&character.compiled, &character.text, &resolver, 400)
+            .expect("a look")
     };
     let boy = look(&character("boy"));
     assert!(boy.right > 0.998 && boy.parts.len() > 30, "{}", boy.right);
@@ -510,7 +514,7 @@ fn what_a_set_depth_hides_is_found() {
         let string = "><desc>Nose$Depth -300</desc></path>";
         format!("{}{string}{}", &text[..end], &text[end + 2..])
     });
-    let found = okoshi::look::hints(&hidden.compiled, &look(&hidden));
+    let found = okoshi::internals::look::hints(&hidden.compiled, &look(&hidden));
     let [hint] = &found[..] else {
         panic!("{found:?}");
     };

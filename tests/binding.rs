@@ -7,8 +7,8 @@ use std::{fmt::Write as _, fs};
 
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::diagnostic::Code;
+use okoshi::internals::source::escape_xml;
 use okoshi::resolver::MemoryResolver;
-use okoshi::source::escape_xml;
 use serde::Deserialize;
 
 /// Texts on a drawing.

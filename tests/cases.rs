@@ -11,10 +11,10 @@ use std::process::{Command, ExitCode};
 
 use common::rewrite::rewrites;
 use libtest_mimic::{Arguments, Failed, Trial};
-use okoshi::cli::report::{Style, human};
+use okoshi::FolderResolver;
 use okoshi::diagnostic::{Code, Diagnostic};
-use okoshi::disk::FolderResolver;
-use okoshi::report::Findings;
+use okoshi::internals::cli::report::{Style, human};
+use okoshi::internals::report::Findings;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases")

@@ -601,7 +601,7 @@ fn the_manual() {
     for code in okoshi::diagnostic::Code::ALL {
         room.run(&["explain", code.id()]).ends(0, code.title(), "");
     }
-    for keyword in okoshi::lang::keyword::Keyword::ALL {
+    for keyword in okoshi::internals::lang::keyword::Keyword::ALL {
         room.run(&["explain", keyword.name()])
             .ends(0, keyword.name(), "");
     }

@@ -4,11 +4,11 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use okoshi::cli::report::{Style, human};
 use okoshi::compile::{Compiled, Compiler, Options, compile};
-use okoshi::crash;
 use okoshi::diagnostic::Code;
-use okoshi::report::Findings;
+use okoshi::internals::cli::report::{Style, human};
+use okoshi::internals::crash;
+use okoshi::internals::report::Findings;
 use okoshi::resolver::{LinkError, Resolver};
 
 const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">

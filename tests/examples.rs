@@ -8,9 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use common::{Node, examples};
+use okoshi::FolderResolver;
 use okoshi::diagnostic::{Code, Severity};
-use okoshi::disk::FolderResolver;
-use okoshi::lang::keyword::kinds::KINDS;
+use okoshi::internals::lang::keyword::kinds::KINDS;
 
 /// The size limit of pictures in the gallery, bytes.
 const PICTURE: u64 = 60 << 10;

@@ -3,8 +3,8 @@
 
 mod common;
 
-use okoshi::bind::PartKind;
 use okoshi::diagnostic::Code;
+use okoshi::internals::bind::PartKind;
 use okoshi::resolver::MemoryResolver;
 
 /// A shape: its colour, centre and radii, and the angle by which it is turned.

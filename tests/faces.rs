@@ -9,11 +9,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::{DAffine3, DVec2, DVec3};
+use okoshi::FolderResolver;
 use okoshi::diagnostic::{Code, Diagnostic};
-use okoshi::disk::FolderResolver;
-use okoshi::geometry::{FillRule, area, intersect, resolve_overlaps};
+use okoshi::internals::geometry::{FillRule, area, intersect, resolve_overlaps};
+use okoshi::internals::solid::{Sides, Solid};
 use okoshi::scene::{Piece, Scene};
-use okoshi::solid::{Sides, Solid};
 
 /// The distance below which planes coincide, as a share of the model's extent.
 const NEAR: f64 = 1e-6;
@@ -79,7 +79,7 @@ fn faces(scene: &Scene) -> Vec<Face> {
     out
 }
 
-fn outline(face: &Face) -> okoshi::geometry::Outline {
+fn outline(face: &Face) -> okoshi::internals::geometry::Outline {
     resolve_overlaps(vec![face.corners.to_vec()], FillRule::NonZero)
 }
 

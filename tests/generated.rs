@@ -8,13 +8,13 @@ mod common;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use okoshi::cli::report::{Style, human};
+use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
 use okoshi::diagnostic::{Code, Diagnostic};
-use okoshi::disk::FolderResolver;
-use okoshi::lang::reference;
-use okoshi::look::{compare, hints};
-use okoshi::report::Findings;
+use okoshi::internals::cli::report::{Style, human};
+use okoshi::internals::lang::reference;
+use okoshi::internals::look::{compare, hints};
+use okoshi::internals::report::Findings;
 use okoshi::resolver::{LinkError, Resolver};
 
 fn path(name: &str) -> PathBuf {

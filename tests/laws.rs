@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use base64::Engine;
 use okoshi::compile::Compiled;
 use okoshi::diagnostic::{Code, Severity};
-use okoshi::lang::keyword::Keyword;
+use okoshi::internals::lang::keyword::Keyword;
 use okoshi::resolver::MemoryResolver;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;

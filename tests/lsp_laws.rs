@@ -9,10 +9,10 @@ use std::ops::Range;
 
 use common::editor::{Editor, edited, offset, position, range};
 use common::{compiled, glb};
+use okoshi::Span;
 use okoshi::diagnostic::Severity;
-use okoshi::ide::Analysis;
+use okoshi::internals::ide::Analysis;
 use okoshi::resolver::MemoryResolver;
-use okoshi::source::Span;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{FileFailurePersistence, TestRunner};

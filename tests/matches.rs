@@ -10,11 +10,11 @@ use std::path::Path;
 use common::program::Room;
 use glam::DVec2;
 use image::RgbaImage;
-use okoshi::billboard::Character;
+use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
-use okoshi::disk::FolderResolver;
-use okoshi::geometry::{bounds, contains};
-use okoshi::report::picture_of_matches;
+use okoshi::internals::billboard::Character;
+use okoshi::internals::geometry::{bounds, contains};
+use okoshi::internals::report::picture_of_matches;
 use okoshi::resolver::MemoryResolver;
 
 const EXAMPLES: [&str; 4] = ["bird", "boy", "cat", "robot"];

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
-use okoshi::disk::FolderResolver;
+use okoshi::FolderResolver;
 use okoshi::render::{Options, PosedModel, read, write_png};
 use okoshi::resolver::MemoryResolver;
 

@@ -10,14 +10,14 @@ use std::path::Path;
 use common::examples;
 use common::program::Room;
 use glam::{DAffine2, DVec2};
+use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
-use okoshi::disk::FolderResolver;
-use okoshi::geometry::{
+use okoshi::internals::geometry::{
     FillRule, Outline, area, border_distance_squared, bounds, contains, intersect, resolve_overlaps,
 };
-use okoshi::puppet::{MarkOrigin, Options, Piece, PuppetError, Sheet, pieces, sheet};
+use okoshi::internals::puppet::{MarkOrigin, Options, Piece, PuppetError, Sheet, pieces, sheet};
+use okoshi::internals::svg::{LeftOut, raster};
 use okoshi::resolver::{MemoryResolver, Resolver};
-use okoshi::svg::{LeftOut, raster};
 use proptest::prelude::*;
 use resvg::tiny_skia::{Pixmap, Transform};
 use roxmltree::{Document, Node};

@@ -23,7 +23,7 @@ pub mod stages;
 mod tests;
 mod turn;
 
-pub use character::{Character, Fill, Piece, RegionModel, read};
-pub use matching::{Candidate, Matching, Pair, Place, Reason, Track, TrackId, Unmatched};
-pub use nodes::{FlatMaterial, RegionMaterials, add};
-pub use region::{Direction, Region, View};
+pub use character::{Character, RegionModel, read};
+pub use matching::{Candidate, Pair, Place, Reason, Track, TrackId, Unmatched};
+pub use nodes::{RegionMaterials, add};
+pub use region::View;

@@ -16,16 +16,11 @@ mod tests;
 mod words;
 
 pub use attributes::{
-    Attribute, Attributes, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, GivenDepth,
-    Legend, MaterialFactors, MotionSource, PartMark, PerformanceEffects, PerformanceRequest,
-    Resolved, SetBy, SetColor, SignedAxis, Source, plate_depth,
+    Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
+    MotionSource, PartMark, PerformanceRequest, SetBy, SignedAxis,
 };
-pub use bindings::{
-    Binding, Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place, StringId,
-};
-pub use matching::{
-    BindRule, DistanceMode, DrawingSettings, Layer, LayerKind, Layers, Strokes, in_layers_of_pixels,
-};
+pub use bindings::{Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place, StringId};
+pub use matching::{BindRule, DistanceMode, LayerKind, in_layers_of_pixels};
 pub use names::written_by_a_person;
 pub use reports::locate;
 

@@ -1,3 +1,5 @@
+use super::attributes::PerformanceEffects;
+use super::matching::Strokes;
 use super::*;
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::Code;

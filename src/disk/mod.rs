@@ -14,15 +14,12 @@ mod watch;
 mod write;
 
 pub use cache::write_cached;
-pub use folder::{FolderResolver, LINK_LIMIT};
-pub use read::{
-    DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, is_packed, open_stream, read_drawing, read_file,
-};
+pub use folder::FolderResolver;
+pub use read::{ReadError, is_packed, open_stream, read_drawing, read_file};
 pub use scratch::Scratch;
-pub use search::{Below, Stamp, below, files, is_drawing, stamp};
-pub use sniff::NotADrawing;
+pub use search::{Stamp, below, files, is_drawing, stamp};
 pub use target::{Inputs, Naming, Target, rewrite};
-pub use text::{Decode, decode};
+pub use text::decode;
 pub use watch::{ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths};
 pub use write::{WriteError, make_folder, write_new};
 

@@ -225,8 +225,9 @@ impl Analysis {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Analysis;
+    use super::super::actions::Action;
     use super::super::fixtures::analysis;
-    use super::super::{Action, Analysis};
     use crate::diagnostic::{Code, applied};
     use crate::source::Span;
 

@@ -1,6 +1,6 @@
 //! Labels for the joints of a skeleton and the parts of a figure: head, arm or leg, which side, which piece of it.
 //!
-//! Both are labelled by name first, and by shape where names say nothing: [`label_skeleton`] and [`label_figure`]. A label
+//! Both are labelled by name first, and by shape where names say nothing: [`label_clip`] and [`label_figure`]. A label
 //! keeps the reason for it. All tables of words are in `anatomy`.
 
 mod by_shape;
@@ -26,7 +26,7 @@ use crate::mocap::{Skeleton, Transform};
 pub use drawn_figure::{Carry, Figure, FigurePart};
 pub use figure::label_figure;
 pub(crate) use figure::{LabeledFigure, label_drawn};
-pub use skeleton::{Anatomy, Limb, label_clip, label_skeleton};
+pub use skeleton::{Anatomy, Limb, label_clip};
 
 pub(crate) use joint_tree::JointTree;
 pub(crate) use skeleton::plain_names;

@@ -86,7 +86,8 @@ pub struct Limb {
 }
 
 /// Labels the joints of a skeleton. If names do not tell left from right, its offset pose does.
-pub fn label_skeleton(skeleton: &Skeleton) -> Anatomy {
+#[cfg(test)]
+pub(crate) fn label_skeleton(skeleton: &Skeleton) -> Anatomy {
     anatomy(skeleton, || vec![skeleton.offset_pose()])
 }
 

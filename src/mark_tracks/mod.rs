@@ -23,7 +23,7 @@ use check::ticks;
 use write::TICKS;
 
 pub use bridge::bridge;
-pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, MAX_SIDE, is_name, repeated_name};
+pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, is_name, repeated_name};
 pub use color::{Hsv, hex, hue_difference, named_color, parse_hex};
 pub use error::{Error, Place};
 

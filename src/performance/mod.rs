@@ -11,9 +11,8 @@ mod information;
 mod marks;
 mod plan;
 
-pub use camerawork::{CAMERA_FOV, CameraPath, camerawork};
 pub use emphasis::{Limbs, ratios};
 pub use filmed::Filmed;
-pub use information::{Information, Key, joint_steps};
+pub use information::{Information, joint_steps};
 pub use marks::mark_movements;
 pub use plan::{Effects, Filming, Finding, Plan, Request, plan};

@@ -15,7 +15,7 @@ use crate::mocap::travel::{self, Ending};
 use crate::mocap::{Axis, Clip};
 use crate::retarget::{self, Landmarks};
 
-pub use lead_in::{LeadIn, LeadInKind, find_lead_in};
+pub use lead_in::{LeadInKind, find_lead_in};
 pub use looping::Cycle;
 use looping::looped;
 

@@ -19,4 +19,4 @@ mod server;
 mod socket;
 
 pub use hub::{Builds, Hub, Picked, Shown};
-pub use server::{Bound, bind, serve};
+pub use server::{bind, serve};

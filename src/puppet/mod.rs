@@ -25,7 +25,7 @@ use crate::threads;
 use instructions::Texts;
 use layout::{EDGE, GAP, Layout, Task};
 pub use marks::{MarkOrigin, PieceMark, marks};
-pub use pieces::{Joint, Piece, pieces};
+pub use pieces::{Piece, pieces};
 use sheet::Printed;
 
 /// The most pieces of a sheet; nobody pins more.

@@ -14,16 +14,16 @@ mod performances;
 pub(crate) mod samples;
 mod terrain;
 
-pub use billboards::{Billboard, BillboardRegion, billboards, characters, describe_character};
+pub use billboards::{Billboard, billboards, characters, describe_character};
 pub use clips::{Clip, clips, cut_frames};
 pub use depths::depth_reason;
 pub use findings::{Findings, Likeness, findings_json};
 pub use inspection::inspection_json;
-pub use joints::{Driver, drivers, frame_ranges, undriven};
+pub use joints::{drivers, frame_ranges, undriven};
 pub use matches::picture_of_matches;
-pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, part_count, parts};
-pub use performances::{Frames, Performance, PerformedMark, performance, performed_mark};
-pub use terrain::{Group, House, Terrain, terrain};
+pub use parts::{Part, landscapes, own_name, part_count, parts};
+pub use performances::{Performance, PerformedMark, performance, performed_mark};
+pub use terrain::{Terrain, terrain};
 
 /// Indented JSON. Reports hold only text and numbers, so this cannot fail.
 pub(crate) fn pretty(report: &impl serde::Serialize) -> String {

@@ -34,7 +34,7 @@ pub use figure_clip::{FigureClip, PartDrive, originals};
 pub use figures::{FigureGroup, find as find_figures};
 use motion_files::MotionFiles;
 use performances::Performances;
-pub use performed::{Performed, PerformedParts};
+pub use performed::Performed;
 pub use rigging::RestNode;
 use rigging::RestNodes;
 use tracks::AnimatedNodes;

@@ -6,7 +6,8 @@
 //!
 //! Invariant: a surface other than a flat one is closed ([`check::closed`]) and wound outward.
 
-pub mod check;
+#[cfg(test)]
+mod check;
 
 mod border;
 mod cap;
@@ -32,8 +33,7 @@ use glam::{DMat2, DVec2, DVec3};
 use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
-pub use kinds::{Faces, Kind, Profile};
-pub use layers::Layer;
+pub use kinds::{Kind, Profile};
 pub use pile::{Body, LaidSolid, Lay, LayForm, Pile, RecentHeights, SolidHeights};
 pub use source::{Sides, Solid};
 

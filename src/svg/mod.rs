@@ -42,8 +42,8 @@ pub(crate) use links::broken_link;
 pub use oklab::oklab;
 pub use paths::StrokeSource;
 pub(crate) use pictures::LARGE;
-pub use raster::{LeftOut, Raster, raster};
-pub use text::{Label, TextPosition};
+pub use raster::{LeftOut, raster};
+pub use text::Label;
 pub use unseen::{ConvertedText, Hidden, Unseen};
 
 use crate::diagnostic::{Code, Diagnostic};

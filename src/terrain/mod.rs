@@ -19,8 +19,8 @@ mod reading;
 mod solids;
 mod surface;
 
-pub use ambiguities::{Ambiguity, AmbiguityKind};
-pub use landscape::{DEFAULT_ROOF, Group, HouseInfo, Landscape};
+pub use ambiguities::AmbiguityKind;
+pub use landscape::{DEFAULT_ROOF, HouseInfo, Landscape};
 pub use map::{EDGE_BELOW, EDGE_RIGHT, MAX_CELLS, Map, Tile};
 pub use nodes::node;
-pub use reading::{Layer, TileMaterial, TileSource, TileTexture, cells_named, read};
+pub use reading::{Layer, TileMaterial, TileTexture, read};

@@ -15,8 +15,8 @@ mod mark;
 mod samples;
 mod track;
 
-pub use color::{HUES, Hsv, hue_name};
+pub use color::hue_name;
 pub use frame::Frame;
 pub use learn::{LearnError, Learned, Learner};
-pub use mark::{Mark, MarkError};
+pub use mark::Mark;
 pub use track::{Sighting, Tracker, tracks};

@@ -16,8 +16,6 @@ use crate::disk::{ChangeDetection, FolderWatch, WatchError};
 use crate::export::{Exporter, GLB, Model};
 use watcher::Watcher;
 
-pub use drawing::Drawing;
-
 /// How drawings are read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {

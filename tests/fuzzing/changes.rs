@@ -5,9 +5,9 @@
 
 use std::ops::Range;
 
+use okoshi::Memo;
 use okoshi::compile::{Compiled, Compiler, Options, compile};
 use okoshi::export::{GLB, to_memory};
-use okoshi::memo::Memo;
 
 use super::{drawing, files};
 

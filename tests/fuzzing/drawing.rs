@@ -3,9 +3,9 @@
 
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::diagnostic::Diagnostic;
-use okoshi::disk::decode;
 use okoshi::export::{EXPORTERS, GLB, to_memory};
-use okoshi::import::{ImportError, read_static_model};
+use okoshi::internals::disk::decode;
+use okoshi::internals::import::{ImportError, read_static_model};
 use okoshi::render;
 use okoshi::resolver::{MemoryResolver, Resolver};
 

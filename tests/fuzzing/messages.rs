@@ -2,7 +2,7 @@
 //! and changes nothing about those.
 
 use futures::executor::block_on;
-use okoshi::lsp::pass_on;
+use okoshi::internals::lsp::pass_on;
 use serde_json::{Value, json};
 
 pub(super) fn check(bytes: &[u8]) {

@@ -2,7 +2,7 @@
 //! rendered and written.
 
 use okoshi::export::{EXPORTERS, GLTF, to_memory};
-use okoshi::import::read_static_model;
+use okoshi::internals::import::read_static_model;
 use okoshi::render::{self, Options, PosedModel, RenderError};
 use okoshi::resolver::MemoryResolver;
 use okoshi::scene::{Camera, CameraProjection, NewNode, Node};

@@ -1,9 +1,9 @@
 //! Every motion file is read, or refused with a line; a clip that was read can be resampled, written and read again.
 
-use okoshi::mocap::Clip;
-use okoshi::mocap::bvh::{Decimals, MAX_MAGNITUDE, Reading, read_bytes, write};
-use okoshi::mocap::resample::resample;
-use okoshi::prepare::find_lead_in;
+use okoshi::internals::mocap::Clip;
+use okoshi::internals::mocap::bvh::{Decimals, MAX_MAGNITUDE, Reading, read_bytes, write};
+use okoshi::internals::mocap::resample::resample;
+use okoshi::internals::prepare::find_lead_in;
 
 use super::files;
 

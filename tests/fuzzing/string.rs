@@ -1,7 +1,7 @@
 //! Every string is read, as a text and as a description, and its settings are computed.
 
-use okoshi::lang::{Container, parse, settings, variables::Variables};
-use okoshi::source::Text;
+use okoshi::internals::lang::{Container, parse, settings, variables::Variables};
+use okoshi::internals::source::Text;
 
 pub(super) fn check(bytes: &[u8]) {
     let Ok(string) = std::str::from_utf8(bytes) else {

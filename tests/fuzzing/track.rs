@@ -1,6 +1,6 @@
 //! Every track is read, or refused with a help; one that was read is the same when it is written and read again.
 
-use okoshi::mark_tracks::{MarkTracks, Place};
+use okoshi::internals::mark_tracks::{MarkTracks, Place};
 
 pub(super) fn check(bytes: &[u8]) {
     match MarkTracks::from_bytes(bytes) {

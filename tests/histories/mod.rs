@@ -6,10 +6,10 @@ mod files;
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 
+use okoshi::Memo;
 use okoshi::compile::{Compiled, Compiler, Options, compile};
-use okoshi::lang::keyword::Keyword;
-use okoshi::lang::value::Setting;
-use okoshi::memo::Memo;
+use okoshi::internals::lang::keyword::Keyword;
+use okoshi::internals::lang::value::Setting;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{FileFailurePersistence, TestRunner};

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use gltf::animation::Interpolation;
 use gltf::animation::util::ReadOutputs;
-use okoshi::limited::Measured;
-use okoshi::limited::{Cut, Options, limit};
-use okoshi::mocap::Clip;
-use okoshi::mocap::bvh::read_bytes;
-use okoshi::motion::PointChoice;
+use okoshi::internals::limited::Measured;
+use okoshi::internals::limited::{Cut, Options, limit};
+use okoshi::internals::mocap::Clip;
+use okoshi::internals::mocap::bvh::read_bytes;
+use okoshi::internals::motion::PointChoice;
 
 use crate::common::program::{Room, Run};
 use crate::retarget::clips::clip;

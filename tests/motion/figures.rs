@@ -12,9 +12,9 @@ use std::sync::Arc;
 use std::{env, fs};
 
 use okoshi::compile::Compiled;
-use okoshi::labels::{Anatomy, Class, Limb, Piece, Side, Tip, label_clip};
-use okoshi::mocap::bvh::{self, Decimals};
-use okoshi::mocap::{Clip, Skeleton};
+use okoshi::internals::labels::{Anatomy, Class, Limb, Piece, Side, Tip, label_clip};
+use okoshi::internals::mocap::bvh::{self, Decimals};
+use okoshi::internals::mocap::{Clip, Skeleton};
 use okoshi::resolver::MemoryResolver;
 
 use crate::common::compiled;

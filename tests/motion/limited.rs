@@ -10,17 +10,17 @@ use std::sync::Arc;
 use crate::retarget::clips::clip;
 use fastrand::Rng;
 use glam::{DVec3, dvec3};
-use okoshi::labels::label_clip;
-use okoshi::limited::Measured;
-use okoshi::limited::{
+use okoshi::internals::labels::label_clip;
+use okoshi::internals::limited::Measured;
+use okoshi::internals::limited::{
     Camera, Cut, Drawing, Exposure, Length, MAX_OMITTED_RUN, Method, Options, Poses, compare,
     error, every, limit, ssd,
 };
-use okoshi::mocap::bvh;
-use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton};
-use okoshi::motion::PointChoice;
-use okoshi::motion::edit::{self, ExposureMethod, edit};
-use okoshi::prepare;
+use okoshi::internals::mocap::bvh;
+use okoshi::internals::mocap::{Axis, Channel, Clip, Joint, Skeleton};
+use okoshi::internals::motion::PointChoice;
+use okoshi::internals::motion::edit::{self, ExposureMethod, edit};
+use okoshi::internals::prepare;
 use plain_limited::{Plain, plain, repeats};
 
 /// A random point of a grid with `places` places in each direction.

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::{DQuat, DVec2, DVec3};
+use okoshi::FolderResolver;
 use okoshi::compile::{Compiled, Options, compile};
-use okoshi::disk::FolderResolver;
-use okoshi::labels::Facing;
-use okoshi::mocap::{Clip, Transform};
-use okoshi::retarget::Landmarks;
-use okoshi::rig::FigureClip;
+use okoshi::internals::labels::Facing;
+use okoshi::internals::mocap::{Clip, Transform};
+use okoshi::internals::retarget::Landmarks;
+use okoshi::internals::rig::FigureClip;
 use okoshi::scene::{Animation, Interpolation, Scene, Values};
 
 use crate::retarget::clips::clip;

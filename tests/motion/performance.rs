@@ -3,16 +3,16 @@
 use std::collections::BTreeSet;
 
 use glam::DQuat;
-use okoshi::labels::Facing;
-use okoshi::mocap::resample::TimeMap;
-use okoshi::retarget::{Landmarks, RetargetedClip, Rig, Turns, retarget};
+use okoshi::internals::labels::Facing;
+use okoshi::internals::mocap::resample::TimeMap;
+use okoshi::internals::retarget::{Landmarks, RetargetedClip, Rig, Turns, retarget};
 
 use crate::retarget::clips::{FILES, clip};
 use crate::retarget::rigs::{Limbs, biped, dog, part};
 use crate::retarget::{apart, placed};
 
 /// Every figure with every clip.
-fn all(mut check: impl FnMut(&str, &Rig, &okoshi::mocap::Clip, &Landmarks)) -> usize {
+fn all(mut check: impl FnMut(&str, &Rig, &okoshi::internals::mocap::Clip, &Landmarks)) -> usize {
     let mut checked = 0;
     for file in FILES {
         let prepared = clip(file);

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use fastrand::Rng;
 use glam::{DQuat, DVec3};
 use okoshi::compile::{Compiled, Options, compile};
-use okoshi::performance::Filming;
+use okoshi::internals::performance::Filming;
 use okoshi::resolver::MemoryResolver;
 use okoshi::scene::{CameraProjection, Interpolation, Scene, Track, Values};
 

@@ -9,10 +9,10 @@ mod swing;
 mod walks;
 
 use glam::{DQuat, DVec3};
-use okoshi::labels::{Facing, Tip};
-use okoshi::mocap::{Clip, Transform};
-use okoshi::retarget::{Drive, Follow};
-use okoshi::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
+use okoshi::internals::labels::{Facing, Tip};
+use okoshi::internals::mocap::{Clip, Transform};
+use okoshi::internals::retarget::{Drive, Follow};
+use okoshi::internals::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
 
 use clips::{FILES, clip};
 use rigs::{Limbs, biped, dog, stout};

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use okoshi::FolderResolver;
 use okoshi::compile::{Compiled, Options, compile};
-use okoshi::disk::FolderResolver;
 use okoshi::export::{GLB, to_memory};
+use okoshi::internals::terrain::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
 use okoshi::render::{self, PosedModel, View, Window};
 use okoshi::resolver::{MemoryResolver, Resolver};
-use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
 
 use crate::worlds::World;
 

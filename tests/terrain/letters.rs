@@ -1,6 +1,6 @@
 //! Tile maps as letters.
 
-use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
+use okoshi::internals::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
 
 /// A map from lines of letters: `g b w R B` for green, brown, blue, red and beige, a dot for nothing. Between letters stands
 /// `|` for an edge or a space; a line that begins with `:` says by `-` below which letters of the line before there is an edge.

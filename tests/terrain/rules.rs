@@ -1,6 +1,6 @@
 //! Each rule of terrain with heights that were computed by hand, and the figures of the thesis.
 
-use okoshi::terrain::{AmbiguityKind, HouseInfo, Landscape, Map};
+use okoshi::internals::terrain::{AmbiguityKind, HouseInfo, Landscape, Map};
 
 use crate::letters::map;
 
@@ -433,7 +433,10 @@ fn houses_are_as_large_as_they_are_drawn() {
             .flat_map(|piece| &piece.positions);
         corners.fold(0.0_f64, |high, place| high.max(place[1].into()))
     };
-    assert!((high(okoshi::terrain::DEFAULT_ROOF) - (1.0 + 2.0 / 2.0_f64.sqrt())).abs() < 1e-6);
+    assert!(
+        (high(okoshi::internals::terrain::DEFAULT_ROOF) - (1.0 + 2.0 / 2.0_f64.sqrt())).abs()
+            < 1e-6
+    );
     assert_eq!(high(0.5), 2.0);
     // The block, and a prism of half its height at `Roof 0.5`.
     let (volume, _) = measured(&house);
@@ -498,7 +501,9 @@ fn remaining_tiles_are_built_too() {
     );
     assert!(matches!(
         notes(path)[..],
-        [AmbiguityKind::Plain(okoshi::terrain::Tile::Beige)]
+        [AmbiguityKind::Plain(
+            okoshi::internals::terrain::Tile::Beige
+        )]
     ));
     let (volume, [low, high]) = measured(&map("
         b b

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use okoshi::terrain::{Landscape, Map, Tile};
+use okoshi::internals::terrain::{Landscape, Map, Tile};
 
 use crate::worlds::{World, picture, scribble};
 

@@ -1,6 +1,6 @@
 //! Random landscapes with known heights, and their maps.
 
-use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
+use okoshi::internals::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
 
 use fastrand::Rng;
 

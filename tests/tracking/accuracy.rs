@@ -1,7 +1,7 @@
 //! How near tracks are to the truth.
 
 use glam::DVec2;
-use okoshi::tracking::{Frame, Learner, Mark, Tracker};
+use okoshi::internals::tracking::{Frame, Learner, Mark, Tracker};
 
 use super::synthetic::{Disc, Scene, ellipse};
 

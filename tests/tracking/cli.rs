@@ -7,7 +7,7 @@ use std::process::Command;
 use glam::DVec2;
 use image::codecs::gif::{GifDecoder, GifEncoder};
 use image::{AnimationDecoder as _, Delay, Frame, RgbImage};
-use okoshi::mark_tracks::MarkTracks;
+use okoshi::internals::mark_tracks::MarkTracks;
 
 use crate::common::program::{Room, Run};
 use crate::synthetic::{Disc, Scene, ellipse};

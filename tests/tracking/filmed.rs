@@ -6,8 +6,8 @@ use std::path::Path;
 
 use image::AnimationDecoder as _;
 use image::codecs::webp::WebPDecoder;
-use okoshi::mark_tracks::MarkTracks;
-use okoshi::tracking::{Frame, Learner, Mark, Tracker, tracks};
+use okoshi::internals::mark_tracks::MarkTracks;
+use okoshi::internals::tracking::{Frame, Learner, Mark, Tracker, tracks};
 
 #[test]
 fn a_filmed_clip_agrees_with_another_program() {

@@ -8,12 +8,12 @@ mod legends;
 mod marks;
 mod motions;
 
-pub use given_depths::GivenDepth;
 pub use legends::Legend;
 pub use marks::{FollowedName, PartMark};
+#[cfg(test)]
+pub(in crate::bind) use motions::PerformanceEffects;
 pub use motions::{
-    Camerawork, ClipLimits, ClipRequest, MotionSource, PerformanceEffects, PerformanceRequest,
-    SignedAxis,
+    Camerawork, ClipLimits, ClipRequest, MotionSource, PerformanceRequest, SignedAxis,
 };
 
 use typed_index_collections::TiSlice;

@@ -20,7 +20,7 @@ mod wrappers;
 
 pub(in crate::bind) use kinds::of_ink;
 pub(in crate::bind) use layers::group_of;
-pub use layers::{Layer, LayerKind, Layers, in_layers_of_pixels};
+pub use layers::{LayerKind, Layers, in_layers_of_pixels};
 pub(in crate::bind) use leaders::Leaders;
 pub use nearest::DistanceMode;
 pub(in crate::bind) use parts::MatchedPart;

@@ -1,7 +1,8 @@
 //! Ways to name joints: the names are those of the programs, the skeletons are cut down to what matters.
 
 use super::{limbs, skeleton};
-use crate::labels::{Anatomy, label_skeleton};
+use crate::labels::Anatomy;
+use crate::labels::skeleton::label_skeleton;
 use crate::mocap::Skeleton;
 
 /// Limbs as `left upper, lower, end; right …` arms first, and hips, chest, neck and head.

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::limbs;
-use crate::labels::{Anatomy, Class, Limb, Side, Tip, label_clip, label_skeleton};
+use crate::labels::skeleton::label_skeleton;
+use crate::labels::{Anatomy, Class, Limb, Side, Tip, label_clip};
 use crate::mocap::bvh;
 use crate::mocap::{Axis, Channel, Clip, Joint, Skeleton};
 

@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 
-use crate::labels::{Anatomy, label_figure, label_skeleton};
+use crate::labels::skeleton::label_skeleton;
+use crate::labels::{Anatomy, label_figure};
 use crate::labels::{Figure, FigurePart};
 use crate::mocap::{Joint, Skeleton};
 use crate::retarget::{MatchedPart, match_figure};

@@ -23,8 +23,7 @@ mod tests;
 #[cfg(test)]
 mod write_tests;
 
-pub use error::{Error, Note};
-pub use motion_header::DEFAULT_FRAME_TIME;
+pub use error::Error;
 pub use read::{Reading, read, read_bytes};
 pub use write::{Decimals, write, write_frames};
 

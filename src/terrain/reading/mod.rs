@@ -18,7 +18,6 @@ use std::ops::Range;
 
 use glam::DVec2;
 
-pub use diagnostics::cells_named;
 pub use materials::{TileMaterial, TileTexture};
 
 use super::landscape::{DEFAULT_ROOF, Landscape};

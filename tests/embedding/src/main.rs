@@ -3,7 +3,7 @@
 use okoshi::compile::{Options, compile};
 use okoshi::export::{GLB, to_memory};
 use okoshi::resolver::MemoryResolver;
-use okoshi::source::LineIndex;
+use okoshi::LineIndex;
 
 const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">
   <rect x="40" y="40" width="20" height="40"/>

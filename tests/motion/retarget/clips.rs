@@ -4,9 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3, EulerRot};
-use okoshi::mocap::bvh;
-use okoshi::mocap::{Axis, Channel, Clip, Skeleton, Transform};
-use okoshi::prepare::{Options, PreparedClip, prepare};
+use okoshi::internals::mocap::bvh;
+use okoshi::internals::mocap::{Axis, Channel, Clip, Skeleton, Transform};
+use okoshi::internals::prepare::{Options, PreparedClip, prepare};
 
 pub(crate) const FILES: [&str; 6] = [
     "examples/motion/boxing.bvh",

@@ -6,10 +6,10 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use okoshi::clips::{BuiltIn, Legs};
-use okoshi::mocap::bvh;
-use okoshi::prepare::{Options, PreparedClip, built_in, prepare};
-use okoshi::retarget::retarget;
+use okoshi::internals::clips::{BuiltIn, Legs};
+use okoshi::internals::mocap::bvh;
+use okoshi::internals::prepare::{Options, PreparedClip, built_in, prepare};
+use okoshi::internals::retarget::retarget;
 
 use super::clips::FILES;
 use super::swing::hairy;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use okoshi::labels::{Facing, Tip, label_clip};
-use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
-use okoshi::retarget::{Drive, Follow};
-use okoshi::retarget::{Landmarks, Rig, RigPart, retarget};
+use okoshi::internals::labels::{Facing, Tip, label_clip};
+use okoshi::internals::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
+use okoshi::internals::retarget::{Drive, Follow};
+use okoshi::internals::retarget::{Landmarks, Rig, RigPart, retarget};
 use proptest::prelude::*;
 
 use super::placed;

@@ -1,10 +1,10 @@
 //! The same motion, written in another way, moves a figure in the same way.
 
 use glam::{DQuat, DVec3};
-use okoshi::labels::{Facing, label_clip};
-use okoshi::mocap::Clip;
-use okoshi::mocap::bvh::{Decimals, read_bytes, write};
-use okoshi::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
+use okoshi::internals::labels::{Facing, label_clip};
+use okoshi::internals::mocap::Clip;
+use okoshi::internals::mocap::bvh::{Decimals, read_bytes, write};
+use okoshi::internals::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
 
 use fastrand::Rng;
 

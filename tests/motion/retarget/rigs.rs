@@ -1,10 +1,10 @@
 //! Rigs to retarget motions to: drawn at an angle, so that nothing points in the direction of the clip's rest pose.
 
 use glam::{DQuat, DVec3, dvec3};
-use okoshi::labels::{Anatomy, Class, Facing, Limb, Side, Tip};
-use okoshi::mocap::Transform;
-use okoshi::retarget::{Drive, Follow};
-use okoshi::retarget::{Rig, RigPart};
+use okoshi::internals::labels::{Anatomy, Class, Facing, Limb, Side, Tip};
+use okoshi::internals::mocap::Transform;
+use okoshi::internals::retarget::{Drive, Follow};
+use okoshi::internals::retarget::{Rig, RigPart};
 
 /// How limbs are attached to the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use glam::{DVec3, dvec3};
-use okoshi::labels::Anatomy;
-use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
-use okoshi::retarget::{Drive, Follow};
-use okoshi::retarget::{Landmarks, Rig, RigPart, retarget};
+use okoshi::internals::labels::Anatomy;
+use okoshi::internals::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
+use okoshi::internals::retarget::{Drive, Follow};
+use okoshi::internals::retarget::{Landmarks, Rig, RigPart, retarget};
 
 use super::clips::{FILES, clip};
 use super::rigs::{Limbs, biped, part};

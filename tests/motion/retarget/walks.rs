@@ -1,9 +1,9 @@
 //! Walking legs: the direction that they face, and feet that do not slide.
 
 use glam::{DVec3, dvec3};
-use okoshi::labels::Facing;
-use okoshi::mocap::{Clip, Transform};
-use okoshi::retarget::{Landmarks, RetargetedClip, Rig, retarget};
+use okoshi::internals::labels::Facing;
+use okoshi::internals::mocap::{Clip, Transform};
+use okoshi::internals::retarget::{Landmarks, RetargetedClip, Rig, retarget};
 
 use super::clips::{FILES, clip};
 use super::rigs::{Limbs, biped, dog};
