@@ -7,7 +7,8 @@ use crate::mocap::turns::continuous;
 use crate::mocap::{Channel, Clip, Transform, height};
 use crate::performance::{Filmed, Filming};
 use crate::scene::{
-    Animation, Material, Mesh, Node, Primitive, Scene, Surface, Track, Values, WorldTransform,
+    Animation, Material, Mesh, Node, NodeId, Primitive, Scene, Surface, Track, Values,
+    WorldTransform,
 };
 
 /// The height of the model in the first frame, metres: files have any unit.
@@ -33,14 +34,12 @@ pub fn skeleton_model(
         _ => clip.pose(0),
     };
     let scale = scale(&first, to_model);
-    let mut scene = Scene {
-        materials: vec![Material {
-            name: "bone".to_owned(),
-            base_color: [0.61, 0.55, 0.42, 1.0],
-            ..Material::default()
-        }],
-        ..Scene::default()
-    };
+    let mut scene = Scene::default();
+    let material = scene.materials.push_and_get_key(Material {
+        name: "bone".to_owned(),
+        base_color: [0.61, 0.55, 0.42, 1.0],
+        ..Material::default()
+    });
     let children = skeleton.children();
     for (index, joint) in skeleton.joints.iter().enumerate() {
         let ways = children[index]
@@ -50,27 +49,27 @@ pub fn skeleton_model(
             .chain(joint.ends.iter().copied())
             .map(|way| way * scale)
             .collect();
-        scene.meshes.push(Mesh {
+        let mesh = scene.meshes.push_and_get_key(Mesh {
             primitives: vec![Primitive {
                 pieces: vec![bones(&ways).into()],
-                material: 0,
+                material,
             }],
         });
         let at_root = joint.parent.is_none();
-        scene.nodes.push(Node {
+        let node = scene.nodes.push_and_get_key(Node {
             name: joint.name.clone(),
-            children: children[index].clone(),
+            children: children[index].iter().copied().map(node_of).collect(),
             translation: if at_root {
                 to_model * joint.offset * scale
             } else {
                 joint.offset * scale
             },
             rotation: if at_root { to_model } else { DQuat::IDENTITY },
-            mesh: Some(index),
+            mesh: Some(mesh),
             ..Node::default()
         });
         if at_root {
-            scene.roots.push(index);
+            scene.roots.push(node);
         }
     }
     scene
@@ -104,6 +103,11 @@ pub fn add_camera(
     scene.animations.push(animation);
 }
 
+/// The node of a joint: they have the same order.
+fn node_of(joint: usize) -> NodeId {
+    joint.into()
+}
+
 /// Metres per unit of the file.
 fn scale(pose: &[Transform], to_model: DQuat) -> f64 {
     match height(pose.iter().map(|placed| to_model * placed.position)) {
@@ -128,7 +132,7 @@ fn animation(
         return animation;
     }
     let mut start = 0;
-    for (node, joint) in clip.skeleton.joints.iter().enumerate() {
+    for (index, joint) in clip.skeleton.joints.iter().enumerate() {
         let numbers = start..start + joint.channels.len();
         start = numbers.end;
         if joint.channels.is_empty() {
@@ -152,7 +156,7 @@ fn animation(
             .any(|channel| matches!(channel, Channel::Position(_)));
         let mut add = |values| {
             animation.tracks.push(Track {
-                node,
+                node: node_of(index),
                 timing: keys.timing(),
                 values,
             });
