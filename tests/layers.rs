@@ -201,7 +201,7 @@ const USES: &[(&str, &[&str])] = &[
     ("main", &["cli"]),
     ("mark_tracks", &["index"]),
     ("memo", &["resolver", "threads"]),
-    ("mocap", &[]),
+    ("mocap", &["index"]),
     (
         "motion",
         &[

@@ -20,6 +20,8 @@ use std::sync::Arc;
 
 use typed_index_collections::TiVec;
 
+pub use crate::mocap::JointId;
+
 use crate::bind::{Bindings, MotionSource};
 use crate::clips::BuiltIn;
 use crate::diagnostic::Diagnostic;

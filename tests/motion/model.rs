@@ -7,7 +7,7 @@ use glam::{DQuat, DVec2, DVec3};
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::disk::FolderResolver;
 use okoshi::labels::Facing;
-use okoshi::mocap::{Clip, Transform};
+use okoshi::mocap::{Clip, JointId, Pose, Transform};
 use okoshi::retarget::Landmarks;
 use okoshi::rig::FigureClip;
 use okoshi::scene::{Animation, Interpolation, NodeId, Scene, TiVec, Values};
@@ -73,15 +73,15 @@ fn world(scene: &Scene, clip: &Animation, key: usize) -> TiVec<NodeId, Transform
 }
 
 /// The joint of a name.
-fn joint(clip: &Clip, name: &str) -> usize {
-    let mut joints = clip.skeleton.joints.iter();
+fn joint(clip: &Clip, name: &str) -> JointId {
+    let joints = &clip.skeleton.joints;
     joints
         .position(|joint| joint.name == name)
         .unwrap_or_else(|| panic!("no joint `{name}`"))
 }
 
 /// The direction of the chain that a part follows, parsed from the reported reason.
-fn chain(clip: &Clip, pose: &[Transform], why: &str) -> Option<DVec3> {
+fn chain(clip: &Clip, pose: &Pose, why: &str) -> Option<DVec3> {
     let ways = ["it points from `", "it turns like the line from `"];
     let (_, way) = ways.iter().find_map(|way| why.split_once(way))?;
     let (from, to) = way.split_once("` to ")?;
