@@ -152,6 +152,7 @@ pub struct Recorder<'a> {
 
 /// A link that was read, and what it led to.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Dependency {
     /// The link as it was written.
     pub link: String,

@@ -8,9 +8,9 @@ use rustc_hash::FxHashMap;
 use super::character::{Character, Fill, Piece, RegionModel};
 use crate::bind::Bindings;
 use crate::scene::{
-    AlphaMode, Animation, Interpolation, Material, Mesh, NewNode, Node, PartMaterial, Primitive,
-    Provenance, Scene, Surface, Timing, Track, Values, ViewDependent, WorldTransform, linear,
-    view_axes,
+    AlphaMode, Animation, Interpolation, Material, MaterialId, Mesh, NewNode, Node, NodeId,
+    PartMaterial, Primitive, Provenance, Scene, Surface, Timing, Track, Values, ViewDependent,
+    WorldTransform, linear, view_axes,
 };
 use crate::svg::Drawing;
 
@@ -24,7 +24,7 @@ pub struct RegionMaterials<'a> {
     /// Per part the material with its texture, and the map from the drawing to texture coordinates, if it has one.
     pub textured: &'a [PartMaterial],
     /// Those without a texture, by the part to which they belong and their colours.
-    pub flat: FxHashMap<FlatMaterial, usize>,
+    pub flat: FxHashMap<FlatMaterial, MaterialId>,
     /// Whether no two parts have a material in common.
     pub are_apart: bool,
 }
@@ -42,13 +42,13 @@ impl<'a> RegionMaterials<'a> {
         }
     }
 
-    /// The index of the material of a part in a colour, sRGB with straight alpha, each 0 to 1.
-    fn material(&mut self, part: Option<usize>, color: [f64; 4], scene: &mut Scene) -> usize {
+    /// The material of a part in a colour, sRGB with straight alpha, each 0 to 1.
+    fn material(&mut self, part: Option<usize>, color: [f64; 4], scene: &mut Scene) -> MaterialId {
         let owner = part.filter(|_| self.are_apart);
         let key = (owner, color.map(f64::to_bits));
         *self.flat.entry(key).or_insert_with(|| {
             let [r, g, b, alpha] = color;
-            scene.materials.push(Material {
+            scene.materials.push_and_get_key(Material {
                 base_color: [linear(r), linear(g), linear(b), alpha as f32],
                 alpha_mode: if alpha < 1.0 {
                     AlphaMode::Blend
@@ -58,8 +58,7 @@ impl<'a> RegionMaterials<'a> {
                 double_sided: true,
                 unlit: true,
                 ..Material::default()
-            });
-            scene.materials.len() - 1
+            })
         })
     }
 }
@@ -87,9 +86,8 @@ fn add_one(
     scene: &mut Scene,
 ) {
     let middle = character.frames[0].center;
-    let root = scene.nodes.len();
     let first = character.layers[0];
-    scene.add(NewNode {
+    let root = scene.add(NewNode {
         node: Node {
             name: character.name.clone(),
             translation: world.point(DVec3::new(middle.x, -middle.y, 0.0)),
@@ -114,7 +112,7 @@ fn add_one(
     });
     let scale = character.frames[0].height * world.scale;
     let at_first = character.turn.weights(character.turn.views[0]);
-    for region in &character.regions {
+    let node_of = |region: &RegionModel| {
         let places: Vec<DVec3> = region.places.iter().map(|place| *place * scale).collect();
         let translation = character.turn.place(&at_first, &places);
         let string = region
@@ -136,9 +134,10 @@ fn add_one(
             },
             mesh: Some(mesh),
             parent: Some(root),
-        });
-    }
-    let clip = clip(character, root, scale);
+        })
+    };
+    let nodes: Vec<NodeId> = character.regions.iter().map(node_of).collect();
+    let clip = clip(character, &nodes, scale);
     scene.animations.push(clip);
 }
 
@@ -194,8 +193,9 @@ fn mesh(
     Mesh { primitives }
 }
 
-/// The clip in which a character turns through its views, as a viewer in front of the first one sees it.
-fn clip(character: &Character, root: usize, scale: f64) -> Animation {
+/// The clip in which a character turns through its views, as a viewer in front of the first one sees it. `nodes` are those of its
+/// regions.
+fn clip(character: &Character, nodes: &[NodeId], scale: f64) -> Animation {
     let views = &character.turn.views;
     let mut directions = vec![views[0]];
     let mut times = vec![0.0];
@@ -219,9 +219,9 @@ fn clip(character: &Character, root: usize, scale: f64) -> Animation {
         .map(|d| character.turn.weights(*d))
         .collect();
     let mut tracks = Vec::new();
-    for (index, region) in character.regions.iter().enumerate() {
+    for (region, node) in character.regions.iter().zip(nodes) {
+        let node = *node;
         let place = |weights: &Vec<f64>| character.turn.place(weights, &region.places) * scale;
-        let node = root + 1 + index;
         tracks.push(Track {
             node,
             timing: Arc::clone(&timing),

@@ -41,6 +41,7 @@ impl Severity {
 
 /// Another place that is related to a diagnostic.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Related {
     /// The place.
     pub span: Span,
@@ -79,6 +80,7 @@ impl Edit {
 
 /// A fix that can be applied to the drawing automatically.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Fix {
     /// What the fix does, as an imperative.
     pub title: String,
@@ -90,6 +92,7 @@ pub struct Fix {
 
 /// A problem in a drawing, or something worth knowing about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// Its stable code, which determines the severity.
     pub code: Code,

@@ -57,6 +57,7 @@ impl fmt::Debug for dyn Exporter {
 
 /// How much was written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Written {
     /// Vertices, shared ones once.
     pub vertices: usize,
@@ -68,6 +69,7 @@ pub struct Written {
 
 /// A model as a file in memory.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Model {
     /// The file.
     pub bytes: Vec<u8>,

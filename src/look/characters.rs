@@ -4,14 +4,19 @@ use glam::{DQuat, DVec3};
 
 use crate::billboard::Character;
 use crate::compile::Compiled;
-use crate::scene::{Mesh, Node, Piece, Primitive, Scene, Surface, ViewDependent, WorldTransform};
+use crate::scene::{
+    Mesh, NewNode, Node, NodeId, Piece, Primitive, Scene, Surface, ViewDependent, WorldTransform,
+};
 
 /// Replaces each character that turns by its views, side by side as on the page.
 pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mut Scene) {
-    let nodes = scene.nodes.iter().enumerate();
-    let turning =
-        nodes.filter(|(_, node)| matches!(node.view_dependent, Some(ViewDependent::Turn(_))));
-    let turning: Vec<usize> = turning.map(|(index, _)| index).collect();
+    let turns = |node: &NodeId| {
+        matches!(
+            scene.nodes[*node].view_dependent,
+            Some(ViewDependent::Turn(_))
+        )
+    };
+    let turning: Vec<NodeId> = scene.nodes.keys().filter(turns).collect();
     for (root, character) in turning.into_iter().zip(&compiled.characters) {
         let regions = std::mem::take(&mut scene.nodes[root].children);
         for view in 0..character.frames.len() {
@@ -27,21 +32,22 @@ pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mu
 fn add_view(
     character: &Character,
     view: usize,
-    regions: &[usize],
+    regions: &[NodeId],
     world: &WorldTransform,
     scene: &mut Scene,
 ) {
     let weights = character.turn.weights(character.turn.views[view]);
     let frame = &character.frames[view];
-    let root = scene.nodes.len();
     let center = DVec3::new(frame.center.x, -frame.center.y, 0.0);
-    scene.nodes.push(Node {
-        name: format!("{} {}", character.name, view + 1),
-        translation: world.point(center),
-        rotation: world.rotation,
-        ..Node::default()
+    let root = scene.add(NewNode {
+        node: Node {
+            name: format!("{} {}", character.name, view + 1),
+            translation: world.point(center),
+            rotation: world.rotation,
+            ..Node::default()
+        },
+        ..NewNode::default()
     });
-    scene.roots.push(root);
     // Meshes are as large as in the first view.
     let larger = frame.height / character.frames[0].height;
     for (region, node) in character.regions.iter().zip(regions) {
@@ -50,16 +56,16 @@ fn add_view(
         };
         let mesh = still(&scene.meshes[mesh], view, larger);
         let place = character.turn.place(&weights, &region.places);
-        let index = scene.nodes.len();
-        scene.meshes.push(mesh);
-        scene.nodes.push(Node {
-            name: region.name.clone(),
-            translation: place * frame.height * world.scale,
-            rotation: DQuat::IDENTITY,
-            mesh: Some(scene.meshes.len() - 1),
-            ..Node::default()
+        scene.add(NewNode {
+            node: Node {
+                name: region.name.clone(),
+                translation: place * frame.height * world.scale,
+                rotation: DQuat::IDENTITY,
+                ..Node::default()
+            },
+            mesh: Some(mesh),
+            parent: Some(root),
         });
-        scene.nodes[root].children.push(index);
     }
 }
 

@@ -88,6 +88,7 @@ fn on_pool<T: Send>(
 
 /// How surfaces are shaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Shading {
     /// By the file's normals.
     #[default]
@@ -100,6 +101,7 @@ pub enum Shading {
 
 /// Settings of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Width and height in pixels, each from 1 to [`MAX_SIDE`].
     pub size: [u32; 2],
@@ -116,6 +118,42 @@ pub struct Options {
 }
 
 impl Options {
+    /// These options with another width and height in pixels, each from 1 to [`MAX_SIDE`].
+    #[must_use]
+    pub fn with_size(self, size: [u32; 2]) -> Self {
+        Self { size, ..self }
+    }
+
+    /// These options with another direction of the camera.
+    #[must_use]
+    pub fn with_view(self, view: View) -> Self {
+        Self { view, ..self }
+    }
+
+    /// These options with another projection of the camera.
+    #[must_use]
+    pub fn with_projection(self, projection: Projection) -> Self {
+        Self { projection, ..self }
+    }
+
+    /// These options with other shading.
+    #[must_use]
+    pub fn with_shading(self, shading: Shading) -> Self {
+        Self { shading, ..self }
+    }
+
+    /// These options with view-dependent nodes that do not bend with the view.
+    #[must_use]
+    pub fn unbent(self) -> Self {
+        Self { bend: false, ..self }
+    }
+
+    /// These options with a background colour in sRGB instead of transparency.
+    #[must_use]
+    pub fn with_background(self, color: [u8; 3]) -> Self {
+        Self { background: Some(color), ..self }
+    }
+
     /// The direction to the viewer for which view-dependent nodes are bent; `None` leaves them unbent.
     fn viewer(&self, view: View) -> Option<DVec3> {
         let [_, _, towards] = view.axes();

@@ -11,6 +11,7 @@ pub struct Camera {
 
 /// The projection of a camera. The aspect ratio is that of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum CameraProjection {
     /// Distant things are smaller.
     Perspective {

@@ -14,7 +14,7 @@ use std::{env, fs};
 use okoshi::compile::Compiled;
 use okoshi::internals::labels::{Anatomy, Class, Limb, Piece, Side, Tip, label_clip};
 use okoshi::internals::mocap::bvh::{self, Decimals};
-use okoshi::internals::mocap::{Clip, Skeleton};
+use okoshi::internals::mocap::{Clip, JointId, Skeleton};
 use okoshi::resolver::MemoryResolver;
 
 use crate::common::compiled;
@@ -153,13 +153,13 @@ impl Motion {
 }
 
 /// Where the bone or chain that drives a part begins and ends; `None` for a part that follows its parent.
-type Found = Option<(usize, Option<Tip>)>;
+type Found = Option<(JointId, Option<Tip>)>;
 
 /// Whether a part is driven as chosen. Which joint of spine or neck drives a piece of it is left open, and so is where a hand or
 /// foot points.
 fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> bool {
     let joint = found.map(|(joint, _)| joint);
-    let one_of = |joints: &[usize]| match joints {
+    let one_of = |joints: &[JointId]| match joints {
         [] => joint.is_none(),
         joints => joint.is_some_and(|joint| joints.contains(&joint)),
     };
@@ -205,7 +205,7 @@ fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> boo
     }
 }
 
-fn bone(limb: &Limb, piece: Piece) -> (Option<usize>, Option<usize>) {
+fn bone(limb: &Limb, piece: Piece) -> (Option<JointId>, Option<JointId>) {
     match piece {
         Piece::Upper => (Some(limb.upper), limb.lower),
         Piece::Lower => (limb.lower, limb.end),
