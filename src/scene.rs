@@ -14,12 +14,13 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::{DAffine2, DQuat, DVec3};
+use typed_index_collections::TiVec;
 
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use camera::{Camera, CameraProjection};
 pub use deferred::SurfaceSource;
 pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPiece, TooManyJoints};
-pub use turn::{Turn, direction, view_axes};
+pub use turn::{Turn, ViewId, direction, view_axes};
 pub use world::WorldTransform;
 
 /// A model.
@@ -114,7 +115,7 @@ pub enum ViewDependent {
     Turn(Turn),
     /// The node is a region of such a character, a child of the node that turns. It is here in each of the views, in the
     /// character's space, metres.
-    Region(Vec<DVec3>),
+    Region(TiVec<ViewId, DVec3>),
 }
 
 /// The source of a node in the drawing; `extras.okoshi` in glTF.

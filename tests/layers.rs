@@ -304,7 +304,7 @@ const USES: &[(&str, &[&str])] = &[
             "svg",
         ],
     ),
-    ("scene", &[]),
+    ("scene", &["index"]),
     ("smoothing", &[]),
     ("solid", &["geometry", "scene"]),
     ("source", &[]),

@@ -24,6 +24,8 @@ mod tests;
 mod turn;
 
 pub use character::{Character, Fill, Piece, RegionModel, read};
-pub use matching::{Candidate, Matching, Pair, Place, Reason, Track, TrackId, Unmatched};
+pub use matching::{Candidate, Matching, Pair, Reason, RegionInView, Track, TrackId, Unmatched};
 pub use nodes::{FlatMaterial, RegionMaterials, add};
-pub use region::{Direction, Region, View};
+pub use region::{Direction, Region, RegionId, View};
+
+pub use crate::scene::ViewId;

@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
 
 use super::character::{Character, Fill, Piece, RegionModel};
 use crate::bind::Bindings;
 use crate::scene::{
     AlphaMode, Animation, Interpolation, Material, Mesh, NewNode, Node, PartMaterial, Primitive,
-    Provenance, Scene, Surface, Timing, Track, Values, ViewDependent, WorldTransform, linear,
-    view_axes,
+    Provenance, Scene, Surface, Timing, Track, Values, ViewDependent, ViewId, WorldTransform,
+    linear, view_axes,
 };
 use crate::svg::Drawing;
 
@@ -86,9 +87,9 @@ fn add_one(
     materials: &mut RegionMaterials<'_>,
     scene: &mut Scene,
 ) {
-    let middle = character.frames[0].center;
+    let middle = character.frames[ViewId::FIRST].center;
     let root = scene.nodes.len();
-    let first = character.layers[0];
+    let first = character.layers[ViewId::FIRST];
     scene.add(NewNode {
         node: Node {
             name: character.name.clone(),
@@ -112,10 +113,11 @@ fn add_one(
         mesh: None,
         parent: None,
     });
-    let scale = character.frames[0].height * world.scale;
-    let at_first = character.turn.weights(character.turn.views[0]);
+    let scale = character.frames[ViewId::FIRST].height * world.scale;
+    let at_first = character.turn.weights(character.turn.views[ViewId::FIRST]);
     for region in &character.regions {
-        let places: Vec<DVec3> = region.places.iter().map(|place| *place * scale).collect();
+        let places: TiVec<ViewId, DVec3> =
+            region.places.iter().map(|place| *place * scale).collect();
         let translation = character.turn.place(&at_first, &places);
         let string = region
             .part
@@ -155,7 +157,7 @@ fn mesh(
     for piece in &region.pieces {
         let Piece { morph, fill, lift } = piece;
         let height = lift * scale;
-        let placed = |view: usize| {
+        let placed = |view: ViewId| {
             let [right, up, _] = view_axes(character.turn.views[view]);
             let place = region.places[view];
             let middle = DVec2::new(place.dot(right), place.dot(up));
@@ -165,14 +167,14 @@ fn mesh(
                 point.extend(height).as_vec3()
             })
         };
-        let base: Vec<_> = placed(0).collect();
-        let target = |view: usize| {
+        let base: Vec<_> = placed(ViewId::FIRST).collect();
+        let target = |view: ViewId| {
             let offsets = placed(view).zip(&base).map(|(point, base)| point - *base);
             offsets.map(|offset| offset.to_array()).collect()
         };
         let mut surface = Surface {
             normals: vec![[0.0, 0.0, 1.0]; base.len()],
-            targets: (1..character.frames.len()).map(target).collect(),
+            targets: character.frames.keys().skip(1).map(target).collect(),
             triangles: morph.triangles.clone(),
             positions: base.into_iter().map(|point| point.to_array()).collect(),
             ..Surface::default()
@@ -197,9 +199,9 @@ fn mesh(
 /// The clip in which a character turns through its views, as a viewer in front of the first one sees it.
 fn clip(character: &Character, root: usize, scale: f64) -> Animation {
     let views = &character.turn.views;
-    let mut directions = vec![views[0]];
+    let mut directions = vec![views[ViewId::FIRST]];
     let mut times = vec![0.0];
-    for pair in views.windows(2) {
+    for pair in views.raw.windows(2) {
         let [from, to] = [pair[0], pair[1]].map(DVec2::from);
         let degrees = (to - from).length();
         let keys = (degrees / 45.0 * KEYS).ceil().max(1.0);
@@ -214,20 +216,22 @@ fn clip(character: &Character, root: usize, scale: f64) -> Animation {
         times: times.into_iter().map(|time| time as f32).collect(),
         interpolation: Interpolation::Linear,
     });
-    let weights: Vec<Vec<f64>> = directions
+    let weights: Vec<TiVec<ViewId, f64>> = directions
         .iter()
         .map(|d| character.turn.weights(*d))
         .collect();
     let mut tracks = Vec::new();
     for (index, region) in character.regions.iter().enumerate() {
-        let place = |weights: &Vec<f64>| character.turn.place(weights, &region.places) * scale;
+        let place =
+            |weights: &TiVec<ViewId, f64>| character.turn.place(weights, &region.places) * scale;
         let node = root + 1 + index;
         tracks.push(Track {
             node,
             timing: Arc::clone(&timing),
             values: Values::Translations(weights.iter().map(place).collect()),
         });
-        let targets = |weights: &Vec<f64>| weights[1..].iter().map(|w| *w as f32).collect();
+        let targets =
+            |weights: &TiVec<ViewId, f64>| weights.iter().skip(1).map(|w| *w as f32).collect();
         tracks.push(Track {
             node,
             timing: Arc::clone(&timing),

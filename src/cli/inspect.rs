@@ -194,7 +194,7 @@ fn regions(loaded: &Loaded, character: &Character, numbers: Numbers) -> Vec<[Str
         let members: Vec<String> = members
             .map(|(shape, number)| match (shape, number) {
                 (Some(shape), Some(number)) => match drawing.shapes[*shape].picture {
-                    Some(_) => format!("region {}", number + 1),
+                    Some(_) => format!("region {}", usize::from(*number) + 1),
                     None => drawing.shapes[*shape].element.describe(),
                 },
                 _ => "not drawn".to_owned(),

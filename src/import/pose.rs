@@ -1,10 +1,11 @@
 //! Nodes, meshes and skins, and their positions in a pose.
 
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
+use typed_index_collections::TiVec;
 
 use super::view_dependent::{bend_matrix, facing};
 use super::{ImportError, MAX_REPEATED, MAX_TRIANGLES};
-use crate::scene::{Turn, ViewDependent};
+use crate::scene::{Turn, ViewDependent, ViewId};
 
 /// The geometry of a file, not yet posed.
 #[derive(Debug)]
@@ -108,7 +109,7 @@ impl Geometry {
         let mut pose = pose.clone();
         let mut globals = vec![DMat4::IDENTITY; self.nodes.len()];
         // Per node the character that it is a part of, and the weights of the views.
-        let mut characters: Vec<Option<(&Turn, Vec<f64>)>> = vec![None; self.nodes.len()];
+        let mut characters: Vec<Option<(&Turn, TiVec<ViewId, f64>)>> = vec![None; self.nodes.len()];
         for index in &self.order {
             let node = &self.nodes[*index];
             let above = node.parent.and_then(|parent| characters[parent].clone());
@@ -125,7 +126,7 @@ impl Geometry {
                 (Some(ViewDependent::Region(places)), Some((turn, weights))) => {
                     let place = turn.place(&weights, places);
                     pose.locals[*index] = DMat4::from_translation(place);
-                    pose.weights[*index] = weights[1..].iter().map(|w| *w as f32).collect();
+                    pose.weights[*index] = weights.iter().skip(1).map(|w| *w as f32).collect();
                     characters[*index] = Some((turn, weights));
                 }
                 (_, above) => characters[*index] = above,

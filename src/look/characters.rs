@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::billboard::Character;
+use crate::billboard::{Character, ViewId};
 use crate::compile::Compiled;
 use crate::scene::{Mesh, Node, Piece, Primitive, Scene, Surface, ViewDependent, WorldTransform};
 
@@ -14,7 +14,7 @@ pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mu
     let turning: Vec<usize> = turning.map(|(index, _)| index).collect();
     for (root, character) in turning.into_iter().zip(&compiled.characters) {
         let regions = std::mem::take(&mut scene.nodes[root].children);
-        for view in 0..character.frames.len() {
+        for view in character.frames.keys() {
             add_view(character, view, &regions, world, scene);
         }
         for region in regions {
@@ -26,7 +26,7 @@ pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mu
 /// Adds a view of a character whose regions have these nodes.
 fn add_view(
     character: &Character,
-    view: usize,
+    view: ViewId,
     regions: &[usize],
     world: &WorldTransform,
     scene: &mut Scene,
@@ -36,14 +36,14 @@ fn add_view(
     let root = scene.nodes.len();
     let center = DVec3::new(frame.center.x, -frame.center.y, 0.0);
     scene.nodes.push(Node {
-        name: format!("{} {}", character.name, view + 1),
+        name: format!("{} {}", character.name, usize::from(view) + 1),
         translation: world.point(center),
         rotation: world.rotation,
         ..Node::default()
     });
     scene.roots.push(root);
     // Meshes are as large as in the first view.
-    let larger = frame.height / character.frames[0].height;
+    let larger = frame.height / character.frames[ViewId::FIRST].height;
     for (region, node) in character.regions.iter().zip(regions) {
         let Some(mesh) = scene.nodes[*node].mesh else {
             continue;
@@ -64,10 +64,10 @@ fn add_view(
 }
 
 /// A mesh as it is in a view, without morph targets.
-fn still(mesh: &Mesh, view: usize, larger: f64) -> Mesh {
+fn still(mesh: &Mesh, view: ViewId, larger: f64) -> Mesh {
     let piece = |piece: &Piece| {
         let surface = piece.surface();
-        let target = view
+        let target = usize::from(view)
             .checked_sub(1)
             .and_then(|target| surface.targets.get(target));
         let place = |(corner, at): (usize, &[f32; 3])| {
