@@ -329,7 +329,7 @@ fn upright_scene(node: Node, animations: Vec<Animation>) -> Scene {
         roots: vec![0],
         meshes: vec![Mesh {
             primitives: vec![Primitive {
-                pieces: vec![square.into()],
+                patches: vec![square.into()],
                 material: 0,
             }],
         }],

@@ -7,7 +7,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::drawn::DrawnView;
 use super::matching::{Track, TrackId};
-use super::place::{Frame, Placed};
+use super::place::{Frame, TrackPosition};
 use crate::geometry::{Outline, area, bounds, intersect, offset, union};
 use crate::scene::ViewId;
 
@@ -26,7 +26,7 @@ pub(super) fn backings(
     views: &TiSlice<ViewId, DrawnView>,
     frames: &TiSlice<ViewId, Frame>,
     tracks: &TiSlice<TrackId, Track>,
-    placed: &TiSlice<TrackId, Placed>,
+    placed: &TiSlice<TrackId, TrackPosition>,
 ) -> TiVec<TrackId, Option<TiVec<ViewId, Arc<Outline>>>> {
     let covers = |view: ViewId, track: TrackId| {
         let region = &views[view].view.regions[tracks[track].regions[view]?];

@@ -13,7 +13,7 @@ use super::drawn::{self, DrawnLine, DrawnView};
 use super::features::{self, OfRegion};
 use super::keys;
 use super::matching::{Matching, RegionInView, Track, TrackId};
-use super::place::{Frame, Placed, frames, place};
+use super::place::{Frame, TrackPosition, frames, place};
 use super::region::{Direction, RegionId, View};
 use super::shape::{Ends, Morph, line_mesh, match_lines};
 use super::turn::between;
@@ -57,9 +57,9 @@ pub struct RegionModel {
     /// Its colour, the mean one of a gradient: sRGB with straight alpha, each 0 to 1.
     pub color: [f64; 4],
     /// Its place in each view, in the character's space, heights.
-    pub places: TiVec<ViewId, DVec3>,
+    pub positions: TiVec<ViewId, DVec3>,
     /// The area, the line along its border in front of it, and its backing behind the whole character.
-    pub pieces: Vec<Piece>,
+    pub meshes: Vec<RegionMesh>,
     /// Index of the shape that it is in the first view that shows it, or of the picture that it is in.
     pub shape: usize,
     /// Index of its part there, if it has one: regions of pictures have none.
@@ -74,7 +74,7 @@ pub struct RegionModel {
 
 /// A mesh in one colour.
 #[derive(Debug)]
-pub struct Piece {
+pub struct RegionMesh {
     /// Its shape in each view, drawing units.
     pub morph: Morph,
     /// What it is filled with.
@@ -214,7 +214,7 @@ struct Sources<'a> {
     drawn: &'a TiSlice<ViewId, DrawnView>,
     frames: &'a TiSlice<ViewId, Frame>,
     track: &'a Track,
-    placed: &'a Placed,
+    placed: &'a TrackPosition,
     memo: &'a Memo,
     features: &'a OfRegion,
     /// The outlines of its backing.
@@ -224,7 +224,7 @@ struct Sources<'a> {
 }
 
 /// A distance, heights, by which something has to be moved back to lie behind all of a character at every view.
-fn behind_all(placed: &TiSlice<TrackId, Placed>) -> f64 {
+fn behind_all(placed: &TiSlice<TrackId, TrackPosition>) -> f64 {
     let depths = || {
         placed
             .iter()
@@ -267,18 +267,18 @@ impl Sources<'_> {
         let backing = self.backing.map(|outlines| {
             let mut morph = keys::morphed(outlines.raw.to_vec(), self.features, self.memo);
             self.shrink(&mut morph);
-            Piece {
+            RegionMesh {
                 morph,
                 fill: Fill::Region,
                 lift: -self.behind,
             }
         });
-        let area = Piece {
+        let area = RegionMesh {
             morph: area,
             fill: Fill::Region,
             lift: 0.0,
         };
-        let pieces = [Some(area), line, backing].into_iter().flatten().collect();
+        let meshes = [Some(area), line, backing].into_iter().flatten().collect();
         let named = shown.iter().find_map(|at| region(at).name.clone());
         let mut shapes = TiVec::from(vec![None; self.drawn.len()]);
         let mut is_hidden = TiVec::from(vec![false; self.drawn.len()]);
@@ -296,8 +296,8 @@ impl Sources<'_> {
                 }
             }),
             color: first.map_or([0.0; 4], |first| region(first).color),
-            places: self.places(),
-            pieces,
+            positions: self.positions(),
+            meshes,
             shape: first.map_or(0, |first| drawn(first).shape),
             part: first.and_then(|first| drawn(first).part),
             first_view: first.map_or(ViewId::FIRST, |first| first.view),
@@ -307,7 +307,7 @@ impl Sources<'_> {
     }
 
     /// The places in the views, as deep as the order of painting needs.
-    fn places(&self) -> TiVec<ViewId, DVec3> {
+    fn positions(&self) -> TiVec<ViewId, DVec3> {
         let views = self
             .drawn
             .iter()
@@ -321,7 +321,7 @@ impl Sources<'_> {
     }
 
     /// The line along the border, as wide as it is drawn in each view.
-    fn line(&self, area: &Morph, lines: &[(ViewId, DrawnLine)]) -> Option<Piece> {
+    fn line(&self, area: &Morph, lines: &[(ViewId, DrawnLine)]) -> Option<RegionMesh> {
         let (_, DrawnLine { color, .. }) = *lines.first()?;
         // A view that does not show the region has the width of another one.
         let width = |view: ViewId| {
@@ -352,7 +352,7 @@ impl Sources<'_> {
                 .extend(triangles.map(|t| t.map(|corner| corner + base)));
         }
         self.shrink(&mut morph);
-        Some(Piece {
+        Some(RegionMesh {
             morph,
             fill: Fill::Color(color),
             lift: LINE_STEP,

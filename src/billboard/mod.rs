@@ -23,7 +23,7 @@ pub mod stages;
 mod tests;
 mod turn;
 
-pub use character::{Character, Fill, Piece, RegionModel, read};
+pub use character::{Character, Fill, RegionMesh, RegionModel, read};
 pub use matching::{Candidate, Matching, Pair, Reason, RegionInView, Track, TrackId, Unmatched};
 pub use nodes::{FlatMaterial, RegionMaterials, add};
 pub use region::{Direction, Region, RegionId, View};

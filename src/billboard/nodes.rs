@@ -6,7 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
-use super::character::{Character, Fill, Piece, RegionModel};
+use super::character::{Character, Fill, RegionMesh, RegionModel};
 use crate::bind::Bindings;
 use crate::scene::{
     AlphaMode, Animation, Interpolation, Material, Mesh, NewNode, Node, PartMaterial, Primitive,
@@ -116,9 +116,12 @@ fn add_one(
     let scale = character.frames[ViewId::FIRST].height * world.scale;
     let at_first = character.turn.weights(character.turn.views[ViewId::FIRST]);
     for region in &character.regions {
-        let places: TiVec<ViewId, DVec3> =
-            region.places.iter().map(|place| *place * scale).collect();
-        let translation = character.turn.place(&at_first, &places);
+        let places: TiVec<ViewId, DVec3> = region
+            .positions
+            .iter()
+            .map(|place| *place * scale)
+            .collect();
+        let translation = character.turn.position(&at_first, &places);
         let string = region
             .part
             .and_then(|part| bindings.parts[part].string)
@@ -154,12 +157,12 @@ fn mesh(
 ) -> Mesh {
     let textured = region.part.and_then(|part| materials.textured[part]);
     let mut primitives: Vec<Primitive> = Vec::new();
-    for piece in &region.pieces {
-        let Piece { morph, fill, lift } = piece;
+    for part in &region.meshes {
+        let RegionMesh { morph, fill, lift } = part;
         let height = lift * scale;
         let placed = |view: ViewId| {
             let [right, up, _] = view_axes(character.turn.views[view]);
-            let place = region.places[view];
+            let place = region.positions[view];
             let middle = DVec2::new(place.dot(right), place.dot(up));
             let frame = &character.frames[view];
             morph.points[view].iter().map(move |point| {
@@ -189,7 +192,7 @@ fn mesh(
             surface.uvs = morph.points[region.first_view].iter().map(uv).collect();
         }
         primitives.push(Primitive {
-            pieces: vec![surface.into()],
+            patches: vec![surface.into()],
             material,
         });
     }
@@ -222,8 +225,9 @@ fn clip(character: &Character, root: usize, scale: f64) -> Animation {
         .collect();
     let mut tracks = Vec::new();
     for (index, region) in character.regions.iter().enumerate() {
-        let place =
-            |weights: &TiVec<ViewId, f64>| character.turn.place(weights, &region.places) * scale;
+        let place = |weights: &TiVec<ViewId, f64>| {
+            character.turn.position(weights, &region.positions) * scale
+        };
         let node = root + 1 + index;
         tracks.push(Track {
             node,

@@ -21,7 +21,7 @@ pub use attributes::{
     Resolved, SetBy, SetColor, SignedAxis, Source, plate_depth,
 };
 pub use bindings::{
-    Binding, Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place, StringId,
+    Binding, Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, StringHolder, StringId,
 };
 pub use matching::{
     BindRule, DistanceMode, DrawingSettings, Layer, LayerKind, Layers, Strokes, in_layers_of_pixels,

@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::args::{Common, Inspect};
-use super::loading::{Detail, Loaded, describe, load};
+use super::loading::{Loaded, load};
 use super::progress::spinning;
-use super::{Outcome, fail, print_out, style};
+use super::{Outcome, fail, print_out};
 use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{self, NamedBy, PartKind, SetBy};
 use crate::disk::is_standard_stream;
@@ -34,15 +34,7 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
         Ok(loaded) => loaded,
         Err(outcome) => return outcome,
     };
-    eprint!(
-        "{}",
-        describe(
-            loaded.findings(),
-            common,
-            Detail::Aside,
-            style(common, &std::io::stderr())
-        )
-    );
+    eprint!("{}", loaded.findings_aside(common));
     let drawn = match picture {
         Some(path) => matches::draw(&loaded, path, arguments, common),
         None => Outcome::Done,

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::FigureContext;
 use super::tree::FigureNode;
-use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene, WorldTransform};
+use crate::scene::{Mesh, Node, Primitive, Provenance, Scene, SurfacePatch, WorldTransform};
 use crate::threads::GRAIN;
 
 /// A node that shows a part, and how it lies in the hierarchy.
@@ -111,7 +111,11 @@ impl Meshes {
 /// A mesh mirrored in the drawing plane.
 fn mirrored(mesh: &Mesh) -> Mesh {
     let primitive = |primitive: &Primitive| Primitive {
-        pieces: primitive.pieces.iter().map(Piece::mirrored).collect(),
+        patches: primitive
+            .patches
+            .iter()
+            .map(SurfacePatch::mirrored)
+            .collect(),
         material: primitive.material,
     };
     Mesh {

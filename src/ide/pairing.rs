@@ -6,7 +6,7 @@ use super::rename::label_edit;
 use super::uses::own_name;
 use super::{Analysis, Symbol};
 use crate::billboard::{Candidate, Reason, RegionInView};
-use crate::bind::{PartKind, Place as StringPlace, written_by_a_person};
+use crate::bind::{PartKind, StringHolder, written_by_a_person};
 use crate::diagnostic::{Code, Edit};
 use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
@@ -195,7 +195,7 @@ impl Analysis {
             return Edit::replacing(&string.text, old.range.clone(), &new);
         }
         // A description without a name has that of its element.
-        let is_described = !matches!(string.place, StringPlace::Label(_));
+        let is_described = !matches!(string.holder, StringHolder::Label(_));
         let head = string.text.as_str();
         let start = head.len() - head.trim_start().len();
         (is_described && own_name(string).is_none()).then(|| {

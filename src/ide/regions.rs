@@ -297,7 +297,7 @@ impl Analysis {
         let regions = self.regions_of_shape(shape).into_iter();
         let partners = regions.flat_map(Region::partners);
         let mut found: Vec<Span> = Vec::new();
-        for span in partners.filter_map(|partner| self.place_of_region(partner)) {
+        for span in partners.filter_map(|partner| self.span_of_region(partner)) {
             // All regions of a picture are in one place.
             if !found.contains(&span) {
                 found.push(span);
@@ -307,10 +307,10 @@ impl Analysis {
     }
 
     /// The span that names a region, or the tag of its shape.
-    fn place_of_region(&self, region: Region<'_>) -> Option<Span> {
+    fn span_of_region(&self, region: Region<'_>) -> Option<Span> {
         let shape = region.shape()?;
         Some(match self.part_of_shape(shape) {
-            Some(part) => self.place_of_part(part),
+            Some(part) => self.span_of_part(part),
             None => self.drawing().shapes[shape].element.span,
         })
     }
@@ -335,7 +335,7 @@ impl Analysis {
         let mut characters = self.compiled.characters.iter().map(strings);
         let found = characters.find(|strings| strings.contains(&string));
         let others = found.into_iter().flatten().filter(|other| *other != string);
-        others.map(|other| self.place_of_string(other)).collect()
+        others.map(|other| self.span_of_string(other)).collect()
     }
 }
 

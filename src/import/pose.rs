@@ -124,7 +124,7 @@ impl Geometry {
                     characters[*index] = Some((turn, turn.weights(seen.direction)));
                 }
                 (Some(ViewDependent::Region(places)), Some((turn, weights))) => {
-                    let place = turn.place(&weights, places);
+                    let place = turn.position(&weights, places);
                     pose.locals[*index] = DMat4::from_translation(place);
                     pose.weights[*index] = weights.iter().skip(1).map(|w| *w as f32).collect();
                     characters[*index] = Some((turn, weights));

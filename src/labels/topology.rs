@@ -209,7 +209,7 @@ fn bend(pose: &[Transform], joints: [usize; 3]) -> f64 {
 /// Assigns the bones of the chain that begins at a joint: upper and lower are the two neighbours with the greatest total
 /// length. A bone before them is a collar bone. Bones between which no pose bends count as one, so elbows and knees are where
 /// the motion bends, whatever joints for twists there are.
-pub(super) fn pieces(tree: &JointTree, start: usize, poses: &[Vec<Transform>]) -> LimbJoints {
+pub(super) fn segments(tree: &JointTree, start: usize, poses: &[Vec<Transform>]) -> LimbJoints {
     let Some(bones) = bones(tree, start) else {
         return LimbJoints::default();
     };

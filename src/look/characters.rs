@@ -4,7 +4,9 @@ use glam::{DQuat, DVec3};
 
 use crate::billboard::{Character, ViewId};
 use crate::compile::Compiled;
-use crate::scene::{Mesh, Node, Piece, Primitive, Scene, Surface, ViewDependent, WorldTransform};
+use crate::scene::{
+    Mesh, Node, Primitive, Scene, Surface, SurfacePatch, ViewDependent, WorldTransform,
+};
 
 /// Replaces each character that turns by its views, side by side as on the page.
 pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mut Scene) {
@@ -49,7 +51,7 @@ fn add_view(
             continue;
         };
         let mesh = still(&scene.meshes[mesh], view, larger);
-        let place = character.turn.place(&weights, &region.places);
+        let place = character.turn.position(&weights, &region.positions);
         let index = scene.nodes.len();
         scene.meshes.push(mesh);
         scene.nodes.push(Node {
@@ -65,8 +67,8 @@ fn add_view(
 
 /// A mesh as it is in a view, without morph targets.
 fn still(mesh: &Mesh, view: ViewId, larger: f64) -> Mesh {
-    let piece = |piece: &Piece| {
-        let surface = piece.surface();
+    let patch = |patch: &SurfacePatch| {
+        let surface = patch.surface();
         let target = usize::from(view)
             .checked_sub(1)
             .and_then(|target| surface.targets.get(target));
@@ -74,14 +76,14 @@ fn still(mesh: &Mesh, view: ViewId, larger: f64) -> Mesh {
             let offset = target.map_or([0.0; 3], |target| target[corner]);
             [0, 1, 2].map(|axis| ((f64::from(at[axis]) + f64::from(offset[axis])) * larger) as f32)
         };
-        Piece::from(Surface {
+        SurfacePatch::from(Surface {
             positions: surface.positions.iter().enumerate().map(place).collect(),
             targets: Vec::new(),
             ..surface.into_owned()
         })
     };
     let primitives = mesh.primitives.iter().map(|primitive| Primitive {
-        pieces: primitive.pieces.iter().map(piece).collect(),
+        patches: primitive.patches.iter().map(patch).collect(),
         material: primitive.material,
     });
     Mesh {

@@ -52,7 +52,7 @@ pub fn skeleton_model(
             .collect();
         scene.meshes.push(Mesh {
             primitives: vec![Primitive {
-                pieces: vec![bones(&ways).into()],
+                patches: vec![bones(&ways).into()],
                 material: 0,
             }],
         });

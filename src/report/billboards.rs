@@ -67,7 +67,7 @@ fn region<'a>(
         members: model.shapes.iter().map(member).collect(),
         numbers: track.regions.iter().map(number).collect(),
         similarity: own.map(|pair| pair.similarity).reduce(f64::min),
-        position: model.places[ViewId::FIRST].to_array(),
+        position: model.positions[ViewId::FIRST].to_array(),
     }
 }
 
@@ -93,7 +93,7 @@ pub fn characters<'a>(compiled: &'a Compiled) -> Vec<Part<'a>> {
 /// The middle of a region in the first view, drawing units, y down.
 fn middle(character: &Character, region: &RegionModel) -> glam::DVec2 {
     let [right, up, _] = view_axes(character.turn.views[ViewId::FIRST]);
-    let place = region.places[ViewId::FIRST];
+    let place = region.positions[ViewId::FIRST];
     let at = glam::DVec2::new(place.dot(right), place.dot(up));
     character.frames[ViewId::FIRST].in_drawing(at)
 }

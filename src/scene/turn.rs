@@ -25,7 +25,7 @@ pub struct Turn {
     /// weights of all morph targets are 0; target i belongs to view i + 1.
     pub views: TiVec<ViewId, [f64; 2]>,
     /// Sets of one to three views; between the views of a set their weights are linear. A viewer outside of all sees the nearest
-    /// place in one of them.
+    /// position in one of them.
     pub between: Vec<Vec<ViewId>>,
 }
 
@@ -63,8 +63,8 @@ impl Turn {
             for turns in [-360.0, 0.0, 360.0] {
                 let point = DVec2::new(theta + turns, phi);
                 let shares = nearest(&corners, point);
-                let place: DVec2 = corners.iter().zip(&shares).map(|(c, s)| *c * *s).sum();
-                let distance = place.distance_squared(point);
+                let position: DVec2 = corners.iter().zip(&shares).map(|(c, s)| *c * *s).sum();
+                let distance = position.distance_squared(point);
                 if distance < best.0 {
                     let mut weights = none();
                     for (view, share) in set.iter().zip(shares) {
@@ -78,20 +78,24 @@ impl Turn {
     }
 
     /// Where a region is for a viewer, in the frame of a screen that faces the viewer: right, up and towards the viewer.
-    /// `places` are its positions in the views, in the character's space.
-    pub fn place(&self, weights: &TiSlice<ViewId, f64>, places: &TiSlice<ViewId, DVec3>) -> DVec3 {
+    /// `positions` are its positions in the views, in the character's space.
+    pub fn position(
+        &self,
+        weights: &TiSlice<ViewId, f64>,
+        positions: &TiSlice<ViewId, DVec3>,
+    ) -> DVec3 {
         let (mut direction, mut point, mut depth) = ([0.0; 2], DVec3::ZERO, 0.0);
         let greatest = weights
             .iter()
             .zip(&self.views)
             .max_by(|a, b| a.0.total_cmp(b.0));
         let near = greatest.map_or(0.0, |(_, view)| view[0]);
-        for ((view, weight), place) in self.views.iter().zip(weights).zip(places) {
+        for ((view, weight), position) in self.views.iter().zip(weights).zip(positions) {
             let [_, _, towards] = view_axes(*view);
             direction[0] += weight * (near + short_way(view[0] - near));
             direction[1] += weight * view[1];
-            point += *weight * *place;
-            depth += weight * place.dot(towards);
+            point += *weight * *position;
+            depth += weight * position.dot(towards);
         }
         let [right, up, _] = view_axes(direction);
         DVec3::new(point.dot(right), point.dot(up), Self::FLATNESS * depth)
@@ -137,10 +141,10 @@ fn nearest(corners: &[DVec2], point: DVec2) -> Vec<f64> {
             }
             let sides = [[0, 1], [1, 2], [2, 0]].map(|[i, j]| {
                 let side = nearest(&[corners[i], corners[j]], point);
-                let place = corners[i] * side[0] + corners[j] * side[1];
+                let position = corners[i] * side[0] + corners[j] * side[1];
                 let mut shares = vec![0.0; 3];
                 (shares[i], shares[j]) = (side[0], side[1]);
-                (place.distance_squared(point), shares)
+                (position.distance_squared(point), shares)
             });
             let best = sides.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
             best.map_or_else(Vec::new, |(_, shares)| shares)
@@ -200,14 +204,14 @@ mod tests {
         let pair = turn(&[[0.0, 0.0], [45.0, 10.0]], &[&[0, 1]]);
         for (index, view) in pair.views.iter_enumerated() {
             let [right, up, towards] = view_axes(*view);
-            let places = [DVec3::new(3.0, 2.0, 1.0), DVec3::new(2.5, 2.0, 0.5)];
-            let places = TiVec::from(places.to_vec());
-            let found = pair.place(&pair.weights(*view), &places);
-            let place = places[index];
+            let positions = [DVec3::new(3.0, 2.0, 1.0), DVec3::new(2.5, 2.0, 0.5)];
+            let positions = TiVec::from(positions.to_vec());
+            let found = pair.position(&pair.weights(*view), &positions);
+            let position = positions[index];
             let seen = DVec3::new(
-                place.dot(right),
-                place.dot(up),
-                Turn::FLATNESS * place.dot(towards),
+                position.dot(right),
+                position.dot(up),
+                Turn::FLATNESS * position.dot(towards),
             );
             assert!(found.distance(seen) < 1e-12, "{found} {seen}");
             let back = direction(towards);

@@ -312,10 +312,10 @@ fn a_key_for_each_drawing() {
 fn corners(scene: &Scene) -> Vec<(usize, Vec<DVec3>)> {
     let nodes = scene.nodes.iter().enumerate();
     let corners = nodes.filter_map(|(index, node)| {
-        let pieces = scene.meshes[node.mesh?].primitives.iter();
-        let pieces = pieces.flat_map(|primitive| &primitive.pieces);
-        let corners = pieces.flat_map(|piece| {
-            let surface = piece.surface();
+        let patches = scene.meshes[node.mesh?].primitives.iter();
+        let patches = patches.flat_map(|primitive| &primitive.patches);
+        let corners = patches.flat_map(|patch| {
+            let surface = patch.surface();
             let corners = surface.positions.iter();
             let corners = corners.map(|corner| DVec3::from(corner.map(f64::from)));
             corners.collect::<Vec<DVec3>>()

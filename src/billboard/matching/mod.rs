@@ -142,11 +142,11 @@ pub(super) fn match_regions(
         all.map(|(view, frame)| features(view, frame)).collect();
     let views = &views[..all.next_key()];
     let mut matching = Matching::default();
-    let mut placed: Vec<ViewId> = Vec::new();
-    while let Some((next, nearest)) = next_view(views, &placed) {
+    let mut added: Vec<ViewId> = Vec::new();
+    while let Some((next, nearest)) = next_view(views, &added) {
         let tracks = matching.tracks.len();
         if let Some(nearest) = nearest {
-            Step::new(views, &all, next, &placed, &matching.tracks).run(&mut matching);
+            Step::new(views, &all, next, &added, &matching.tracks).run(&mut matching);
             diagnose::step(views, &all, [nearest, next], &mut matching);
         }
         let known = matching.tracks.iter().take(tracks);
@@ -159,19 +159,19 @@ pub(super) fn match_regions(
             regions[next] = Some(region);
             matching.tracks.push(Track { regions });
         }
-        placed.push(next);
+        added.push(next);
     }
     diagnose::unmatched(views, &all, &mut matching);
     matching
 }
 
 /// The view to add, and the nearest view that has been added; `None` once all are added.
-fn next_view(views: &TiSlice<ViewId, View>, placed: &[ViewId]) -> Option<(ViewId, Option<ViewId>)> {
-    if placed.is_empty() {
+fn next_view(views: &TiSlice<ViewId, View>, added: &[ViewId]) -> Option<(ViewId, Option<ViewId>)> {
+    if added.is_empty() {
         return views.first_key().map(|first| (first, None));
     }
-    let rest = views.keys().filter(|v| !placed.contains(v));
-    let near = rest.filter_map(|v| Some((v, nearest(views, v, placed)?)));
+    let rest = views.keys().filter(|v| !added.contains(v));
+    let near = rest.filter_map(|v| Some((v, nearest(views, v, added)?)));
     near.min_by(|a, b| {
         let degrees = |(v, n): (ViewId, ViewId)| angle(views[v].direction, views[n].direction);
         degrees(*a).total_cmp(&degrees(*b))
@@ -203,11 +203,11 @@ impl<'a> Step<'a> {
         views: &'a TiSlice<ViewId, View>,
         all: &'a FeaturesOfViews,
         view: ViewId,
-        placed: &[ViewId],
+        added: &[ViewId],
         tracks: &TiSlice<TrackId, Track>,
     ) -> Self {
         let row = |(i, track): (TrackId, &Track)| {
-            let seen = placed.iter().copied();
+            let seen = added.iter().copied();
             let seen: Vec<_> = seen.filter(|v| track.regions[*v].is_some()).collect();
             let from = nearest(views, view, &seen)?;
             let region = track.regions[from]?;

@@ -23,7 +23,7 @@ use crate::scene::ViewId;
 
 /// A track's place.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Placed {
+pub(super) struct TrackPosition {
     /// The point nearest to the rays of all views that show it.
     pub point: DVec3,
     /// The place for each view. Where the view shows the track, it lies on that view's ray, so that the drawing is reproduced
@@ -45,7 +45,7 @@ pub(super) fn place(
     frames: &TiSlice<ViewId, Frame>,
     tracks: &TiSlice<TrackId, Track>,
     depths: &TiSlice<ViewId, TiVec<RegionId, Option<f64>>>,
-) -> TiVec<TrackId, Placed> {
+) -> TiVec<TrackId, TrackPosition> {
     let scene = Scene::new(views, frames, tracks, depths);
     let mut points: TiVec<TrackId, Option<DVec3>> =
         tracks.iter().map(|t| scene.estimated(t)).collect();
@@ -73,7 +73,7 @@ pub(super) fn place(
         .zip(tracks)
         .map(|(point, track)| point.unwrap_or_else(|| scene.beside(track, middle)))
         .collect();
-    let mut placed: TiVec<TrackId, Placed> = tracks
+    let mut placed: TiVec<TrackId, TrackPosition> = tracks
         .iter()
         .zip(&points)
         .map(|(track, point)| scene.on_rays(track, *point))
@@ -210,7 +210,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The places on the rays of the views that show a track.
-    fn on_rays(&self, track: &Track, point: DVec3) -> Placed {
+    fn on_rays(&self, track: &Track, point: DVec3) -> TrackPosition {
         let mut in_views = TiVec::from(vec![point; self.views.len()]);
         for region in self.regions(track) {
             let direction = self.views[region.view].direction;
@@ -218,7 +218,7 @@ impl<'a> Scene<'a> {
             let depth = depth.unwrap_or_else(|| point.dot(direction.axes()[2]));
             in_views[region.view] = on_ray(direction, self.at(region), depth);
         }
-        Placed {
+        TrackPosition {
             point,
             in_views,
             depths: TiVec::new(),
@@ -230,7 +230,7 @@ impl<'a> Scene<'a> {
 fn follow(
     tracks: &TiSlice<TrackId, Track>,
     containers: &TiSlice<TrackId, Option<TrackId>>,
-    placed: &mut TiSlice<TrackId, Placed>,
+    placed: &mut TiSlice<TrackId, TrackPosition>,
 ) {
     for (i, track) in tracks.iter_enumerated() {
         // Chains of containers are short; those that contain each other are climbed once.

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use typed_index_collections::{TiSlice, TiVec};
 
-use super::{Placed, RegionId, RegionInView, Scene, TrackId, ViewId, angle, snapped};
+use super::{RegionId, RegionInView, Scene, TrackId, TrackPosition, ViewId, angle, snapped};
 use crate::geometry::{area, bounds, intersect};
 
 /// How far what is in front lies before what is behind, heights.
@@ -26,7 +26,7 @@ struct Over {
 /// Moves tracks towards the viewer of each view until everything that is painted over something else lies in front of it.
 ///
 /// A view's own order comes first. Then that of the other views, the nearest first, as far as it does not contradict.
-pub(super) fn put_in_front(scene: &Scene, placed: &mut TiSlice<TrackId, Placed>) {
+pub(super) fn put_in_front(scene: &Scene, placed: &mut TiSlice<TrackId, TrackPosition>) {
     let painted: TiVec<ViewId, Vec<Over>> = scene.views.keys().map(|v| painted(scene, v)).collect();
     for view in scene.views.keys() {
         let direction = scene.views[view].direction;

@@ -26,7 +26,7 @@ fn place(
     frames: &[Frame],
     tracks: &[Track],
     depths: &[Vec<Option<f64>>],
-) -> Vec<Placed> {
+) -> Vec<TrackPosition> {
     let depths: TiVec<_, _> = depths.iter().cloned().map(TiVec::from).collect();
     super::place(
         TiSlice::from_ref(views),
@@ -49,11 +49,15 @@ struct Pose {
 }
 
 /// The tracks as seen from a direction, as the model shows them.
-fn pose(placed: &[Placed], views: &[Direction], Direction { theta, phi }: Direction) -> Vec<Pose> {
+fn pose(
+    placed: &[TrackPosition],
+    views: &[Direction],
+    Direction { theta, phi }: Direction,
+) -> Vec<Pose> {
     let turn = turn_between(TiSlice::from_ref(views));
     let weights = turn.weights([theta, phi]);
-    let pose = |placed: &Placed| Pose {
-        at: turn.place(&weights, &placed.in_views).truncate(),
+    let pose = |placed: &TrackPosition| Pose {
+        at: turn.position(&weights, &placed.in_views).truncate(),
         depth: placed
             .depths
             .iter()
@@ -79,7 +83,7 @@ struct Found {
     /// The origin of the drawings is known.
     frames: Vec<Frame>,
     matching: Matching,
-    placed: Vec<Placed>,
+    placed: Vec<TrackPosition>,
 }
 
 fn found(seed: u64, directions: &[Direction]) -> Found {
@@ -354,7 +358,7 @@ const UNIT: Frame = Frame {
 };
 
 /// The depth of each track in a view.
-fn depths(placed: &[Placed], view: usize) -> Vec<f64> {
+fn depths(placed: &[TrackPosition], view: usize) -> Vec<f64> {
     placed
         .iter()
         .map(|p| p.depths[ViewId::from(view)])

@@ -59,16 +59,16 @@ pub(super) fn morph(outlines: &[impl Borrow<Outline>], features: &[Vec<(String, 
         points: vec![Vec::new(); outlines.len()].into(),
         ..Morph::default()
     };
-    for piece in rings::pieces(&plane, features) {
+    for polygon in rings::polygons(&plane, features) {
         let first = morph.points.first().map_or(0, Vec::len) as u32;
-        for (all, own) in morph.points.iter_mut().zip(&piece.points) {
+        for (all, own) in morph.points.iter_mut().zip(&polygon.points) {
             all.extend(own);
         }
-        let border = holes::join(&piece.points, &piece.rings[0], &piece.rings[1..]);
-        let triangles = triangles::triangulate(&piece.points, &border);
+        let border = holes::join(&polygon.points, &polygon.rings[0], &polygon.rings[1..]);
+        let triangles = triangles::triangulate(&polygon.points, &border);
         let moved = triangles.iter().map(|triangle| triangle.map(|i| i + first));
         morph.triangles.extend(moved);
-        let moved = piece
+        let moved = polygon
             .rings
             .iter()
             .map(|ring| ring.iter().map(|i| i + first));

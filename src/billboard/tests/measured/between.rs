@@ -8,7 +8,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::labels::{Labels, Overlaps, Shape};
 use crate::billboard::matching::{Track, match_regions};
-use crate::billboard::place::{Frame, Placed, frames, place};
+use crate::billboard::place::{Frame, TrackPosition, frames, place};
 use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::billboard::shape::{Morph, morph};
 use crate::billboard::tests::generated::{Character, Drawn, character};
@@ -89,9 +89,9 @@ fn model_picture(drawn: &[Drawn; 2], frame: &Frame, direction: Direction) -> Lab
     let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
     let turn = between(&directions);
     let weights = turn.weights([direction.theta, direction.phi]);
-    let shape = |(track, placed): (&Track, &Placed)| {
+    let shape = |(track, placed): (&Track, &TrackPosition)| {
         let morph = shape_of(track, &views);
-        let at = turn.place(&weights, &placed.in_views);
+        let at = turn.position(&weights, &placed.in_views);
         let point = |index: &u32| {
             let mut point = at.truncate();
             for (view, weight) in weights.iter_enumerated() {
