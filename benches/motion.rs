@@ -54,11 +54,12 @@ fn text(frames: usize) -> Vec<u8> {
     let joint = |index: usize| Joint {
         name: format!("J{index}"),
         parent: (index > 0).then(|| {
-            if index.is_multiple_of(5) {
+            let parent = if index.is_multiple_of(5) {
                 0
             } else {
                 index - 1
-            }
+            };
+            parent.into()
         }),
         offset: DVec3::new(0.0, 12.5, 0.25),
         channels: match index {

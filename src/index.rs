@@ -3,7 +3,8 @@
 //! Each kind of index is declared where the list lives that it counts, by [`index_type!`]; the list is a
 //! [`TiVec`](typed_index_collections::TiVec), which accepts no other kind.
 
-/// Declares a type of indices: a `usize` with a meaning.
+/// Declares a type of indices: a `usize` with a meaning. It converts to and from the `usize` that counts from 0, for formats and
+/// for users that number things themselves; in between, nothing should need that.
 macro_rules! index_type {
     ($(#[$attribute:meta])* $visibility:vis $name:ident) => {
         $(#[$attribute])*
@@ -11,12 +12,14 @@ macro_rules! index_type {
         $visibility struct $name(usize);
 
         impl From<usize> for $name {
+            /// From a number that counts from 0.
             fn from(index: usize) -> Self {
                 Self(index)
             }
         }
 
         impl From<$name> for usize {
+            /// The number, counted from 0.
             fn from(index: $name) -> Self {
                 index.0
             }

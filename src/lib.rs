@@ -45,6 +45,7 @@
 //! A drawing that changes a little at a time is compiled by a [`Compiler`], which keeps what the change does not affect:
 //!
 //! ```
+//! use okoshi::scene::MaterialId;
 //! use okoshi::{Compiler, MemoryResolver, Options};
 //!
 //! let drawing = r#"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">
@@ -56,7 +57,7 @@
 //! compiler.compile(drawing, &options, &files);
 //! let changed = compiler.compile(&drawing.replace("Alpha 1", "Alpha .5"), &options, &files);
 //! assert!(compiler.last_was_partial());
-//! assert_eq!(changed.scene.materials[0].base_color[3], 0.5);
+//! assert_eq!(changed.scene.materials[MaterialId::from(0)].base_color[3], 0.5);
 //! ```
 //!
 //! Files that a drawing links to are read by a [`Resolver`]: motions, models, pictures. [`MemoryResolver`] has them in memory, and

@@ -2,6 +2,9 @@
 //!
 //! Conventions, stated once: right-handed axes, +Y up, metres, counter-clockwise front faces seen
 //! from outside, quaternions `x y z w`, colours linear RGBA.
+//!
+//! Whatever a scene lists is referred to by an id of its own type: `scene.nodes[id]` takes a [`NodeId`] and nothing else. Ids
+//! convert to and from `usize`, which counts from 0.
 
 mod animation;
 mod camera;
@@ -14,36 +17,70 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::{DAffine2, DQuat, DVec3};
-use typed_index_collections::TiVec;
+
+use crate::index::index_type;
 
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use camera::{Camera, CameraProjection};
 pub use deferred::SurfaceSource;
 pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPatch, TooManyJoints};
 pub use turn::{Turn, ViewId, direction, view_axes};
+pub use typed_index_collections::TiVec;
 pub use world::WorldTransform;
 
+index_type!(
+    /// Refers to a node in [`Scene::nodes`], or of a glTF file.
+    pub NodeId
+);
+
+index_type!(
+    /// Refers to a mesh in [`Scene::meshes`], or of a glTF file.
+    pub MeshId
+);
+
+index_type!(
+    /// Refers to a material in [`Scene::materials`], or of a linked model.
+    pub MaterialId
+);
+
+index_type!(
+    /// Refers to a texture in [`Scene::textures`], or of a linked model.
+    pub TextureId
+);
+
+index_type!(
+    /// Refers to an image in [`Scene::images`], or of a linked model.
+    pub ImageId
+);
+
+index_type!(
+    /// Refers to a camera in [`Scene::cameras`].
+    pub CameraId
+);
+
 /// A model.
+///
+/// Its lists are vectors that ids of their own index; `raw` is the plain vector.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scene {
     /// All nodes; a child comes after its parent.
-    pub nodes: Vec<Node>,
-    /// Indices of the nodes without a parent.
-    pub roots: Vec<usize>,
+    pub nodes: TiVec<NodeId, Node>,
+    /// The nodes without a parent.
+    pub roots: Vec<NodeId>,
     /// The meshes that nodes refer to.
-    pub meshes: Vec<Mesh>,
+    pub meshes: TiVec<MeshId, Mesh>,
     /// The materials that primitives refer to.
-    pub materials: Vec<Material>,
+    pub materials: TiVec<MaterialId, Material>,
     /// The textures that materials refer to.
-    pub textures: Vec<Texture>,
+    pub textures: TiVec<TextureId, Texture>,
     /// The images that textures refer to.
-    pub images: Vec<Image>,
+    pub images: TiVec<ImageId, Image>,
     /// The mesh that all nodes move together, if the nodes have no meshes of their own.
     pub skin: Option<Skin>,
     /// The clips, with distinct names.
     pub animations: Vec<Animation>,
     /// The cameras that nodes refer to.
-    pub cameras: Vec<Camera>,
+    pub cameras: TiVec<CameraId, Camera>,
 }
 
 /// A node to be added to a scene, with its mesh.
@@ -53,24 +90,21 @@ pub struct NewNode {
     pub node: Node,
     /// Its mesh.
     pub mesh: Option<Mesh>,
-    /// Index of its parent in the scene; `None` makes it a root.
-    pub parent: Option<usize>,
+    /// Its parent in the scene; `None` makes it a root.
+    pub parent: Option<NodeId>,
 }
 
 impl Scene {
-    /// Adds a node with its mesh.
-    pub fn add(&mut self, new: NewNode) {
-        let index = self.nodes.len();
+    /// Adds a node with its mesh, and returns its id.
+    pub fn add(&mut self, new: NewNode) -> NodeId {
         let mut node = new.node;
-        node.mesh = new.mesh.map(|mesh| {
-            self.meshes.push(mesh);
-            self.meshes.len() - 1
-        });
-        self.nodes.push(node);
+        node.mesh = new.mesh.map(|mesh| self.meshes.push_and_get_key(mesh));
+        let id = self.nodes.push_and_get_key(node);
         match new.parent {
-            Some(parent) => self.nodes[parent].children.push(index),
-            None => self.roots.push(index),
+            Some(parent) => self.nodes[parent].children.push(id),
+            None => self.roots.push(id),
         }
+        id
     }
 }
 
@@ -79,16 +113,16 @@ impl Scene {
 pub struct Node {
     /// The part's name.
     pub name: String,
-    /// Indices of the children.
-    pub children: Vec<usize>,
+    /// Its children.
+    pub children: Vec<NodeId>,
     /// Its position in the parent's frame, metres.
     pub translation: DVec3,
     /// Its rotation in the parent's frame.
     pub rotation: DQuat,
-    /// Index of its mesh.
-    pub mesh: Option<usize>,
-    /// Index of its camera. Such a node is a root, without mesh and children: a camera is no part of the model.
-    pub camera: Option<usize>,
+    /// Its mesh.
+    pub mesh: Option<MeshId>,
+    /// Its camera. Such a node is a root, without mesh and children: a camera is no part of the model.
+    pub camera: Option<CameraId>,
     /// How its mesh depends on the viewer.
     pub view_dependent: Option<ViewDependent>,
     /// Its source in the drawing.
@@ -135,12 +169,12 @@ pub struct Mesh {
 }
 
 /// Triangles of one material.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Primitive {
     /// The patches that they consist of.
     pub patches: Vec<SurfacePatch>,
-    /// Index of the material.
-    pub material: usize,
+    /// Their material.
+    pub material: MaterialId,
 }
 
 /// A patch of a primitive.
@@ -278,7 +312,7 @@ impl Surface {
 
 /// The material of a part and, if it has a texture, the map from the drawing to texture coordinates; `None` for a part that has no
 /// material of its own.
-pub type PartMaterial = Option<(usize, Option<DAffine2>)>;
+pub type PartMaterial = Option<(MaterialId, Option<DAffine2>)>;
 
 /// A glTF metallic-roughness material. Factors are multiplied with their textures.
 #[derive(Debug, Clone, PartialEq)]
@@ -387,15 +421,15 @@ pub enum AlphaMode {
 /// A material's use of a texture, with the surface's texture coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextureUse {
-    /// Index of the texture.
-    pub texture: usize,
+    /// The texture.
+    pub texture: TextureId,
     /// The strength, from 0 to 1; for normals and occlusion only.
     pub amount: f32,
 }
 
 impl TextureUse {
     /// A texture at full strength.
-    pub fn new(texture: usize) -> Self {
+    pub fn new(texture: TextureId) -> Self {
         Self {
             texture,
             amount: 1.0,
@@ -406,8 +440,8 @@ impl TextureUse {
 /// An image and how it is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Texture {
-    /// Index of the image.
-    pub image: usize,
+    /// The image.
+    pub image: ImageId,
     /// How the image continues horizontally, and vertically.
     pub wrap: [Wrap; 2],
     /// The interpolation between its pixels.

@@ -395,7 +395,7 @@ fn turned(kind: &str, limb: &str, degrees: f64) -> [usize; 3] {
     let mut view = DrawnView::new(&compiled, compiled.scene.clone(), 1.0).expect("a page");
     let named = |name: &str| {
         let nodes = &view.scene.nodes;
-        nodes.iter().position(|node| node.name == name).expect(name)
+        nodes.position(|node| node.name == name).expect(name)
     };
     let (node, trunk) = (named(limb), named("Trunk"));
     let nodes = &mut view.scene.nodes;

@@ -12,7 +12,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use okoshi::diagnostic::{Code, Diagnostic};
 use okoshi::disk::FolderResolver;
 use okoshi::geometry::{FillRule, area, intersect, resolve_overlaps};
-use okoshi::scene::{Scene, SurfacePatch};
+use okoshi::scene::{NodeId, Scene, SurfacePatch, TiVec};
 use okoshi::solid::{Sides, Solid};
 
 /// The distance below which planes coincide, as a share of the model's extent.
@@ -33,14 +33,14 @@ struct Face {
 
 /// All triangles perpendicular to the viewer's axis, each with the number of its solid.
 fn faces(scene: &Scene) -> Vec<Face> {
-    let mut places = vec![DAffine3::IDENTITY; scene.nodes.len()];
+    let mut places: TiVec<NodeId, _> = vec![DAffine3::IDENTITY; scene.nodes.len()].into();
     let mut out = Vec::new();
     let mut owner = 0;
-    for (index, node) in scene.nodes.iter().enumerate() {
+    for (id, node) in scene.nodes.iter_enumerated() {
         let own = DAffine3::from_rotation_translation(node.rotation, node.translation);
-        places[index] *= own;
+        places[id] *= own;
         for child in &node.children {
-            places[*child] = places[index];
+            places[*child] = places[id];
         }
         let primitives = node
             .mesh
@@ -60,7 +60,7 @@ fn faces(scene: &Scene) -> Vec<Face> {
             for (number, triangle) in surface.triangles.iter().enumerate() {
                 let corners = triangle.map(|i| {
                     let at = glam::Vec3::from(surface.positions[i as usize]).as_dvec3();
-                    places[index].transform_point3(at)
+                    places[id].transform_point3(at)
                 });
                 let [a, b, c] = corners;
                 let normal = (b - a).cross(c - a).normalize_or_zero();
@@ -166,8 +166,8 @@ fn faces_in_one_plane_are_found() {
         &okoshi::resolver::MemoryResolver::default(),
     )
     .scene;
-    let again = scene.nodes[0].clone();
+    let again = scene.nodes.raw[0].clone();
     scene.nodes.push(again);
-    scene.roots.push(1);
+    scene.roots.push(1.into());
     assert!(flickering(&scene) >= 4);
 }

@@ -154,7 +154,7 @@ const USES: &[(&str, &[&str])] = &[
             "terrain",
         ],
     ),
-    ("import", &["resolver", "scene"]),
+    ("import", &["index", "resolver", "scene"]),
     ("index", &[]),
     ("labels", &["anatomy", "mocap"]),
     ("lang", &["diagnostic", "source"]),
@@ -201,7 +201,7 @@ const USES: &[(&str, &[&str])] = &[
     ("main", &["cli"]),
     ("mark_tracks", &["index"]),
     ("memo", &["resolver", "threads"]),
-    ("mocap", &[]),
+    ("mocap", &["index"]),
     (
         "motion",
         &[

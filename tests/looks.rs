@@ -11,7 +11,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use okoshi::compile::Compiled;
 use okoshi::diagnostic::Code;
 use okoshi::resolver::MemoryResolver;
-use okoshi::scene::{AlphaMode, MediaType, Scene, Surface, Wrap};
+use okoshi::scene::{AlphaMode, MediaType, NodeId, Scene, Surface, TextureId, TiVec, Wrap};
 use resvg::tiny_skia::{Pixmap, Transform};
 
 /// Pixels a drawing unit in the picture of the drawing.
@@ -75,7 +75,7 @@ struct Sampler {
 }
 
 impl Sampler {
-    fn of(scene: &Scene, texture: usize) -> Self {
+    fn of(scene: &Scene, texture: TextureId) -> Self {
         let texture = scene.textures[texture];
         let pixels = image::load_from_memory(&scene.images[texture.image].bytes);
         Self {
@@ -117,7 +117,7 @@ impl Sampler {
 
 /// Points of all faces towards the viewer: their position in the drawing, and their colour.
 fn seen(scene: &Scene) -> Vec<(DVec2, [f64; 4])> {
-    let mut places = vec![DAffine3::IDENTITY; scene.nodes.len()];
+    let mut places: TiVec<NodeId, _> = vec![DAffine3::IDENTITY; scene.nodes.len()].into();
     let mut out = Vec::new();
     // Away from the edges, where the picture of the drawing is antialiased.
     let parts = 24;
@@ -125,12 +125,12 @@ fn seen(scene: &Scene) -> Vec<(DVec2, [f64; 4])> {
         .flat_map(|i| (1..parts - i).map(move |j| [i, j, parts - i - j]))
         .map(|parted| parted.map(|part| f64::from(part) / f64::from(parts)))
         .collect();
-    for (index, node) in scene.nodes.iter().enumerate() {
+    for (id, node) in scene.nodes.iter_enumerated() {
         let own = DAffine3::from_rotation_translation(node.rotation, node.translation);
-        places[index] *= own;
+        places[id] *= own;
         node.children
             .iter()
-            .for_each(|child| places[*child] = places[index]);
+            .for_each(|child| places[*child] = places[id]);
         let primitives = node
             .mesh
             .iter()
@@ -151,7 +151,7 @@ fn seen(scene: &Scene) -> Vec<(DVec2, [f64; 4])> {
                         let corner = surface.uvs[*corner as usize];
                         (0..2).for_each(|i| uv[i] += f64::from(corner[i]) * *weight);
                     }
-                    let world = places[index].transform_point3(point) / UNIT;
+                    let world = places[id].transform_point3(point) / UNIT;
                     let mut color = sampler.at(uv);
                     color[3] *= f64::from(material.base_color[3]);
                     out.push((DVec2::new(world.x, -world.y), color));
@@ -310,8 +310,8 @@ fn a_texture_file_covers_the_bounding_box_of_its_part() {
     assert!(found <= 10.0, "off by {found}");
     // The file itself is in the model, and is a dependency.
     let compiled = compiled(&text, &files);
-    assert_eq!(compiled.scene.images[0].bytes, bytes);
-    assert_eq!(compiled.scene.images[0].name, "cloth.png");
+    assert_eq!(compiled.scene.images.raw[0].bytes, bytes);
+    assert_eq!(compiled.scene.images.raw[0].name, "cloth.png");
     assert_eq!(compiled.dependencies, ["cloth.png"]);
 }
 
@@ -325,7 +325,7 @@ fn material(paint: &str, defs: &str, string: &str) -> okoshi::scene::Material {
     );
     let compiled = compiled(&drawing(defs, &body), &files);
     assert_eq!(compiled.scene.materials.len(), 1);
-    compiled.scene.materials[0].clone()
+    compiled.scene.materials.raw[0].clone()
 }
 
 #[test]
@@ -433,7 +433,7 @@ fn equal_paints_share_a_texture_and_a_material() {
         ),
         (1, 1, 1)
     );
-    assert_eq!(scene.images[0].media_type, MediaType::Png);
+    assert_eq!(scene.images.raw[0].media_type, MediaType::Png);
     assert_eq!(scene.meshes.len(), 60);
 }
 

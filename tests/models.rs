@@ -10,6 +10,7 @@ use okoshi::scene::{
     Filter, Image, Material, MediaType, Mesh, Node, Primitive, Scene, Surface, Texture, TextureUse,
     Wrap,
 };
+use typed_index_collections::ti_vec;
 
 /// A box of 2 × 4 × 1 about (10, 0, 0): a textured front, and a plain body.
 fn pillar() -> Vec<u8> {
@@ -41,25 +42,25 @@ fn pillar() -> Vec<u8> {
     };
     let primitive = |surface: Surface, material: usize| Primitive {
         patches: vec![surface.into()],
-        material,
+        material: material.into(),
     };
     let scene = Scene {
-        nodes: vec![Node {
+        nodes: ti_vec![Node {
             name: "Pillar".to_owned(),
-            mesh: Some(0),
+            mesh: Some(0.into()),
             ..Node::default()
         }],
-        roots: vec![0],
-        meshes: vec![Mesh {
+        roots: vec![0.into()],
+        meshes: ti_vec![Mesh {
             primitives: vec![
                 primitive(quad(0.5, true), 0),
                 primitive(quad(-0.5, false), 1),
             ],
         }],
-        materials: vec![
+        materials: ti_vec![
             Material {
                 name: "front".to_owned(),
-                base_color_texture: Some(TextureUse::new(0)),
+                base_color_texture: Some(TextureUse::new(0.into())),
                 metallic: 0.25,
                 ..Material::default()
             },
@@ -69,12 +70,12 @@ fn pillar() -> Vec<u8> {
                 ..Material::default()
             },
         ],
-        textures: vec![Texture {
-            image: 0,
+        textures: ti_vec![Texture {
+            image: 0.into(),
             wrap: [Wrap::ClampToEdge, Wrap::MirroredRepeat],
             filter: Filter::Nearest,
         }],
-        images: vec![Image {
+        images: ti_vec![Image {
             name: "red".to_owned(),
             media_type: MediaType::Png,
             bytes: Arc::from(png.into_inner()),

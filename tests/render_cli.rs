@@ -321,25 +321,25 @@ fn upright_scene(node: Node, animations: Vec<Animation>) -> Scene {
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         ..Surface::default()
     };
-    Scene {
-        nodes: vec![Node {
-            mesh: Some(0),
-            ..node
-        }],
-        roots: vec![0],
-        meshes: vec![Mesh {
-            primitives: vec![Primitive {
-                patches: vec![square.into()],
-                material: 0,
-            }],
-        }],
-        materials: vec![Material {
-            double_sided: true,
-            ..Material::default()
-        }],
+    let mut scene = Scene {
         animations,
         ..Scene::default()
-    }
+    };
+    let material = scene.materials.push_and_get_key(Material {
+        double_sided: true,
+        ..Material::default()
+    });
+    scene.add(NewNode {
+        node,
+        mesh: Some(Mesh {
+            primitives: vec![Primitive {
+                patches: vec![square.into()],
+                material,
+            }],
+        }),
+        parent: None,
+    });
+    scene
 }
 
 /// A model that is bent with the view.
@@ -362,7 +362,7 @@ fn turning(name: &str, times: &[f32], interpolation: Interpolation) -> Animation
     Animation {
         name: name.to_owned(),
         tracks: vec![Track {
-            node: 0,
+            node: 0.into(),
             timing: Arc::new(Timing {
                 times: times.to_vec(),
                 interpolation,
@@ -456,7 +456,7 @@ fn running_room() -> Room {
     let run = Animation {
         name: "run".to_owned(),
         tracks: vec![Track {
-            node: 0,
+            node: 0.into(),
             timing: Arc::new(Timing {
                 times: vec![0.0, 1.0],
                 interpolation: Interpolation::Linear,
@@ -508,7 +508,7 @@ fn filmed_room() -> Room {
     let zoom = Animation {
         name: "zoom".to_owned(),
         tracks: vec![Track {
-            node: 2,
+            node: 2.into(),
             timing: Arc::new(Timing {
                 times: vec![0.0, 0.5, 1.0],
                 interpolation: Interpolation::Step,
@@ -526,7 +526,7 @@ fn filmed_room() -> Room {
             node: Node {
                 name: name.to_owned(),
                 translation: DVec3::new(0.5, 0.5, z),
-                camera: Some(index),
+                camera: Some(index.into()),
                 ..Node::default()
             },
             mesh: None,

@@ -1,6 +1,7 @@
 //! Materials, shared by all parts and tiles with the same factors and texture.
 
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
 
 use super::textures::{Textured, Textures};
 use crate::bind::{Bindings, MaterialFactors, PartKind};
@@ -8,7 +9,10 @@ use crate::diagnostic::Diagnostic;
 use crate::figure::LinkedModels;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
-use crate::scene::{AlphaMode, Image, Material, PartMaterial, Scene, Texture, TextureUse, linear};
+use crate::scene::{
+    AlphaMode, Image, ImageId, Material, MaterialId, PartMaterial, Scene, Texture, TextureId,
+    TextureUse, linear,
+};
 use crate::svg::Drawing;
 use crate::terrain::{Layer, Tile, TileMaterial};
 use crate::texture::Alpha;
@@ -27,37 +31,36 @@ pub(super) enum Sharing {
 
 /// The materials of a drawing, and the material of each part and tile.
 pub(super) struct Materials {
-    list: Vec<Material>,
-    textures: Vec<Texture>,
-    images: Vec<Image>,
+    list: TiVec<MaterialId, Material>,
+    textures: TiVec<TextureId, Texture>,
+    images: TiVec<ImageId, Image>,
     of_part: Vec<PartMaterial>,
     /// Per tile layer and look its material.
-    of_looks: Vec<Vec<Option<usize>>>,
+    of_looks: Vec<Vec<Option<MaterialId>>>,
 }
 
-/// Collects materials; equal ones of one owner share an index.
+/// Collects materials; equal ones of one owner are one.
 #[derive(Default)]
 struct Shared {
-    list: Vec<Material>,
-    known: FxHashMap<Key, usize>,
+    list: TiVec<MaterialId, Material>,
+    known: FxHashMap<Key, MaterialId>,
 }
 
 impl Shared {
-    /// The index of a material of this owner; `None` is everybody.
+    /// A material of this owner; `None` is everybody.
     fn slot(
         &mut self,
         owner: Option<usize>,
         factors: &MaterialFactors,
         double_sided: bool,
-        texture: Option<usize>,
+        texture: Option<TextureId>,
         textures: &Textures,
-    ) -> usize {
+    ) -> MaterialId {
         let list = &mut self.list;
         let key = key(factors, double_sided, texture, owner);
         let known = self.known.entry(key);
         *known.or_insert_with(|| {
-            list.push(textured(factors, double_sided, texture, textures));
-            list.len() - 1
+            list.push_and_get_key(textured(factors, double_sided, texture, textures))
         })
     }
 }
@@ -67,7 +70,7 @@ impl Shared {
 struct Key {
     factors: [u64; 9],
     double_sided: bool,
-    texture: Option<usize>,
+    texture: Option<TextureId>,
     owner: Option<usize>,
 }
 
@@ -132,8 +135,7 @@ impl Materials {
             };
             let mut material = textured(&factors, true, Some(texture), &textures);
             material.unlit = true;
-            shared.list.push(material);
-            of_part[*region] = Some((shared.list.len() - 1, Some(map)));
+            of_part[*region] = Some((shared.list.push_and_get_key(material), Some(map)));
         }
         let mut of_look = |layer: usize, number: usize, found: &TileMaterial| {
             let mut factors = found.factors.clone();
@@ -175,16 +177,16 @@ impl Materials {
 }
 
 /// Per tile layer and look its material.
-pub(super) struct LookMaterials(Vec<Vec<Option<usize>>>);
+pub(super) struct LookMaterials(Vec<Vec<Option<MaterialId>>>);
 
 impl LookMaterials {
     /// The materials of each layer's looks.
-    pub(super) fn layers(&self) -> impl Iterator<Item = &[Option<usize>]> {
+    pub(super) fn layers(&self) -> impl Iterator<Item = &[Option<MaterialId>]> {
         self.0.iter().map(Vec::as_slice)
     }
 
     /// The material of a layer's look, if anything looks so.
-    pub(super) fn of(&self, layer: usize, look: u8) -> Option<usize> {
+    pub(super) fn of(&self, layer: usize, look: u8) -> Option<MaterialId> {
         self.0[layer].get(usize::from(look)).copied().flatten()
     }
 }
@@ -192,7 +194,7 @@ impl LookMaterials {
 fn key(
     factors: &MaterialFactors,
     double_sided: bool,
-    texture: Option<usize>,
+    texture: Option<TextureId>,
     owner: Option<usize>,
 ) -> Key {
     let [r, g, b, alpha] = factors.color;
@@ -220,7 +222,7 @@ fn key(
 fn textured(
     factors: &MaterialFactors,
     double_sided: bool,
-    texture: Option<usize>,
+    texture: Option<TextureId>,
     textures: &Textures,
 ) -> Material {
     let mut material = material(factors, double_sided);

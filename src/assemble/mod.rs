@@ -7,6 +7,8 @@ mod materials;
 mod textures;
 mod world;
 
+use typed_index_collections::{TiVec, ti_vec};
+
 use crate::billboard::{self, Character, RegionMaterials};
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
@@ -14,7 +16,7 @@ use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, RestNode};
-use crate::scene::{PartMaterial, Scene, WorldTransform};
+use crate::scene::{MaterialId, PartMaterial, Scene, WorldTransform};
 use crate::svg::Drawing;
 use crate::terrain::{self, Layer};
 use materials::{LookMaterials, Materials, Sharing};
@@ -52,7 +54,7 @@ pub struct Apart {
     /// The model.
     pub scene: Scene,
     /// Per material of the scene what it belongs to; `None` for the materials of linked models and of regions of pictures.
-    pub owners: Vec<Option<Owner>>,
+    pub owners: TiVec<MaterialId, Option<Owner>>,
 }
 
 /// Builds the scene of a drawing.
@@ -86,6 +88,7 @@ pub fn assemble(
         is_mirrored: node.is_mirrored,
         depth: node.depth,
     });
+    let nodes = nodes.collect();
     let context = rig::Context {
         drawing,
         bindings,
@@ -145,7 +148,7 @@ pub fn assemble_apart(
         &mut materials,
         &mut built.scene,
     );
-    let mut owners = vec![None; built.scene.materials.len()];
+    let mut owners: TiVec<MaterialId, _> = ti_vec![None; built.scene.materials.len()];
     // Each material has one owner: their order does not matter.
     let flat = materials.flat.iter();
     flat.for_each(|((part, _), material)| owners[*material] = part.map(Owner::Part));

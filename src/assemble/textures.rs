@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHashSet};
+use typed_index_collections::TiVec;
 
 use crate::bind::{Bindings, PartKind, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::figure::LinkedModels;
 use crate::memo::Memo;
 use crate::resolver::{LinkError, Resolver};
-use crate::scene::{self, Image, Texture, Wrap};
+use crate::scene::{self, Image, ImageId, Texture, TextureId, Wrap};
 use crate::source::Span;
 use crate::svg::{Drawing, PaintKey, broken_link};
 use crate::terrain::{Layer, TileTexture};
@@ -23,18 +24,17 @@ const DETAIL: f64 = 2048.0;
 
 /// The textures of a drawing, and the texture of each part and tile.
 pub(super) struct Textures {
-    textures: Vec<Texture>,
-    images: Vec<Image>,
-    alphas: Vec<Alpha>,
+    textures: TiVec<TextureId, Texture>,
+    images: TiVec<ImageId, Image>,
+    alphas: TiVec<ImageId, Alpha>,
     of_part: FxHashMap<usize, Textured>,
     /// By tile layer and look.
-    of_look: FxHashMap<(usize, usize), usize>,
+    of_look: FxHashMap<(usize, usize), TextureId>,
 }
 
 #[derive(Clone, Copy)]
 pub(super) struct Textured {
-    /// Index of the texture.
-    pub(super) texture: usize,
+    pub(super) texture: TextureId,
     /// From the drawing to texture coordinates.
     pub(super) map: DAffine2,
     /// Whether it is the file of `Texture`.
@@ -103,17 +103,17 @@ impl Textures {
     }
 
     /// The texture of a tile layer's look.
-    pub(super) fn of_look(&self, layer: usize, look: usize) -> Option<usize> {
+    pub(super) fn of_look(&self, layer: usize, look: usize) -> Option<TextureId> {
         self.of_look.get(&(layer, look)).copied()
     }
 
     /// The name of a texture, and whether it is transparent.
-    pub(super) fn about(&self, texture: usize) -> (&str, Alpha) {
+    pub(super) fn about(&self, texture: TextureId) -> (&str, Alpha) {
         let image = self.textures[texture].image;
         (&self.images[image].name, self.alphas[image])
     }
 
-    pub(super) fn into_lists(self) -> (Vec<Texture>, Vec<Image>) {
+    pub(super) fn into_lists(self) -> (TiVec<TextureId, Texture>, TiVec<ImageId, Image>) {
         (self.textures, self.images)
     }
 }
@@ -242,29 +242,26 @@ impl<'a> Collector<'a> {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Textures {
         let mut textures = Textures {
-            textures: Vec::new(),
-            images: Vec::new(),
-            alphas: Vec::new(),
+            textures: TiVec::new(),
+            images: TiVec::new(),
+            alphas: TiVec::new(),
             of_part: FxHashMap::default(),
             of_look: FxHashMap::default(),
         };
         let mut numbers = Vec::with_capacity(baked.len());
         for (baked, name) in baked.into_iter().zip(std::mem::take(&mut self.names)) {
             numbers.push(baked.map(|baked| {
-                let number = textures.textures.len();
-                // So far every texture has its own image, so both have the same index.
-                textures.textures.push(Texture {
-                    image: number,
-                    wrap: baked.wrap,
-                    filter: baked.filter,
-                });
                 textures.alphas.push(baked.picture.alpha);
-                textures.images.push(Image {
+                let image = textures.images.push_and_get_key(Image {
                     name,
                     media_type: baked.picture.media_type,
                     bytes: baked.picture.bytes,
                 });
-                number
+                textures.textures.push_and_get_key(Texture {
+                    image,
+                    wrap: baked.wrap,
+                    filter: baked.filter,
+                })
             }));
         }
         for part in std::mem::take(&mut self.parts) {
@@ -283,17 +280,15 @@ impl<'a> Collector<'a> {
             }
         }
         // On tiles a picture repeats, which is another texture of the same image.
-        let mut repeated: FxHashMap<usize, usize> = FxHashMap::default();
+        let mut repeated: FxHashMap<TextureId, TextureId> = FxHashMap::default();
         for (look, plan) in std::mem::take(&mut self.looks) {
-            let Ok(image) = numbers[plan] else { continue };
+            let Ok(once) = numbers[plan] else { continue };
             let list = &mut textures.textures;
-            let texture = *repeated.entry(image).or_insert_with(|| {
-                list.push(Texture {
-                    image,
+            let texture = *repeated.entry(once).or_insert_with(|| {
+                list.push_and_get_key(Texture {
                     wrap: [Wrap::Repeat; 2],
-                    filter: list[image].filter,
-                });
-                list.len() - 1
+                    ..list[once]
+                })
             });
             textures.of_look.insert(look, texture);
         }

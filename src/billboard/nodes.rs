@@ -9,9 +9,9 @@ use typed_index_collections::TiVec;
 use super::character::{Character, Fill, RegionMesh, RegionModel};
 use crate::bind::Bindings;
 use crate::scene::{
-    AlphaMode, Animation, Interpolation, Material, Mesh, NewNode, Node, PartMaterial, Primitive,
-    Provenance, Scene, Surface, Timing, Track, Values, ViewDependent, ViewId, WorldTransform,
-    linear, view_axes,
+    AlphaMode, Animation, Interpolation, Material, MaterialId, Mesh, NewNode, Node, NodeId,
+    PartMaterial, Primitive, Provenance, Scene, Surface, Timing, Track, Values, ViewDependent,
+    ViewId, WorldTransform, linear, view_axes,
 };
 use crate::svg::Drawing;
 
@@ -25,7 +25,7 @@ pub struct RegionMaterials<'a> {
     /// Per part the material with its texture, and the map from the drawing to texture coordinates, if it has one.
     pub textured: &'a [PartMaterial],
     /// Those without a texture, by the part to which they belong and their colours.
-    pub flat: FxHashMap<FlatMaterial, usize>,
+    pub flat: FxHashMap<FlatMaterial, MaterialId>,
     /// Whether no two parts have a material in common.
     pub are_apart: bool,
 }
@@ -43,13 +43,13 @@ impl<'a> RegionMaterials<'a> {
         }
     }
 
-    /// The index of the material of a part in a colour, sRGB with straight alpha, each 0 to 1.
-    fn material(&mut self, part: Option<usize>, color: [f64; 4], scene: &mut Scene) -> usize {
+    /// The material of a part in a colour, sRGB with straight alpha, each 0 to 1.
+    fn material(&mut self, part: Option<usize>, color: [f64; 4], scene: &mut Scene) -> MaterialId {
         let owner = part.filter(|_| self.are_apart);
         let key = (owner, color.map(f64::to_bits));
         *self.flat.entry(key).or_insert_with(|| {
             let [r, g, b, alpha] = color;
-            scene.materials.push(Material {
+            scene.materials.push_and_get_key(Material {
                 base_color: [linear(r), linear(g), linear(b), alpha as f32],
                 alpha_mode: if alpha < 1.0 {
                     AlphaMode::Blend
@@ -59,8 +59,7 @@ impl<'a> RegionMaterials<'a> {
                 double_sided: true,
                 unlit: true,
                 ..Material::default()
-            });
-            scene.materials.len() - 1
+            })
         })
     }
 }
@@ -88,9 +87,8 @@ fn add_one(
     scene: &mut Scene,
 ) {
     let middle = character.frames[ViewId::FIRST].center;
-    let root = scene.nodes.len();
     let first = character.layers[ViewId::FIRST];
-    scene.add(NewNode {
+    let root = scene.add(NewNode {
         node: Node {
             name: character.name.clone(),
             translation: world.point(DVec3::new(middle.x, -middle.y, 0.0)),
@@ -115,7 +113,7 @@ fn add_one(
     });
     let scale = character.frames[ViewId::FIRST].height * world.scale;
     let at_first = character.turn.weights(character.turn.views[ViewId::FIRST]);
-    for region in &character.regions {
+    let node_of = |region: &RegionModel| {
         let places: TiVec<ViewId, DVec3> = region
             .positions
             .iter()
@@ -141,9 +139,10 @@ fn add_one(
             },
             mesh: Some(mesh),
             parent: Some(root),
-        });
-    }
-    let clip = clip(character, root, scale);
+        })
+    };
+    let nodes: Vec<NodeId> = character.regions.iter().map(node_of).collect();
+    let clip = clip(character, &nodes, scale);
     scene.animations.push(clip);
 }
 
@@ -199,8 +198,9 @@ fn mesh(
     Mesh { primitives }
 }
 
-/// The clip in which a character turns through its views, as a viewer in front of the first one sees it.
-fn clip(character: &Character, root: usize, scale: f64) -> Animation {
+/// The clip in which a character turns through its views, as a viewer in front of the first one sees it. `nodes` are those of its
+/// regions.
+fn clip(character: &Character, nodes: &[NodeId], scale: f64) -> Animation {
     let views = &character.turn.views;
     let mut directions = vec![views[ViewId::FIRST]];
     let mut times = vec![0.0];
@@ -224,11 +224,11 @@ fn clip(character: &Character, root: usize, scale: f64) -> Animation {
         .map(|d| character.turn.weights(*d))
         .collect();
     let mut tracks = Vec::new();
-    for (index, region) in character.regions.iter().enumerate() {
+    for (region, node) in character.regions.iter().zip(nodes) {
+        let node = *node;
         let place = |weights: &TiVec<ViewId, f64>| {
             character.turn.position(weights, &region.positions) * scale
         };
-        let node = root + 1 + index;
         tracks.push(Track {
             node,
             timing: Arc::clone(&timing),

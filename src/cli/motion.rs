@@ -3,6 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use typed_index_collections::TiVec;
+
 use super::args::{Common, Motion};
 use super::progress::spinning;
 use super::{Outcome, fail, print_out};
@@ -11,9 +13,9 @@ use crate::disk::{Inputs, Naming, Target, WriteError, open_stream};
 use crate::export::{self, Exporter};
 use crate::labels::{Anatomy, Label};
 use crate::limited::{self, Error, Length, Method};
-use crate::mocap::Clip;
 use crate::mocap::bvh::{self, Reading};
 use crate::mocap::resample::rate;
+use crate::mocap::{Clip, JointId};
 use crate::motion::edit::{self, EditedClip, ExposureMethod, Filmed, edit};
 use crate::motion::{add_camera, skeleton_model};
 use crate::prepare::{self, LeadInPolicy};
@@ -358,15 +360,15 @@ fn off(error: &Error) -> String {
 
 /// The joints as a tree, each with its label.
 fn joints(clip: &Clip, anatomy: &Anatomy) -> String {
-    let mut depth: Vec<usize> = Vec::new();
+    let mut depth: TiVec<JointId, usize> = TiVec::new();
     let mut rows: Vec<[String; 2]> = Vec::new();
-    for (index, joint) in clip.skeleton.joints.iter().enumerate() {
+    for (id, joint) in clip.skeleton.joints.iter_enumerated() {
         depth.push(joint.parent.map_or(0, |parent| depth[parent] + 1));
         // Limited, because deep chains would become wider than any terminal.
-        let indent = "  ".repeat(depth[index].min(40));
+        let indent = "  ".repeat(depth[id].min(40));
         let what = anatomy
             .labels
-            .get(index)
+            .get(id)
             .and_then(Option::as_ref)
             .map(Label::describe);
         rows.push([format!("{indent}{}", joint.name), what.unwrap_or_default()]);

@@ -10,6 +10,7 @@ use super::curves::{bump, hermite, keyed};
 use super::gaits::lower;
 use super::pose::{Foot, Pose, lean, tip, turn};
 use crate::labels::Side;
+use crate::mocap::JointId;
 use crate::smoothing::ease;
 
 /// The height of the hips above the ankles for which lengths in this file are meant: an adult's, centimetres.
@@ -57,7 +58,7 @@ struct Trunk {
 /// The body with its trunk turned, arms hanging.
 fn standing(body: &Body, trunk: Trunk) -> Pose {
     let mut pose = Pose::rest(body);
-    pose.turn_world(0, trunk.hips);
+    pose.turn_world(JointId::default(), trunk.hips);
     if let [spine, chest] = body.anatomy.spine[..] {
         pose.turn_world(spine, trunk.hips.slerp(trunk.chest, 0.5));
         pose.turn_world(chest, trunk.chest);

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::Legs;
 use crate::labels::{Anatomy, Class, Label, Limb, LimbSegment, Side, Tip};
-use crate::mocap::{Axis, Channel, Joint, Skeleton};
+use crate::mocap::{Axis, Channel, Joint, JointId, Skeleton};
 
 /// A skeleton, and what its joints are.
 #[derive(Debug, Clone)]
@@ -27,9 +27,9 @@ pub(super) struct Leg {
     /// 0 is the rearmost.
     pub(super) pair: usize,
     /// Thigh, shin and foot.
-    pub(super) joints: [usize; 3],
+    pub(super) joints: [JointId; 3],
     /// The joint of the toes.
-    pub(super) toe: Option<usize>,
+    pub(super) toe: Option<JointId>,
     /// The lengths of thigh and shin.
     pub(super) bones: [f64; 2],
     /// Where it stands at rest: the ankle.
@@ -57,7 +57,7 @@ impl Leg {
 pub(super) struct Arm {
     pub(super) side: Side,
     /// Collar bone, upper arm, forearm, hand.
-    pub(super) joints: [usize; 4],
+    pub(super) joints: [JointId; 4],
 }
 
 /// 1 for the left side, −1 for the right one: the sign of x.
@@ -82,7 +82,7 @@ impl Body {
 /// An adult of 1.75 m.
 fn biped() -> Body {
     let mut body = Body::begun(DVec3::new(0.0, 95.0, 0.0));
-    let hips = 0;
+    let hips = JointId::default();
     let spine = body.trunk("Spine", hips, DVec3::new(0.0, 10.0, 0.0));
     let chest = body.trunk("Chest", spine, DVec3::new(0.0, 13.0, 0.0));
     let neck = body.neck(chest, DVec3::new(0.0, 26.0, 0.0));
@@ -110,7 +110,7 @@ fn biped() -> Body {
 /// A dog of 60 cm at the shoulder.
 fn quadruped() -> Body {
     let mut body = Body::begun(DVec3::new(0.0, 58.0, -32.0));
-    let hips = 0;
+    let hips = JointId::default();
     let spine = body.trunk("Spine", hips, DVec3::new(0.0, 2.0, 30.0));
     let chest = body.trunk("Chest", spine, DVec3::new(0.0, -2.0, 30.0));
     let neck = body.neck(chest, DVec3::new(0.0, 6.0, 8.0));
@@ -146,7 +146,7 @@ fn quadruped() -> Body {
 /// An insect, as large as a dog, on three pairs of splayed legs.
 fn hexapod() -> Body {
     let mut body = Body::begun(DVec3::new(0.0, 30.0, -14.0));
-    let hips = 0;
+    let hips = JointId::default();
     let spine = body.trunk("Spine", hips, DVec3::new(0.0, 0.0, 14.0));
     let chest = body.trunk("Chest", spine, DVec3::new(0.0, 0.0, 14.0));
     let neck = body.neck(chest, DVec3::new(0.0, 2.0, 6.0));
@@ -184,7 +184,7 @@ struct LegPlan {
     side: Side,
     pair: usize,
     /// The joint that carries it.
-    parent: usize,
+    parent: JointId,
     /// The hip joint, from that joint.
     hip: DVec3,
     /// The knee, in the world.
@@ -218,11 +218,11 @@ impl Body {
     fn joint(
         &mut self,
         name: String,
-        parent: Option<usize>,
+        parent: Option<JointId>,
         offset: DVec3,
         class: Class,
         limb: Option<(Side, usize, LimbSegment)>,
-    ) -> usize {
+    ) -> JointId {
         let side = limb.map(|(side, ..)| side);
         let why = format!("`{name}` is a joint of okoshi's own clip");
         self.anatomy.labels.push(Some(Label {
@@ -232,42 +232,41 @@ impl Body {
             pair: limb.map_or(0, |(_, pair, _)| pair),
             why,
         }));
-        self.skeleton.joints.push(Joint {
+        self.skeleton.joints.push_and_get_key(Joint {
             name,
             parent,
             offset,
             // The least turn is about y, so the middle angle stays far from a quarter turn.
             channels: [Axis::Z, Axis::Y, Axis::X].map(Channel::Rotation).to_vec(),
             ends: Vec::new(),
-        });
-        self.skeleton.joints.len() - 1
+        })
     }
 
-    fn trunk(&mut self, name: &str, parent: usize, offset: DVec3) -> usize {
+    fn trunk(&mut self, name: &str, parent: JointId, offset: DVec3) -> JointId {
         let joint = self.joint(name.to_owned(), Some(parent), offset, Class::Body, None);
         self.anatomy.spine.push(joint);
         joint
     }
 
-    fn neck(&mut self, parent: usize, offset: DVec3) -> usize {
+    fn neck(&mut self, parent: JointId, offset: DVec3) -> JointId {
         let joint = self.joint("Neck".to_owned(), Some(parent), offset, Class::Neck, None);
         self.anatomy.neck.push(joint);
         joint
     }
 
-    fn head(&mut self, parent: usize, offset: DVec3, end: DVec3) {
+    fn head(&mut self, parent: JointId, offset: DVec3, end: DVec3) {
         let joint = self.joint("Head".to_owned(), Some(parent), offset, Class::Head, None);
         self.skeleton.joints[joint].ends.push(end);
         self.anatomy.head = Some(joint);
     }
 
-    fn tail(&mut self, name: &str, parent: usize, offset: DVec3) -> usize {
+    fn tail(&mut self, name: &str, parent: JointId, offset: DVec3) -> JointId {
         let joint = self.joint(name.to_owned(), Some(parent), offset, Class::Tail, None);
         self.anatomy.tail.push(joint);
         joint
     }
 
-    fn arm(&mut self, chest: usize, side: Side) {
+    fn arm(&mut self, chest: JointId, side: Side) {
         let x = sign(side);
         let segments = [
             (

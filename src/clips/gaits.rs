@@ -12,6 +12,7 @@ use super::body::{Body, Leg, sign};
 use super::curves::wave;
 use super::pose::{Pose, lean, tip, turn};
 use super::steps::Steps;
+use crate::mocap::JointId;
 
 /// A gait. Times are turns of its cycle, lengths centimetres, angles degrees.
 #[derive(Debug, Clone, Copy)]
@@ -106,7 +107,7 @@ impl Gait {
         let arch = trunk.arch[0] * wave(time, trunk.arch[1]);
         let hips = turn(-trunk.hip_turn * forward) * lean(drop) * tip(pitch * 0.5 - arch);
         let chest = turn(trunk.chest_turn * forward) * lean(chest_drop) * tip(pitch + arch);
-        pose.turn_world(0, hips);
+        pose.turn_world(JointId::default(), hips);
         let joints = &body.anatomy;
         if let [spine, chest_joint] = joints.spine[..] {
             pose.turn_world(spine, hips.slerp(chest, 0.5));

@@ -1,9 +1,10 @@
 //! A pose of a body: how its joints turn, and where its feet are. Legs reach their feet by two-bone inverse kinematics.
 
 use glam::{DMat3, DQuat, DVec3, EulerRot};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::body::{Body, Leg};
-use crate::mocap::{Channel, Skeleton, Transform};
+use crate::mocap::{self, Channel, JointId, Skeleton, Transform};
 
 /// How far a leg may stretch, as a share of its length: a knee that is quite straight snaps.
 pub(super) const MAX_REACH: f64 = 0.985;
@@ -59,7 +60,7 @@ impl Foot {
 pub(super) struct Pose {
     /// The position of the hips.
     pub(super) hips: DVec3,
-    turns: Vec<Turn>,
+    turns: TiVec<JointId, Turn>,
     /// Per leg its foot; a leg without one turns like any joint.
     pub(super) feet: Vec<Option<Foot>>,
 }
@@ -68,8 +69,8 @@ impl Pose {
     /// The body as it stands at rest.
     pub(super) fn rest(body: &Body) -> Self {
         Self {
-            hips: body.skeleton.joints[0].offset,
-            turns: vec![Turn::Inner(DQuat::IDENTITY); body.skeleton.joints.len()],
+            hips: body.skeleton.joints[JointId::default()].offset,
+            turns: ti_vec![Turn::Inner(DQuat::IDENTITY); body.skeleton.joints.len()],
             feet: body
                 .legs
                 .iter()
@@ -79,32 +80,32 @@ impl Pose {
     }
 
     /// Turns a joint in its parent's frame.
-    pub(super) fn turn_inner(&mut self, joint: usize, rotation: DQuat) {
+    pub(super) fn turn_inner(&mut self, joint: JointId, rotation: DQuat) {
         self.turns[joint] = Turn::Inner(rotation);
     }
 
     /// Turns a joint in the world.
-    pub(super) fn turn_world(&mut self, joint: usize, rotation: DQuat) {
+    pub(super) fn turn_world(&mut self, joint: JointId, rotation: DQuat) {
         self.turns[joint] = Turn::World(rotation);
     }
 
     /// The world transforms of all joints.
-    pub(super) fn transforms(&self, body: &Body) -> Vec<Transform> {
-        let mut placed: Vec<Transform> = Vec::with_capacity(self.turns.len());
+    pub(super) fn transforms(&self, body: &Body) -> mocap::Pose {
+        let mut placed = mocap::Pose::with_capacity(self.turns.len());
         let mut turns = self.turns.clone();
-        for (index, joint) in body.skeleton.joints.iter().enumerate() {
+        for (id, joint) in body.skeleton.joints.iter_enumerated() {
             let parent = joint.parent.map(|parent| placed[parent]);
             let position = match parent {
                 Some(parent) => parent.position + parent.rotation * joint.offset,
                 None => self.hips,
             };
-            let leg = body.legs.iter().position(|leg| leg.joints[0] == index);
+            let leg = body.legs.iter().position(|leg| leg.joints[0] == id);
             if let Some((leg, foot)) = leg.and_then(|leg| Some((&body.legs[leg], self.feet[leg]?)))
             {
                 bend(body, leg, position, &foot, &mut turns);
             }
             let above = parent.map_or(DQuat::IDENTITY, |parent| parent.rotation);
-            let rotation = match turns[index] {
+            let rotation = match turns[id] {
                 Turn::Inner(inner) => above * inner,
                 Turn::World(world) => world,
             };
@@ -130,7 +131,7 @@ impl Pose {
 }
 
 /// Turns the joints of a leg so that its ankle is where the foot is, as far as it reaches.
-fn bend(body: &Body, leg: &Leg, hip: DVec3, foot: &Foot, turns: &mut [Turn]) {
+fn bend(body: &Body, leg: &Leg, hip: DVec3, foot: &Foot, turns: &mut TiSlice<JointId, Turn>) {
     let [thigh, shin] = leg.bones;
     let way = foot.ankle - hip;
     let down = way.normalize_or(DVec3::NEG_Y);
@@ -173,16 +174,16 @@ pub(super) fn channel_values(body: &Body, poses: &[Pose]) -> Vec<f64> {
     let width = skeleton.channel_count();
     for pose in poses {
         let placed = pose.transforms(body);
-        for (index, joint) in skeleton.joints.iter().enumerate() {
+        for (id, joint) in skeleton.joints.iter_enumerated() {
             let above = joint
                 .parent
                 .map_or(DQuat::IDENTITY, |parent| placed[parent].rotation);
-            let inner = above.inverse() * placed[index].rotation;
+            let inner = above.inverse() * placed[id].rotation;
             let (z, y, x) = inner.to_euler(EulerRot::ZYX);
             let angles = [x, y, z].map(f64::to_degrees);
             for channel in &joint.channels {
                 let number = match channel {
-                    Channel::Position(axis) => placed[index].position[axis.index()],
+                    Channel::Position(axis) => placed[id].position[axis.index()],
                     Channel::Rotation(axis) => {
                         let angle = angles[axis.index()];
                         let before = values.len().checked_sub(width).map_or(0.0, |at| values[at]);
@@ -220,8 +221,8 @@ mod tests {
     fn channels_are_the_pose() {
         let body = Body::on(Legs::Two);
         let mut pose = Pose::rest(&body);
-        pose.turn_world(1, turn(30.0) * tip(50.0) * lean(-20.0));
-        pose.turn_inner(4, tip(-70.0));
+        pose.turn_world(1.into(), turn(30.0) * tip(50.0) * lean(-20.0));
+        pose.turn_inner(4.into(), tip(-70.0));
         pose.feet[0] = Some(Foot::flat(DVec3::new(12.0, 30.0, 25.0)));
         let placed = pose.transforms(&body);
         let values = channel_values(&body, &[pose]);

@@ -4,10 +4,10 @@ use glam::{DQuat, DVec3};
 
 use super::body::{Body, Leg};
 use super::*;
-use crate::mocap::Transform;
+use crate::mocap::{self, JointId};
 
 /// Every clip, with its poses.
-fn all() -> impl Iterator<Item = (String, BuiltIn, Body, Vec<Vec<Transform>>)> {
+fn all() -> impl Iterator<Item = (String, BuiltIn, Body, Vec<mocap::Pose>)> {
     let pairs = Legs::ALL
         .into_iter()
         .flat_map(|legs| BuiltIn::ALL.map(|which| (legs, which)));
@@ -20,8 +20,8 @@ fn all() -> impl Iterator<Item = (String, BuiltIn, Body, Vec<Vec<Transform>>)> {
 }
 
 /// The joints from the place on the ground below the hips.
-fn about_hips(pose: &[Transform]) -> Vec<DVec3> {
-    let hips = pose[0].position;
+fn about_hips(pose: &mocap::Pose) -> Vec<DVec3> {
+    let hips = pose[JointId::default()].position;
     let below = DVec3::new(hips.x, 0.0, hips.z);
     pose.iter().map(|joint| joint.position - below).collect()
 }
@@ -32,7 +32,7 @@ fn apart(a: &[DVec3], b: &[DVec3]) -> f64 {
 }
 
 /// The points of a sole in the world.
-fn sole(leg: &Leg, pose: &[Transform]) -> [DVec3; 2] {
+fn sole(leg: &Leg, pose: &mocap::Pose) -> [DVec3; 2] {
     let foot = pose[leg.joints[2]];
     leg.sole.map(|point| foot.position + foot.rotation * point)
 }
@@ -48,7 +48,7 @@ fn names_are_unique_words() {
 #[test]
 fn every_clip_can_be_repeated() {
     for (name, _, _, poses) in all() {
-        let places: Vec<Vec<DVec3>> = poses.iter().map(|pose| about_hips(pose)).collect();
+        let places: Vec<Vec<DVec3>> = poses.iter().map(about_hips).collect();
         let steps: Vec<f64> = places
             .windows(2)
             .map(|pair| apart(&pair[0], &pair[1]))
@@ -116,7 +116,7 @@ fn no_foot_is_in_the_ground_and_none_floats() {
             let lowest = lowest.fold(f64::INFINITY, f64::min);
             assert!(lowest.abs() < 0.02 * leg.length(), "{name}: {lowest}");
         }
-        let lowest = |pose: &Vec<Transform>| {
+        let lowest = |pose: &mocap::Pose| {
             let points = body.legs.iter().flat_map(|leg| sole(leg, pose));
             points.map(|point| point.y).fold(f64::INFINITY, f64::min)
         };
@@ -148,7 +148,8 @@ fn the_head_is_steady_while_the_body_walks() {
 #[test]
 fn gaits_travel_by_their_stride_and_actions_do_not() {
     for (name, which, body, poses) in all() {
-        let way = poses[poses.len() - 1][0].position - poses[0][0].position;
+        let hips = JointId::default();
+        let way = poses[poses.len() - 1][hips].position - poses[0][hips].position;
         let stride = Gait::of(which, legs_of(&body)).map_or(0.0, |gait| gait.steps.stride);
         assert!(way.distance(DVec3::Z * stride) < 1e-6, "{name}: {way}");
     }

@@ -3,8 +3,12 @@
 use std::collections::BTreeSet;
 use std::io;
 
+use typed_index_collections::TiSlice;
+
 use super::invalid;
-use crate::scene::{AlphaMode, Animation, MAX_JOINTS, MediaType, Scene, Surface, Track, Values};
+use crate::scene::{
+    AlphaMode, Animation, MAX_JOINTS, MediaType, Node, NodeId, Scene, Surface, Track, Values,
+};
 
 /// Refuses nodes, materials and animations that would make an invalid file.
 pub(super) fn check(scene: &Scene) -> io::Result<()> {
@@ -16,11 +20,11 @@ pub(super) fn check(scene: &Scene) -> io::Result<()> {
     scene
         .animations
         .iter()
-        .try_for_each(|animation| check_animation(animation, scene.nodes.len()))
+        .try_for_each(|animation| check_animation(animation, &scene.nodes))
 }
 
 fn check_nodes(scene: &Scene) -> io::Result<()> {
-    for (index, node) in scene.nodes.iter().enumerate() {
+    for (id, node) in scene.nodes.iter_enumerated() {
         let name = &node.name;
         if !node.translation.is_finite() || !node.rotation.is_finite() {
             return Err(invalid(format!(
@@ -28,15 +32,22 @@ fn check_nodes(scene: &Scene) -> io::Result<()> {
             )));
         }
         // A child comes after its parent, so there can be no cycle.
-        let in_order = |child: &usize| (index + 1..scene.nodes.len()).contains(child);
+        let in_order = |child: &NodeId| *child > id && *child < scene.nodes.next_key();
         if !node.children.iter().all(in_order) {
             return Err(invalid(format!("node `{name}` has a child out of order")));
         }
-        if node.mesh.is_some_and(|mesh| mesh >= scene.meshes.len()) {
+        if node
+            .mesh
+            .is_some_and(|mesh| mesh >= scene.meshes.next_key())
+        {
             return Err(invalid(format!("node `{name}` has a mesh out of range")));
         }
     }
-    if scene.roots.iter().any(|root| *root >= scene.nodes.len()) {
+    if scene
+        .roots
+        .iter()
+        .any(|root| *root >= scene.nodes.next_key())
+    {
         return Err(invalid("a root out of range"));
     }
     Ok(())
@@ -51,14 +62,14 @@ fn check_cameras(scene: &Scene) -> io::Result<()> {
             )));
         }
     }
-    for (index, node) in scene.nodes.iter().enumerate() {
+    for (id, node) in scene.nodes.iter_enumerated() {
         let Some(camera) = node.camera else { continue };
         let name = &node.name;
-        if camera >= scene.cameras.len() {
+        if camera >= scene.cameras.next_key() {
             return Err(invalid(format!("node `{name}` has a camera out of range")));
         }
         let is_apart = node.mesh.is_none() && node.children.is_empty();
-        if !is_apart || !scene.roots.contains(&index) {
+        if !is_apart || !scene.roots.contains(&id) {
             return Err(invalid(format!(
                 "node `{name}` has a camera, but is a part of the model"
             )));
@@ -72,9 +83,9 @@ fn check_skin(scene: &Scene) -> io::Result<()> {
         return Ok(());
     };
     let own = scene.nodes.iter().any(|node| node.mesh == Some(skin.mesh));
-    let is_joint = |joint: &usize| *joint < scene.nodes.len();
+    let is_joint = |joint: &NodeId| *joint < scene.nodes.next_key();
     let joints_fit = skin.rest.len() == skin.joints.len() && skin.joints.iter().all(is_joint);
-    if own || skin.mesh >= scene.meshes.len() || !joints_fit {
+    if own || skin.mesh >= scene.meshes.next_key() || !joints_fit {
         return Err(invalid("a skin that does not fit the nodes"));
     }
     if skin.joints.len() > MAX_JOINTS {
@@ -91,7 +102,8 @@ fn check_images(scene: &Scene) -> io::Result<()> {
             return Err(invalid(format!("image `{name}` is not a {media_type:?}")));
         }
     }
-    if scene.textures.iter().any(|t| t.image >= scene.images.len()) {
+    let mut textures = scene.textures.iter();
+    if textures.any(|texture| texture.image >= scene.images.next_key()) {
         Err(invalid("a texture with an image out of range"))
     } else {
         Ok(())
@@ -101,7 +113,7 @@ fn check_images(scene: &Scene) -> io::Result<()> {
 fn check_materials(scene: &Scene) -> io::Result<()> {
     for material in &scene.materials {
         let mut textures = material.textures();
-        if textures.any(|used| used.texture >= scene.textures.len()) {
+        if textures.any(|used| used.texture >= scene.textures.next_key()) {
             let name = &material.name;
             return Err(invalid(format!(
                 "material `{name}` has a texture out of range"
@@ -129,7 +141,7 @@ fn check_materials(scene: &Scene) -> io::Result<()> {
     Ok(())
 }
 
-fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
+fn check_animation(animation: &Animation, nodes: &TiSlice<NodeId, Node>) -> io::Result<()> {
     let name = &animation.name;
     let wrong = |what: &str| Err(invalid(format!("animation `{name}` has {what}")));
     let mut animated = BTreeSet::new();
@@ -155,7 +167,7 @@ fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
                 all.all(|is_valid| is_valid)
             }
         };
-        if *node >= nodes {
+        if *node >= nodes.next_key() {
             return wrong("a track of a node out of range");
         }
         let kind = match values {

@@ -9,11 +9,12 @@ use std::io;
 
 use glam::{DQuat, DVec3, Quat, Vec3};
 use rayon::prelude::*;
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::surfaces::with_surface;
 use super::{Exporter, Output, SKINNED, Written, check, invalid};
 use crate::memo::Memo;
-use crate::scene::{Primitive, Scene, Surface};
+use crate::scene::{MeshId, NodeId, Primitive, Scene, Surface};
 
 /// Primitives that are in memory at a time.
 const WINDOW: usize = 512;
@@ -82,9 +83,10 @@ impl Exporter for Obj {
 
 /// The primitives of all nodes in the order of the nodes, and those of a skin.
 fn parts(scene: &Scene) -> Vec<Part<'_>> {
-    let mut places = vec![(DQuat::IDENTITY, DVec3::ZERO); scene.nodes.len()];
+    let mut places: TiVec<NodeId, (DQuat, DVec3)> =
+        ti_vec![(DQuat::IDENTITY, DVec3::ZERO); scene.nodes.len()];
     let mut parts = vec![];
-    let mut push = |mesh: usize, name, (rotation, translation)| {
+    let mut push = |mesh: MeshId, name, (rotation, translation)| {
         let mut object = Some(name);
         parts.extend(scene.meshes[mesh].primitives.iter().map(|primitive| Part {
             primitive,
@@ -94,8 +96,8 @@ fn parts(scene: &Scene) -> Vec<Part<'_>> {
         }));
     };
     // A child comes after its parent.
-    for (index, node) in scene.nodes.iter().enumerate() {
-        let (rotation, translation) = places[index];
+    for (id, node) in scene.nodes.iter_enumerated() {
+        let (rotation, translation) = places[id];
         let place = (
             rotation * node.rotation,
             rotation * node.translation + translation,
@@ -121,7 +123,7 @@ impl Part<'_> {
             return Ok(Surface::default());
         }
         check::surface(&surface, scene.nodes.len())?;
-        if self.primitive.material >= scene.materials.len() {
+        if self.primitive.material >= scene.materials.next_key() {
             return Err(invalid("a primitive with a material out of range"));
         }
         for position in &mut surface.positions {
@@ -212,25 +214,25 @@ mod tests {
         Mesh {
             primitives: vec![Primitive {
                 patches: vec![SurfacePatch::Surface(Box::new(surface))],
-                material: 0,
+                material: 0.into(),
             }],
         }
     }
 
     fn scene() -> Scene {
-        let node = |name: &str, mesh, children| Node {
+        let node = |name: &str, mesh: usize, children| Node {
             name: name.to_owned(),
             children,
             translation: DVec3::new(0.0, 2.0, 0.0),
             rotation: DQuat::from_rotation_z(std::f64::consts::FRAC_PI_2),
-            mesh: Some(mesh),
+            mesh: Some(mesh.into()),
             ..Node::default()
         };
         Scene {
-            nodes: vec![node("Upper arm", 0, vec![1]), node("", 1, vec![])],
-            roots: vec![0],
-            meshes: vec![triangle(vec![]), triangle(vec![[0.25, 0.0]; 3])],
-            materials: vec![Material {
+            nodes: ti_vec![node("Upper arm", 0, vec![1.into()]), node("", 1, vec![])],
+            roots: vec![0.into()],
+            meshes: ti_vec![triangle(vec![]), triangle(vec![[0.25, 0.0]; 3])],
+            materials: ti_vec![Material {
                 name: "sky blue".to_owned(),
                 ..Material::default()
             }],
@@ -301,7 +303,7 @@ mod tests {
     #[test]
     fn invalid_surfaces_are_refused() {
         let mut broken = scene();
-        broken.meshes[0].primitives[0].material = 1;
+        broken.meshes.raw[0].primitives[0].material = 1.into();
         let error = to_memory(&OBJ, &broken, None).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
     }

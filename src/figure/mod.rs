@@ -15,13 +15,16 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
+use typed_index_collections::TiVec;
 
 use crate::bind::{Bindings, PartKind, SetBy};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
-use crate::scene::{Mesh, PartMaterial, Primitive, Scene, SurfacePatch, WorldTransform};
+use crate::scene::{
+    MaterialId, Mesh, NodeId, PartMaterial, Primitive, Scene, SurfacePatch, WorldTransform,
+};
 use crate::solid::{self, LaidSolid, Placement, Profile, Sides, Solid};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
@@ -64,7 +67,7 @@ pub struct Figures<'a> {
     layers: Layers,
     frames: Vec<Frame>,
     parts_of_node: Vec<Vec<usize>>,
-    tree: Vec<FigureNode>,
+    tree: TiVec<NodeId, FigureNode>,
 }
 
 /// A deviation that nobody sees, as a share of the larger extent of all parts: a twentieth of a pixel in a picture a thousand
@@ -80,9 +83,9 @@ pub struct FigureNodes {
     /// Per main part the parts whose solids are in its node.
     pub parts_of_node: Vec<Vec<usize>>,
     /// Per node the part that it shows.
-    pub nodes: Vec<PartNode>,
+    pub nodes: TiVec<NodeId, PartNode>,
     /// Per part the first node that shows it.
-    pub node_of_part: Vec<Option<usize>>,
+    pub node_of_part: Vec<Option<NodeId>>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
     pub depths: Vec<Option<NodeDepth>>,
     /// Per part the thickness of its solid, `None` without one; empty if the drawing has no motion.
@@ -162,7 +165,7 @@ impl<'a> Figures<'a> {
         world: &WorldTransform,
     ) -> Option<Mesh> {
         let mut primitives: Vec<Primitive> = Vec::new();
-        let mut add = |material: usize, patch: SurfacePatch| {
+        let mut add = |material: MaterialId, patch: SurfacePatch| {
             let mut same = primitives.iter_mut().filter(|p| p.material == material);
             match same.next() {
                 Some(primitive) => primitive.patches.push(patch),

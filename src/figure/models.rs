@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
+use typed_index_collections::TiVec;
 
 use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
@@ -11,7 +12,7 @@ use crate::geometry::{Frame, Outline};
 use crate::import::{ImportError, StaticModel, read_static_model};
 use crate::memo::Memo;
 use crate::resolver::{LinkError, Resolver};
-use crate::scene::{Scene, Surface};
+use crate::scene::{ImageId, Material, MaterialId, Scene, Surface, Texture, TextureId};
 use crate::svg::broken_link;
 
 /// Limit of the triangles of all parts that are models.
@@ -25,8 +26,8 @@ pub(super) struct Models {
 
 struct Loaded {
     asset: Arc<StaticModel>,
-    /// The number of its first material in the scene.
-    first_material: usize,
+    /// Per material of its own that in the scene.
+    in_scene: TiVec<MaterialId, MaterialId>,
 }
 
 /// The key of a model file, by its link.
@@ -71,7 +72,7 @@ impl Models {
                 })?;
                 models.assets.push(Loaded {
                     asset,
-                    first_material: 0,
+                    in_scene: TiVec::new(),
                 });
                 Ok(models.assets.len() - 1)
             });
@@ -112,25 +113,27 @@ impl Models {
     }
 
     pub(super) fn add_materials(&mut self, scene: &mut Scene) {
-        for Loaded {
-            asset,
-            first_material,
-        } in &mut self.assets
-        {
-            *first_material = scene.materials.len();
-            let (first_texture, first_image) = (scene.textures.len(), scene.images.len());
-            scene.materials.extend_from_slice(&asset.materials);
-            for used in scene.materials[*first_material..]
-                .iter_mut()
-                .flat_map(|material| material.textures_mut())
-            {
-                used.texture += first_texture;
-            }
-            scene.textures.extend_from_slice(&asset.textures);
-            for texture in &mut scene.textures[first_texture..] {
-                texture.image += first_image;
-            }
-            scene.images.extend_from_slice(&asset.images);
+        for Loaded { asset, in_scene } in &mut self.assets {
+            let images = asset.images.iter();
+            let images: TiVec<ImageId, ImageId> = images
+                .map(|image| scene.images.push_and_get_key(image.clone()))
+                .collect();
+            let texture = |texture: &Texture| {
+                let image = images[texture.image];
+                scene
+                    .textures
+                    .push_and_get_key(Texture { image, ..*texture })
+            };
+            let textures: TiVec<TextureId, TextureId> =
+                asset.textures.iter().map(texture).collect();
+            let material = |material: &Material| {
+                let mut material = material.clone();
+                for used in material.textures_mut() {
+                    used.texture = textures[used.texture];
+                }
+                scene.materials.push_and_get_key(material)
+            };
+            *in_scene = asset.materials.iter().map(material).collect();
         }
     }
 
@@ -146,12 +149,9 @@ impl Models {
         depth: f64,
         both: bool,
         scale: f64,
-    ) -> Vec<(usize, Surface)> {
-        let Some(Loaded {
-            asset,
-            first_material,
-        }) = self.of_part.get(&part).map(|asset| &self.assets[*asset])
-        else {
+    ) -> Vec<(MaterialId, Surface)> {
+        let asset = self.of_part.get(&part).map(|asset| &self.assets[*asset]);
+        let Some(Loaded { asset, in_scene }) = asset else {
             return Vec::new();
         };
         let to_frame = own.from_drawing_about_center();
@@ -183,7 +183,7 @@ impl Models {
                     let back = surface.mirrored();
                     surface.append(&back);
                 }
-                (first_material + material, surface)
+                (in_scene[material], surface)
             })
             .collect()
     }

@@ -2,10 +2,13 @@
 
 use glam::DQuat;
 use rayon::prelude::*;
+use typed_index_collections::TiVec;
 
 use super::FigureContext;
 use super::tree::FigureNode;
-use crate::scene::{Mesh, Node, Primitive, Provenance, Scene, SurfacePatch, WorldTransform};
+use crate::scene::{
+    Mesh, MeshId, Node, NodeId, Primitive, Provenance, Scene, SurfacePatch, WorldTransform,
+};
 use crate::threads::GRAIN;
 
 /// A node that shows a part, and how it lies in the hierarchy.
@@ -13,8 +16,8 @@ use crate::threads::GRAIN;
 pub struct PartNode {
     /// Index of the part.
     pub part: usize,
-    /// Index of the parent node; `None` for a root.
-    pub parent: Option<usize>,
+    /// The parent node; `None` for a root.
+    pub parent: Option<NodeId>,
     /// Whether the node is mirrored in the drawing plane.
     pub is_mirrored: bool,
     /// How far it lies in front of the drawing plane, drawing units.
@@ -24,12 +27,12 @@ pub struct PartNode {
 /// Adds nodes and meshes to a scene without nodes. Returns the part of each node, and the first node of each part.
 pub(super) fn add(
     context: &FigureContext<'_>,
-    tree: Vec<FigureNode>,
+    tree: TiVec<NodeId, FigureNode>,
     meshes: Vec<Option<Mesh>>,
     world: &WorldTransform,
     scene: &mut Scene,
-) -> (Vec<PartNode>, Vec<Option<usize>>) {
-    let mut nodes: Vec<PartNode> = Vec::with_capacity(tree.len());
+) -> (TiVec<NodeId, PartNode>, Vec<Option<NodeId>>) {
+    let mut nodes: TiVec<NodeId, PartNode> = TiVec::with_capacity(tree.len());
     for node in &tree {
         let above = node.parent.map_or(0.0, |parent| nodes[parent].depth);
         nodes.push(PartNode {
@@ -60,23 +63,20 @@ pub(super) fn add(
             ..Node::default()
         }
     };
-    scene.nodes = tree
-        .into_par_iter()
-        .with_min_len(GRAIN)
-        .map(to_scene)
-        .collect();
+    let in_scene = tree.raw.into_par_iter().with_min_len(GRAIN);
+    scene.nodes = in_scene.map(to_scene).collect::<Vec<Node>>().into();
     let mut meshes = Meshes {
         placed: vec![[None; 2]; meshes.len()],
         made: meshes,
     };
     let mut node_of_part = vec![None; meshes.made.len()];
-    for (index, node) in nodes.iter().enumerate() {
-        node_of_part[node.part].get_or_insert(index);
+    for (id, node) in nodes.iter_enumerated() {
+        node_of_part[node.part].get_or_insert(id);
         match node.parent {
-            Some(parent) => scene.nodes[parent].children.push(index),
-            None => scene.roots.push(index),
+            Some(parent) => scene.nodes[parent].children.push(id),
+            None => scene.roots.push(id),
         }
-        scene.nodes[index].mesh = meshes.index(node.part, node.is_mirrored, &mut scene.meshes);
+        scene.nodes[id].mesh = meshes.place(node.part, node.is_mirrored, &mut scene.meshes);
     }
     (nodes, node_of_part)
 }
@@ -85,13 +85,18 @@ pub(super) fn add(
 struct Meshes {
     /// Per part its mesh, until it is in the scene.
     made: Vec<Option<Mesh>>,
-    /// Per part the indices of its mesh and of the mirrored mesh in the scene.
-    placed: Vec<[Option<usize>; 2]>,
+    /// Per part its mesh and the mirrored mesh in the scene.
+    placed: Vec<[Option<MeshId>; 2]>,
 }
 
 impl Meshes {
-    /// The index of the mesh of a part, mirrored for a mirrored node. If only the other one is in the scene, it is made from that.
-    fn index(&mut self, part: usize, is_mirrored: bool, scene: &mut Vec<Mesh>) -> Option<usize> {
+    /// The mesh of a part, mirrored for a mirrored node. If only the other one is in the scene, it is made from that.
+    fn place(
+        &mut self,
+        part: usize,
+        is_mirrored: bool,
+        scene: &mut TiVec<MeshId, Mesh>,
+    ) -> Option<MeshId> {
         let side = usize::from(is_mirrored);
         let placed = self.placed[part];
         if placed[side].is_none() {
@@ -101,8 +106,7 @@ impl Meshes {
                 (None, Some(twin)) => mirrored(&scene[twin]),
                 (None, None) => return None,
             };
-            scene.push(mesh);
-            self.placed[part][side] = Some(scene.len() - 1);
+            self.placed[part][side] = Some(scene.push_and_get_key(mesh));
         }
         self.placed[part][side]
     }

@@ -2,12 +2,14 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
 
 use super::FigureContext;
 use super::layers::Layers;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Frame;
+use crate::scene::NodeId;
 
 /// Limit of the nodes that `-d` adds: nested copies double each time.
 const MAX_COPIES: usize = 1 << 16;
@@ -18,8 +20,8 @@ pub(super) struct FigureNode {
     pub(super) name: String,
     /// Index of the part that it shows.
     pub(super) part: usize,
-    /// Index of the parent node, which comes before it.
-    pub(super) parent: Option<usize>,
+    /// The parent node, which comes before it.
+    pub(super) parent: Option<NodeId>,
     /// Its position in the parent's frame, drawing units, y up.
     pub(super) position: DVec3,
     /// Its rotation about +Z, radians.
@@ -32,8 +34,8 @@ pub(super) struct FigureNode {
 #[derive(Clone, Copy)]
 struct Pending {
     part: usize,
-    /// Index of the parent node.
-    parent: Option<usize>,
+    /// The parent node.
+    parent: Option<NodeId>,
     is_mirrored: bool,
     /// How many of the part and its ancestors are the copies that `-d` makes.
     copies: usize,
@@ -45,7 +47,7 @@ pub(super) fn nodes(
     frames: &[Frame],
     layers: &Layers,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<FigureNode> {
+) -> TiVec<NodeId, FigureNode> {
     let parts = &context.bindings.parts;
     let mut children: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
     let mut roots = Vec::new();
@@ -62,7 +64,7 @@ pub(super) fn nodes(
     let taken = if has_copies { parts.as_slice() } else { &[] };
     let mut names: FxHashMap<String, usize> =
         taken.iter().map(|part| (part.name.clone(), 1)).collect();
-    let mut nodes: Vec<FigureNode> = Vec::with_capacity(parts.len());
+    let mut nodes: TiVec<NodeId, FigureNode> = TiVec::with_capacity(parts.len());
     // A stack: the copy of a part is pushed first, so that it comes after the original and all below it.
     let mut stack: Vec<Pending> = Vec::new();
     let push = |stack: &mut Vec<Pending>, pending: Pending| {
@@ -94,16 +96,15 @@ pub(super) fn nodes(
                 );
             break;
         }
-        let index = nodes.len();
         let mut node = node(context, frames, layers, pending);
         if pending.copies > 0 {
             node.name = free_name(node.name, &mut names);
         }
-        nodes.push(node);
+        let id = nodes.push_and_get_key(node);
         for child in children[pending.part].iter().rev() {
             let child = Pending {
                 part: *child,
-                parent: Some(index),
+                parent: Some(id),
                 ..pending
             };
             push(&mut stack, child);

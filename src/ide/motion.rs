@@ -9,7 +9,7 @@ use crate::bind::{PartKind, StringId};
 use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
 use crate::report::{cut_frames, frame_ranges, undriven};
-use crate::rig::FigureClip;
+use crate::rig::{FigureClip, JointId};
 use crate::source::Span;
 
 /// How many clips are listed individually.
@@ -200,7 +200,7 @@ impl Analysis {
 }
 
 /// Describes a joint: its label, the reason for it, its parent and its children.
-fn joint_of(clip: &FigureClip, joint: usize) -> String {
+fn joint_of(clip: &FigureClip, joint: JointId) -> String {
     let joints = &clip.skeleton().joints;
     let mut out = format!(
         "**{}**, a joint of {}",

@@ -11,7 +11,7 @@ use glam::{DMat4, DQuat, DVec3, DVec4};
 
 use super::buffers::{Buffers, F32, I8, I16, SCALAR, U8, U16, VEC3, VEC4};
 use super::pose::Pose;
-use super::{ImportError, malformed};
+use super::{ImportError, NodeId, id, malformed};
 
 /// The largest number of keys in a file; those of an accessor count once for each channel that uses it.
 pub const MAX_KEYS: usize = 32 << 20;
@@ -30,7 +30,7 @@ pub struct Clip {
 /// The tracks of one node. A property without a track keeps its rest value.
 #[derive(Debug)]
 struct AnimatedNode {
-    node: usize,
+    node: NodeId,
     rest: (DVec3, DQuat, DVec3),
     translation: Option<Curve<3>>,
     rotation: Option<Curve<4>>,
@@ -80,13 +80,13 @@ impl Clip {
     }
 
     /// Whether it animates a node.
-    pub(crate) fn moves(&self, node: usize) -> bool {
+    pub(crate) fn moves(&self, node: NodeId) -> bool {
         let find = self.animated.binary_search_by_key(&node, |one| one.node);
         find.is_ok()
     }
 
     /// The nodes that it moves from place to place.
-    pub(crate) fn translated_nodes(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn translated_nodes(&self) -> impl Iterator<Item = NodeId> {
         let moved = self.animated.iter().filter(|one| one.translation.is_some());
         moved.map(|one| one.node)
     }
@@ -219,7 +219,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn clip(&mut self, animation: &Animation<'a>) -> Result<Clip, ImportError> {
-        let mut animated: BTreeMap<usize, AnimatedNode> = BTreeMap::new();
+        let mut animated: BTreeMap<NodeId, AnimatedNode> = BTreeMap::new();
         let mut seconds = 0.0_f64;
         for channel in animation.channels() {
             let target = channel.target();
@@ -228,12 +228,12 @@ impl<'a> Reader<'a> {
                 .last()
                 .map_or(seconds, |last| seconds.max(f64::from(*last)));
             let node = target.node();
-            let animated = animated.entry(node.index()).or_insert_with(|| {
+            let animated = animated.entry(id(&node)).or_insert_with(|| {
                 let (translation, rotation, scale) = node.transform().decomposed();
                 let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
                 let rotation = DQuat::from_array(rotation.map(f64::from));
                 AnimatedNode {
-                    node: node.index(),
+                    node: id(&node),
                     rest: (
                         vector(translation),
                         unit_quaternion(rotation),

@@ -7,7 +7,7 @@ use ::gltf::json::validation::Checked;
 use glam::{DMat4, DVec3};
 
 use super::pose::{Geometry, Pose};
-use super::{Clip, ImportError, malformed};
+use super::{Clip, ImportError, NodeId, id, malformed};
 use crate::scene::CameraProjection;
 
 /// The sine of the least angle between a direction and the upright axis at which the direction is turned around that axis.
@@ -21,7 +21,7 @@ pub struct ModelCamera {
     /// How space becomes a picture. Its distances may be less strict than in a scene: what is nearer than 0 or farther than
     /// infinity does not exist.
     pub(crate) projection: CameraProjection,
-    node: usize,
+    node: NodeId,
 }
 
 /// Where a camera is and where it looks, in the world.
@@ -75,11 +75,11 @@ impl Geometry {
     /// Whether a clip moves a camera, or what carries it.
     pub(crate) fn is_moved(&self, camera: &ModelCamera, clip: &Clip) -> bool {
         let mut node = Some(camera.node);
-        while let Some(index) = node {
-            if clip.moves(index) {
+        while let Some(id) = node {
+            if clip.moves(id) {
                 return true;
             }
-            node = self.nodes[index].parent;
+            node = self.nodes[id].parent;
         }
         false
     }
@@ -101,7 +101,7 @@ impl Geometry {
     }
 
     /// Whether a node has a mesh or children, or is a joint.
-    fn carries(&self, node: usize) -> bool {
+    fn carries(&self, node: NodeId) -> bool {
         self.nodes[node].mesh.is_some()
             || self.nodes.iter().any(|other| other.parent == Some(node))
             || self.skins.iter().any(|skin| skin.joints.contains(&node))
@@ -131,12 +131,12 @@ pub(crate) fn read(
         Some(ModelCamera {
             name: name.unwrap_or_default().to_owned(),
             projection: projections[index],
-            node: node.index(),
+            node: id(&node),
         })
     };
     let nodes = document.nodes();
     Ok(nodes
-        .filter(|node| geometry.visible[node.index()])
+        .filter(|node| geometry.visible[id(node)])
         .filter_map(at)
         .collect())
 }

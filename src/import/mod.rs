@@ -16,9 +16,10 @@ mod view_dependent;
 
 use ::gltf::{Document, Gltf};
 use glam::DMat4;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use crate::resolver::{LinkError, Resolver};
-pub(crate) use crate::scene::CameraProjection;
+pub(crate) use crate::scene::{CameraProjection, NodeId};
 
 pub(crate) use animations::read as read_clips;
 pub use animations::{Clip, MAX_KEYS};
@@ -165,7 +166,7 @@ pub(crate) fn malformed(message: impl Into<String>) -> ImportError {
     ImportError::Malformed(message.into())
 }
 
-fn nodes(document: &Document) -> Result<Vec<Node>, ImportError> {
+fn nodes(document: &Document) -> Result<TiVec<NodeId, Node>, ImportError> {
     let matrix = |node: &::gltf::Node<'_>| {
         DMat4::from_cols_array_2d(
             &node
@@ -174,14 +175,14 @@ fn nodes(document: &Document) -> Result<Vec<Node>, ImportError> {
                 .map(|column| column.map(f64::from)),
         )
     };
-    let mut nodes: Vec<Node> = document
+    let mut nodes: TiVec<NodeId, Node> = document
         .nodes()
         .map(|node| {
             Ok(Node {
                 parent: None,
                 local: matrix(&node),
-                mesh: node.mesh().map(|mesh| mesh.index()),
-                skin: node.skin().map(|skin| skin.index()),
+                mesh: node.mesh().map(|mesh| mesh.index().into()),
+                skin: node.skin().map(|skin| skin.index().into()),
                 weights: weights(&node),
                 view_dependent: view_dependent::read(&node)?,
             })
@@ -189,12 +190,18 @@ fn nodes(document: &Document) -> Result<Vec<Node>, ImportError> {
         .collect::<Result<_, ImportError>>()?;
     for node in document.nodes() {
         for child in node.children() {
-            if nodes[child.index()].parent.replace(node.index()).is_some() {
+            let parent = &mut nodes[id(&child)].parent;
+            if parent.replace(id(&node)).is_some() {
                 return Err(malformed(format!("node {} has two parents", child.index())));
             }
         }
     }
     Ok(nodes)
+}
+
+/// The id of a node.
+fn id(node: &::gltf::Node<'_>) -> NodeId {
+    node.index().into()
 }
 
 /// The weights of morph targets at rest: the node's, or those of its mesh.
@@ -205,13 +212,14 @@ fn weights(node: &::gltf::Node<'_>) -> Vec<f32> {
 }
 
 /// All nodes, parents before children.
-fn order(document: &Document, nodes: &[Node]) -> Result<Vec<usize>, ImportError> {
-    let mut order: Vec<usize> = (0..nodes.len())
+fn order(document: &Document, nodes: &TiSlice<NodeId, Node>) -> Result<Vec<NodeId>, ImportError> {
+    let mut order: Vec<NodeId> = nodes
+        .keys()
         .filter(|node| nodes[*node].parent.is_none())
         .collect();
-    let children: Vec<Vec<usize>> = document
+    let children: TiVec<NodeId, Vec<NodeId>> = document
         .nodes()
-        .map(|node| node.children().map(|child| child.index()).collect())
+        .map(|node| node.children().map(|child| id(&child)).collect())
         .collect();
     let mut next = 0;
     while let Some(node) = order.get(next).copied() {
@@ -226,18 +234,18 @@ fn order(document: &Document, nodes: &[Node]) -> Result<Vec<usize>, ImportError>
 }
 
 /// Which nodes belong to the file's scene; all of them if there is no scene.
-fn visible(document: &Document, nodes: &[Node]) -> Vec<bool> {
+fn visible(document: &Document, nodes: &TiSlice<NodeId, Node>) -> TiVec<NodeId, bool> {
     let Some(scene) = document
         .default_scene()
         .or_else(|| document.scenes().next())
     else {
-        return vec![true; nodes.len()];
+        return ti_vec![true; nodes.len()];
     };
-    let mut visible = vec![false; nodes.len()];
+    let mut visible: TiVec<NodeId, bool> = ti_vec![false; nodes.len()];
     let mut stack: Vec<::gltf::Node<'_>> = scene.nodes().collect();
     while let Some(node) = stack.pop() {
         // A scene may name a node twice, but shows it once.
-        if !std::mem::replace(&mut visible[node.index()], true) {
+        if !std::mem::replace(&mut visible[id(&node)], true) {
             stack.extend(node.children());
         }
     }
@@ -245,7 +253,7 @@ fn visible(document: &Document, nodes: &[Node]) -> Vec<bool> {
 }
 
 fn skin(skin: &::gltf::Skin<'_>, buffers: &Buffers) -> Result<Skin, ImportError> {
-    let joints: Vec<usize> = skin.joints().map(|joint| joint.index()).collect();
+    let joints: Vec<NodeId> = skin.joints().map(|joint| id(&joint)).collect();
     let inverse = match skin.inverse_bind_matrices() {
         None => vec![DMat4::IDENTITY; joints.len()],
         Some(accessor) => buffers

@@ -1,22 +1,31 @@
 //! Nodes, meshes and skins, and their positions in a pose.
 
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::view_dependent::{bend_matrix, facing};
 use super::{ImportError, MAX_REPEATED, MAX_TRIANGLES};
-use crate::scene::{Turn, ViewDependent, ViewId};
+use crate::index::index_type;
+use crate::scene::{MeshId, NodeId, Turn, ViewDependent, ViewId};
+
+index_type!(
+    /// Counts the skins of a file.
+    pub(super) SkinId
+);
+
+/// A character that turns, and the weights of its views.
+type Seen<'a> = (&'a Turn, TiVec<ViewId, f64>);
 
 /// The geometry of a file, not yet posed.
 #[derive(Debug)]
 pub(crate) struct Geometry {
-    pub(super) nodes: Vec<Node>,
+    pub(super) nodes: TiVec<NodeId, Node>,
     /// All nodes, parents before children.
-    pub(super) order: Vec<usize>,
+    pub(super) order: Vec<NodeId>,
     /// Which nodes are visible.
-    pub(super) visible: Vec<bool>,
-    pub(super) meshes: Vec<Vec<Primitive>>,
-    pub(super) skins: Vec<Skin>,
+    pub(super) visible: TiVec<NodeId, bool>,
+    pub(super) meshes: TiVec<MeshId, Vec<Primitive>>,
+    pub(super) skins: TiVec<SkinId, Skin>,
 }
 
 /// Posed triangles in world space. Lists of vertex attributes are as long as `positions`, or empty.
@@ -34,11 +43,11 @@ pub(crate) struct TriangleSoup {
 
 #[derive(Debug)]
 pub(super) struct Node {
-    pub(super) parent: Option<usize>,
+    pub(super) parent: Option<NodeId>,
     /// From the node's frame into its parent's, at rest.
     pub(super) local: DMat4,
-    pub(super) mesh: Option<usize>,
-    pub(super) skin: Option<usize>,
+    pub(super) mesh: Option<MeshId>,
+    pub(super) skin: Option<SkinId>,
     /// The weights of the mesh's morph targets, at rest.
     pub(super) weights: Vec<f32>,
     /// How it follows the viewer.
@@ -47,8 +56,8 @@ pub(super) struct Node {
 
 #[derive(Debug)]
 pub(super) struct Skin {
-    /// Indices of nodes.
-    pub(super) joints: Vec<usize>,
+    /// Nodes.
+    pub(super) joints: Vec<NodeId>,
     /// Inverse bind matrices: from the mesh's frame into each joint's.
     pub(super) inverse: Vec<DMat4>,
 }
@@ -71,9 +80,9 @@ pub(super) struct Primitive {
 /// The transform of every node in its parent's frame, and the direction of the viewer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pose {
-    pub(super) locals: Vec<DMat4>,
+    pub(super) locals: TiVec<NodeId, DMat4>,
     /// Per node the weights of its mesh's morph targets.
-    pub(super) weights: Vec<Vec<f32>>,
+    pub(super) weights: TiVec<NodeId, Vec<f32>>,
     /// Towards the viewer in the world; if `None`, nothing follows the viewer.
     towards: Option<DVec3>,
 }
@@ -107,43 +116,43 @@ impl Geometry {
     /// The pose with each character turned to the viewer: where its regions are, and the weights of their morph targets.
     fn turned(&self, pose: &Pose, towards: DVec3) -> Pose {
         let mut pose = pose.clone();
-        let mut globals = vec![DMat4::IDENTITY; self.nodes.len()];
+        let mut globals: TiVec<NodeId, DMat4> = ti_vec![DMat4::IDENTITY; self.nodes.len()];
         // Per node the character that it is a part of, and the weights of the views.
-        let mut characters: Vec<Option<(&Turn, TiVec<ViewId, f64>)>> = vec![None; self.nodes.len()];
-        for index in &self.order {
-            let node = &self.nodes[*index];
+        let mut characters: TiVec<NodeId, Option<Seen<'_>>> = ti_vec![None; self.nodes.len()];
+        for id in &self.order {
+            let node = &self.nodes[*id];
             let above = node.parent.and_then(|parent| characters[parent].clone());
             let outer = node
                 .parent
                 .map_or(DMat4::IDENTITY, |parent| globals[parent]);
             match (&node.view_dependent, above) {
                 (Some(ViewDependent::Turn(turn)), None) => {
-                    let local = pose.locals[*index];
+                    let local = pose.locals[*id];
                     let seen = facing(outer * local, towards);
-                    pose.locals[*index] = local * seen.rotation;
-                    characters[*index] = Some((turn, turn.weights(seen.direction)));
+                    pose.locals[*id] = local * seen.rotation;
+                    characters[*id] = Some((turn, turn.weights(seen.direction)));
                 }
                 (Some(ViewDependent::Region(places)), Some((turn, weights))) => {
                     let place = turn.position(&weights, places);
-                    pose.locals[*index] = DMat4::from_translation(place);
-                    pose.weights[*index] = weights.iter().skip(1).map(|w| *w as f32).collect();
-                    characters[*index] = Some((turn, weights));
+                    pose.locals[*id] = DMat4::from_translation(place);
+                    pose.weights[*id] = weights.iter().skip(1).map(|w| *w as f32).collect();
+                    characters[*id] = Some((turn, weights));
                 }
-                (_, above) => characters[*index] = above,
+                (_, above) => characters[*id] = above,
             }
-            globals[*index] = outer * pose.locals[*index];
+            globals[*id] = outer * pose.locals[*id];
         }
         pose
     }
 
     /// The world transform of each node.
-    fn globals(&self, pose: &Pose) -> Vec<DMat4> {
-        let mut globals = vec![DMat4::IDENTITY; self.nodes.len()];
+    fn globals(&self, pose: &Pose) -> TiVec<NodeId, DMat4> {
+        let mut globals: TiVec<NodeId, DMat4> = ti_vec![DMat4::IDENTITY; self.nodes.len()];
         // A node below a bent one is not bent a second time.
-        let mut bends = vec![false; self.nodes.len()];
-        for index in &self.order {
-            let node = &self.nodes[*index];
-            let local = pose.locals[*index];
+        let mut bends: TiVec<NodeId, bool> = ti_vec![false; self.nodes.len()];
+        for id in &self.order {
+            let node = &self.nodes[*id];
+            let local = pose.locals[*id];
             let (mut global, within) = match node.parent {
                 Some(parent) => (globals[parent] * local, bends[parent]),
                 None => (local, false),
@@ -152,21 +161,21 @@ impl Geometry {
             if let Some(towards) = pose.towards.filter(|_| is_bent && !within) {
                 global *= bend_matrix(global, towards);
             }
-            globals[*index] = global;
-            bends[*index] = within || is_bent;
+            globals[*id] = global;
+            bends[*id] = within || is_bent;
         }
         globals
     }
 
     /// The transform from a node's frame to the world in a pose.
-    pub(crate) fn to_world(&self, pose: &Pose, node: usize) -> DMat4 {
+    pub(crate) fn to_world(&self, pose: &Pose, node: NodeId) -> DMat4 {
         self.globals(pose)[node]
     }
 
     /// The places of some nodes in a pose, in the world.
-    pub(crate) fn places(&self, pose: &Pose, nodes: &[usize]) -> Vec<DVec3> {
+    pub(crate) fn places(&self, pose: &Pose, nodes: &[NodeId]) -> Vec<DVec3> {
         let globals = self.globals(pose);
-        let place = |node: &usize| globals[*node].w_axis.truncate();
+        let place = |node: &NodeId| globals[*node].w_axis.truncate();
         nodes.iter().map(place).collect()
     }
 
@@ -185,18 +194,14 @@ impl Geometry {
     pub(crate) fn triangles_of(
         &self,
         pose: &Pose,
-        marked: &[bool],
+        marked: &TiSlice<NodeId, bool>,
     ) -> Result<TriangleSoup, ImportError> {
         let turned = pose.towards.map(|towards| self.turned(pose, towards));
         let pose = turned.as_ref().unwrap_or(pose);
         let globals = self.globals(pose);
         let seen = || {
-            let nodes = self
-                .nodes
-                .iter()
-                .enumerate()
-                .filter(|(index, _)| marked[*index]);
-            nodes.filter_map(|(index, node)| Some((index, node, &self.meshes[node.mesh?])))
+            let nodes = self.nodes.iter_enumerated().filter(|(id, _)| marked[*id]);
+            nodes.filter_map(|(id, node)| Some((id, node, &self.meshes[node.mesh?])))
         };
         let triangles =
             |mesh: &Vec<Primitive>| mesh.iter().map(|one| one.triangles.len()).sum::<usize>();
@@ -220,20 +225,14 @@ impl Geometry {
             ));
         }
         let mut out = TriangleSoup::default();
-        for (index, node, mesh) in seen() {
+        for (id, node, mesh) in seen() {
             // A skinned mesh follows its joints only, not its node.
             let skin = node
                 .skin
                 .map(|skin| self.joints(&self.skins[skin], &globals));
             for primitive in mesh {
                 let skin = skin.as_deref().filter(|_| !primitive.influences.is_empty());
-                append(
-                    primitive,
-                    globals[index],
-                    skin,
-                    &pose.weights[index],
-                    &mut out,
-                );
+                append(primitive, globals[id], skin, &pose.weights[id], &mut out);
             }
         }
         if out.triangles.is_empty() {
@@ -244,7 +243,7 @@ impl Geometry {
     }
 
     /// The matrix of each joint that takes bound vertices into the world.
-    fn joints(&self, skin: &Skin, globals: &[DMat4]) -> Vec<DMat4> {
+    fn joints(&self, skin: &Skin, globals: &TiSlice<NodeId, DMat4>) -> Vec<DMat4> {
         let pairs = skin.joints.iter().zip(&skin.inverse);
         pairs
             .map(|(joint, inverse)| globals[*joint] * *inverse)

@@ -3,31 +3,33 @@
 use ::gltf::texture::{MagFilter, WrappingMode};
 use ::gltf::{Document, image, material};
 use glam::{DMat3, DVec3};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::{Buffers, ImportError, ParsedFile, TriangleSoup, decode, read};
 use crate::resolver::Resolver;
 use crate::scene::{
-    AlphaMode, Filter, Image, Material, MediaType, Surface, Texture, TextureUse, Wrap,
+    AlphaMode, Filter, Image, ImageId, Material, MaterialId, MediaType, Surface, Texture,
+    TextureId, TextureUse, Wrap,
 };
 
 /// A model at rest with its materials. Vertex colours are dropped.
 #[derive(Debug)]
 pub struct StaticModel {
     /// Its materials.
-    pub materials: Vec<Material>,
+    pub materials: TiVec<MaterialId, Material>,
     /// The textures that the materials use.
-    pub textures: Vec<Texture>,
+    pub textures: TiVec<TextureId, Texture>,
     /// The images that the textures use.
-    pub images: Vec<Image>,
+    pub images: TiVec<ImageId, Image>,
     /// The lower and the upper corner of its bounding box, in the file's axes: +Y up, front towards +Z.
     pub bounds: [DVec3; 2],
     meshes: Vec<MaterialMesh>,
 }
 
 /// The triangles of one material.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct MaterialMesh {
-    material: usize,
+    material: MaterialId,
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
     uvs: Vec<[f32; 2]>,
@@ -49,15 +51,16 @@ pub fn read_static_model(
         geometry,
     } = read(bytes, resolver)?;
     let soup = geometry.triangles(&geometry.rest())?;
-    let mut materials: Vec<Material> = document.materials().map(|m| self::material(&m)).collect();
+    let mut materials: TiVec<MaterialId, Material> =
+        document.materials().map(|m| self::material(&m)).collect();
     // The default material of glTF.
-    materials.push(Material {
+    let default = materials.push_and_get_key(Material {
         name: "default".to_owned(),
         metallic: 1.0,
         roughness: 1.0,
         ..Material::default()
     });
-    let meshes = meshes(&soup, &materials);
+    let meshes = meshes(&soup, &materials, default);
     let points = || meshes.iter().flat_map(|mesh| &mesh.positions).copied();
     let first = points().next().ok_or(ImportError::Empty)?;
     let bounds = points().fold([first; 2], |[low, high], p| [low.min(p), high.max(p)]);
@@ -78,13 +81,13 @@ impl StaticModel {
         self.meshes.iter().map(|mesh| mesh.triangles.len()).sum()
     }
 
-    /// One surface for each material, with the material's index. Every point is moved to `turn · point + translation`;
+    /// One surface for each material, with its material. Every point is moved to `turn · point + translation`;
     /// `turn` may contain a uniform scale.
     pub fn placed(
         &self,
         turn: DMat3,
         translation: DVec3,
-    ) -> impl Iterator<Item = (usize, Surface)> {
+    ) -> impl Iterator<Item = (MaterialId, Surface)> {
         self.meshes.iter().map(move |mesh| {
             let place = |point: &DVec3| (turn * *point + translation).as_vec3().to_array();
             let lean = |normal: &DVec3| (turn * *normal).normalize_or_zero().as_vec3().to_array();
@@ -114,28 +117,32 @@ impl StaticModel {
 }
 
 /// Removes the items that nothing refers to, and renumbers the references.
-fn retain_used<T>(list: &mut Vec<T>, references: Vec<&mut usize>) {
-    let mut used = vec![false; list.len()];
-    references.iter().for_each(|index| used[**index] = true);
-    let mut next = 0;
-    let numbers: Vec<usize> = used
-        .iter()
-        .map(|used| {
-            next += usize::from(*used);
-            next.saturating_sub(1)
-        })
+fn retain_used<Id, T>(list: &mut TiVec<Id, T>, references: Vec<&mut Id>)
+where
+    Id: Copy + From<usize>,
+    usize: From<Id>,
+{
+    let mut is_used: TiVec<Id, bool> = ti_vec![false; list.len()];
+    references.iter().for_each(|id| is_used[**id] = true);
+    let mut kept = TiVec::with_capacity(list.len());
+    let items = std::mem::take(list).into_iter_enumerated();
+    let numbers: TiVec<Id, Option<Id>> = items
+        .map(|(id, item)| is_used[id].then(|| kept.push_and_get_key(item)))
         .collect();
-    references
-        .into_iter()
-        .for_each(|index| *index = numbers[*index]);
-    let mut used = used.into_iter();
-    list.retain(|_| used.next().unwrap_or(false));
+    *list = kept;
+    for id in references {
+        *id = numbers[*id].unwrap_or(*id);
+    }
 }
 
-/// The triangles that have an area, grouped by material.
-fn meshes(soup: &TriangleSoup, materials: &[Material]) -> Vec<MaterialMesh> {
+/// The triangles that have an area, grouped by material; those without one have the default.
+fn meshes(
+    soup: &TriangleSoup,
+    materials: &TiSlice<MaterialId, Material>,
+    default: MaterialId,
+) -> Vec<MaterialMesh> {
     let mut meshes: Vec<MaterialMesh> = Vec::new();
-    let mut piece_of: Vec<Option<usize>> = vec![None; materials.len()];
+    let mut piece_of: TiVec<MaterialId, Option<usize>> = ti_vec![None; materials.len()];
     // For each corner: the mesh that it was copied to, and its index there.
     let mut copies: Vec<Option<(usize, u32)>> = vec![None; soup.positions.len()];
     for (triangle, material) in soup.triangles.iter().zip(&soup.materials) {
@@ -145,11 +152,14 @@ fn meshes(soup: &TriangleSoup, materials: &[Material]) -> Vec<MaterialMesh> {
         if !corners.iter().all(sound) || facet.try_normalize().is_none() {
             continue;
         }
-        let material = material.map_or(materials.len() - 1, |material| material as usize);
+        let material = material.map_or(default, |material| MaterialId::from(material as usize));
         let slot = *piece_of[material].get_or_insert_with(|| {
             meshes.push(MaterialMesh {
                 material,
-                ..MaterialMesh::default()
+                positions: Vec::new(),
+                normals: Vec::new(),
+                uvs: Vec::new(),
+                triangles: Vec::new(),
             });
             meshes.len() - 1
         });
@@ -193,7 +203,7 @@ fn meshes(soup: &TriangleSoup, materials: &[Material]) -> Vec<MaterialMesh> {
 
 fn material(source: &::gltf::Material<'_>) -> Material {
     let base = source.pbr_metallic_roughness();
-    let plain = |info: ::gltf::texture::Info<'_>| TextureUse::new(info.texture().index());
+    let plain = |info: ::gltf::texture::Info<'_>| TextureUse::new(info.texture().index().into());
     let strength = source.emissive_strength().unwrap_or(1.0);
     Material {
         name: source.name().unwrap_or_default().to_owned(),
@@ -204,11 +214,11 @@ fn material(source: &::gltf::Material<'_>) -> Material {
         metallic_roughness_texture: base.metallic_roughness_texture().map(plain),
         normal_texture: source.normal_texture().map(|normal| TextureUse {
             amount: normal.scale(),
-            ..TextureUse::new(normal.texture().index())
+            ..TextureUse::new(normal.texture().index().into())
         }),
         occlusion_texture: source.occlusion_texture().map(|occlusion| TextureUse {
             amount: occlusion.strength(),
-            ..TextureUse::new(occlusion.texture().index())
+            ..TextureUse::new(occlusion.texture().index().into())
         }),
         emissive: source
             .emissive_factor()
@@ -226,7 +236,7 @@ fn material(source: &::gltf::Material<'_>) -> Material {
     }
 }
 
-fn textures(document: &Document) -> Vec<Texture> {
+fn textures(document: &Document) -> TiVec<TextureId, Texture> {
     let wrap = |mode| match mode {
         WrappingMode::ClampToEdge => Wrap::ClampToEdge,
         WrappingMode::MirroredRepeat => Wrap::MirroredRepeat,
@@ -235,7 +245,7 @@ fn textures(document: &Document) -> Vec<Texture> {
     let texture = |texture: ::gltf::Texture<'_>| {
         let sampler = texture.sampler();
         Texture {
-            image: texture.source().index(),
+            image: texture.source().index().into(),
             wrap: [wrap(sampler.wrap_s()), wrap(sampler.wrap_t())],
             filter: match sampler.mag_filter() {
                 Some(MagFilter::Nearest) => Filter::Nearest,
@@ -250,7 +260,7 @@ fn images(
     document: &Document,
     buffers: &Buffers,
     resolver: &dyn Resolver,
-) -> Result<Vec<Image>, ImportError> {
+) -> Result<TiVec<ImageId, Image>, ImportError> {
     let read = |image: image::Image<'_>| {
         let bytes = buffers.image(document, &image, resolver)?;
         let index = image.index();

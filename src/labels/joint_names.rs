@@ -1,10 +1,12 @@
 //! Finds the limbs of a skeleton by the names of its joints.
 
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
 use super::joint_tree::JointTree;
 use super::skeleton::plain_names;
 use super::{Class, LimbSegment, Side};
 use crate::anatomy::{self, Term, name_words};
-use crate::mocap::Skeleton;
+use crate::mocap::{JointId, Skeleton};
 
 /// How many limbs of one name are tried; meaningful names do not repeat so often.
 const MAX_STARTS: usize = 16;
@@ -42,15 +44,15 @@ pub(super) enum LimbWord {
 /// The joints of a limb as far as they are known.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct LimbJoints {
-    pub(super) collar: Option<usize>,
-    pub(super) upper: Option<usize>,
-    pub(super) lower: Option<usize>,
-    pub(super) end: Option<usize>,
-    pub(super) toe: Option<usize>,
+    pub(super) collar: Option<JointId>,
+    pub(super) upper: Option<JointId>,
+    pub(super) lower: Option<JointId>,
+    pub(super) end: Option<JointId>,
+    pub(super) toe: Option<JointId>,
 }
 
 /// What the names of all joints say.
-pub(super) fn named(skeleton: &Skeleton) -> Vec<Option<JointName>> {
+pub(super) fn named(skeleton: &Skeleton) -> TiVec<JointId, Option<JointName>> {
     plain_names(skeleton).into_iter().map(name).collect()
 }
 
@@ -127,13 +129,14 @@ fn limb_word(terms: &[Term]) -> Option<LimbWord> {
 /// The limb of a class and side by name; of several the one with the most bones.
 pub(super) fn limb(
     tree: &JointTree,
-    names: &[&str],
-    named: &[Option<JointName>],
+    names: &TiSlice<JointId, &str>,
+    named: &TiSlice<JointId, Option<JointName>>,
     class: Class,
     side: Side,
 ) -> Option<LimbJoints> {
     let segments = segments(tree, named, class, side);
-    let start = (0..tree.len())
+    let start = tree
+        .joints()
         .filter(|joint| matches!(segments[*joint], Some(LimbSegment::Upper)))
         .filter(|joint| !continues(tree, names, *joint))
         .take(MAX_STARTS)
@@ -151,8 +154,8 @@ pub(super) fn limb(
 }
 
 /// Whether a joint continues a run of joints with one name and increasing numbers: `UpArm2` below `UpArm1`.
-fn continues(tree: &JointTree, names: &[&str], joint: usize) -> bool {
-    let plain = |joint: usize| {
+fn continues(tree: &JointTree, names: &TiSlice<JointId, &str>, joint: JointId) -> bool {
+    let plain = |joint: JointId| {
         let mut words = name_words::split(names[joint]);
         words.retain(|word| !name_words::is_number(word));
         words
@@ -167,17 +170,17 @@ fn continues(tree: &JointTree, names: &[&str], joint: usize) -> bool {
 /// Which bones of a limb begin at each joint.
 fn segments(
     tree: &JointTree,
-    named: &[Option<JointName>],
+    named: &TiSlice<JointId, Option<JointName>>,
     class: Class,
     side: Side,
-) -> Vec<Option<LimbSegment>> {
-    let word = |joint: usize| match named[joint] {
+) -> TiVec<JointId, Option<LimbSegment>> {
+    let word = |joint: JointId| match named[joint] {
         Some(JointName::Limb(word, its)) if its == side => Some(word),
         _ => None,
     };
     let follows = |wanted: &[LimbWord]| {
-        let mut below = vec![false; tree.len()];
-        for joint in (0..tree.len()).rev() {
+        let mut below: TiVec<JointId, bool> = ti_vec![false; tree.len()];
+        for joint in tree.joints().rev() {
             if let Some(parent) = tree.parents[joint] {
                 below[parent] |=
                     below[joint] || word(joint).is_some_and(|word| wanted.contains(&word));
@@ -187,14 +190,16 @@ fn segments(
     };
     let arm_follows = follows(&[LimbWord::Arm, LimbWord::UpperArm]);
     let thigh_follows = follows(&[LimbWord::Thigh]);
-    let upper_arm = (0..tree.len()).any(|joint| word(joint) == Some(LimbWord::UpperArm));
-    let hip_is_thigh = |joint: usize| !thigh_follows[joint];
-    let thigh = (0..tree.len()).any(|joint| match word(joint) {
+    let upper_arm = tree
+        .joints()
+        .any(|joint| word(joint) == Some(LimbWord::UpperArm));
+    let hip_is_thigh = |joint: JointId| !thigh_follows[joint];
+    let thigh = tree.joints().any(|joint| match word(joint) {
         Some(LimbWord::Thigh) => true,
         Some(LimbWord::Hip) => hip_is_thigh(joint),
         _ => false,
     });
-    (0..tree.len())
+    tree.joints()
         .map(|joint| {
             let word = word(joint)?;
             Some(match (class, word) {
@@ -219,11 +224,15 @@ fn segments(
 }
 
 /// The joints of the limb whose upper bone begins at `upper`.
-fn limb_joints(tree: &JointTree, segments: &[Option<LimbSegment>], upper: usize) -> LimbJoints {
-    let first_below = |above: usize, segment: LimbSegment| {
+fn limb_joints(
+    tree: &JointTree,
+    segments: &TiSlice<JointId, Option<LimbSegment>>,
+    upper: JointId,
+) -> LimbJoints {
+    let first_below = |above: JointId, segment: LimbSegment| {
         let inside = tree.branch(above);
-        (above + 1..tree.len())
-            .filter(|joint| inside[*joint] && segments[*joint] == Some(segment))
+        tree.joints()
+            .filter(|joint| *joint > above && inside[*joint] && segments[*joint] == Some(segment))
             .min_by_key(|joint| (tree.depths[*joint], *joint))
     };
     let lower = first_below(upper, LimbSegment::Lower);

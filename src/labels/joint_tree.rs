@@ -1,70 +1,70 @@
 //! A skeleton as a tree, with lengths and depths for the search for limbs.
 
 use glam::DVec3;
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::Tip;
-use crate::mocap::Skeleton;
+use crate::mocap::{JointId, Skeleton};
 
 /// A skeleton as a tree. A parent that does not precede its child is ignored, so that no walk is endless.
 #[derive(Debug)]
 pub(crate) struct JointTree {
-    pub(crate) parents: Vec<Option<usize>>,
-    pub(crate) children: Vec<Vec<usize>>,
+    pub(crate) parents: TiVec<JointId, Option<JointId>>,
+    pub(crate) children: TiVec<JointId, Vec<JointId>>,
     /// Number of ancestors.
-    pub(crate) depths: Vec<usize>,
+    pub(crate) depths: TiVec<JointId, usize>,
     /// Size of the subtree that begins at a joint.
-    pub(crate) sizes: Vec<usize>,
+    pub(crate) sizes: TiVec<JointId, usize>,
     /// Length of the longest chain that begins at a joint, including its end site.
-    pub(crate) reaches: Vec<f64>,
+    pub(crate) reaches: TiVec<JointId, f64>,
     /// Per joint the child that continues its longest chain.
-    pub(crate) next: Vec<Option<usize>>,
+    pub(crate) next: TiVec<JointId, Option<JointId>>,
     /// Length of the bone that leads to a joint.
-    pub(crate) bones: Vec<f64>,
+    pub(crate) bones: TiVec<JointId, f64>,
     /// Per joint its longest end site: index and length.
-    ends: Vec<Option<(usize, f64)>>,
+    ends: TiVec<JointId, Option<(usize, f64)>>,
 }
 
 impl JointTree {
     pub(crate) fn new(skeleton: &Skeleton) -> Self {
         let joints = &skeleton.joints;
         let count = joints.len();
-        let parents: Vec<Option<usize>> = joints
-            .iter()
-            .enumerate()
-            .map(|(index, joint)| joint.parent.filter(|parent| *parent < index))
+        let parents: TiVec<JointId, Option<JointId>> = joints
+            .iter_enumerated()
+            .map(|(id, joint)| joint.parent.filter(|parent| *parent < id))
             .collect();
-        let mut children = vec![Vec::new(); count];
-        let mut depths = vec![0; count];
-        for (index, parent) in parents.iter().enumerate() {
+        let mut children: TiVec<JointId, _> = ti_vec![Vec::new(); count];
+        let mut depths: TiVec<JointId, usize> = ti_vec![0; count];
+        for (id, parent) in parents.iter_enumerated() {
             if let Some(parent) = parent {
-                children[*parent].push(index);
-                depths[index] = depths[*parent] + 1;
+                children[*parent].push(id);
+                depths[id] = depths[*parent] + 1;
             }
         }
-        let bones: Vec<f64> = joints.iter().map(|joint| length(joint.offset)).collect();
+        let bones: TiVec<JointId, f64> = joints.iter().map(|joint| length(joint.offset)).collect();
         let ends = joints.iter().map(|joint| {
             let lengths = joint.ends.iter().map(|end| length(*end)).enumerate();
             lengths
                 .filter(|(_, length)| *length > 0.0)
                 .reduce(|best, end| if end.1 > best.1 { end } else { best })
         });
-        let ends: Vec<Option<(usize, f64)>> = ends.collect();
-        let mut sizes = vec![1; count];
-        let mut reaches: Vec<f64> = ends
+        let ends: TiVec<JointId, Option<(usize, f64)>> = ends.collect();
+        let mut sizes: TiVec<JointId, usize> = ti_vec![1; count];
+        let mut reaches: TiVec<JointId, f64> = ends
             .iter()
             .map(|end| end.map_or(0.0, |end| end.1))
             .collect();
-        let mut next: Vec<Option<usize>> = vec![None; count];
-        for index in (0..count).rev() {
-            let Some(parent) = parents[index] else {
+        let mut next: TiVec<JointId, Option<JointId>> = ti_vec![None; count];
+        for id in parents.keys().rev() {
+            let Some(parent) = parents[id] else {
                 continue;
             };
-            sizes[parent] += sizes[index];
-            let reach = bones[index] + reaches[index];
+            sizes[parent] += sizes[id];
+            let reach = bones[id] + reaches[id];
             // Visited from last to first, so `>=` picks the first of equal ones.
             if reach >= reaches[parent] {
                 reaches[parent] = reach;
-                next[parent] = Some(index);
+                next[parent] = Some(id);
             }
         }
         Self {
@@ -83,27 +83,32 @@ impl JointTree {
         self.parents.len()
     }
 
+    /// All joints.
+    pub(crate) fn joints(&self) -> impl DoubleEndedIterator<Item = JointId> + use<> {
+        self.parents.keys()
+    }
+
     /// The joints from one up to its root, starting with itself.
-    pub(crate) fn upward(&self, joint: usize) -> impl Iterator<Item = usize> {
+    pub(crate) fn upward(&self, joint: JointId) -> impl Iterator<Item = JointId> {
         std::iter::successors(Some(joint), |joint| self.parents[*joint])
     }
 
     /// The joints of the longest chain that begins at a joint, starting with itself.
-    pub(crate) fn chain(&self, joint: usize) -> impl Iterator<Item = usize> {
+    pub(crate) fn chain(&self, joint: JointId) -> impl Iterator<Item = JointId> {
         std::iter::successors(Some(joint), |joint| self.next[*joint])
     }
 
     /// Whether a joint is `above` or a descendant of it.
-    pub(crate) fn is_below(&self, joint: usize, above: usize) -> bool {
+    pub(crate) fn is_below(&self, joint: JointId, above: JointId) -> bool {
         self.upward(joint)
             .take_while(|joint| *joint >= above)
             .any(|joint| joint == above)
     }
 
     /// Per joint whether it is `above` or a descendant of it.
-    pub(crate) fn branch(&self, above: usize) -> Vec<bool> {
-        let mut inside = vec![false; self.len()];
-        for joint in above..self.len() {
+    pub(crate) fn branch(&self, above: JointId) -> TiVec<JointId, bool> {
+        let mut inside: TiVec<JointId, bool> = ti_vec![false; self.len()];
+        for joint in self.joints().filter(|joint| *joint >= above) {
             inside[joint] =
                 joint == above || self.parents[joint].is_some_and(|parent| inside[parent]);
         }
@@ -111,7 +116,7 @@ impl JointTree {
     }
 
     /// The lowest common ancestor.
-    pub(crate) fn common(&self, joints: impl IntoIterator<Item = usize>) -> Option<usize> {
+    pub(crate) fn common(&self, joints: impl IntoIterator<Item = JointId>) -> Option<JointId> {
         joints.into_iter().map(Some).reduce(|a, b| {
             let (mut a, mut b) = (a?, b?);
             // A parent precedes its child, so the later of two cannot be an ancestor of the other.
@@ -128,7 +133,7 @@ impl JointTree {
 
     /// Where the bone of a joint ends: at the first joint of its longest chain that is not almost in the same place, or at the
     /// chain's end.
-    pub(crate) fn bone_end(&self, joint: usize) -> Option<Tip> {
+    pub(crate) fn bone_end(&self, joint: JointId) -> Option<Tip> {
         /// Joints nearer than this share of the chain count as the same place: the bones within a palm.
         const NEAR: f64 = 0.1;
         let mut last = joint;
@@ -149,7 +154,7 @@ impl JointTree {
     }
 
     /// The longest end site of a joint.
-    pub(crate) fn own_end(&self, joint: usize) -> Option<Tip> {
+    pub(crate) fn own_end(&self, joint: JointId) -> Option<Tip> {
         self.ends[joint].map(|(end, _)| Tip::End { joint, end })
     }
 }

@@ -20,8 +20,9 @@ mod trunk;
 pub(crate) mod tests;
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
 
-use crate::mocap::{Skeleton, Transform};
+use crate::mocap::{JointId, Skeleton, Transform};
 
 pub use drawn_figure::{Carry, Figure, FigurePart};
 pub use figure::label_figure;
@@ -197,11 +198,11 @@ impl Label {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Tip {
     /// A joint.
-    Joint(usize),
+    Joint(JointId),
     /// The end of a bone that leads to no joint.
     End {
         /// The joint that the bone begins at.
-        joint: usize,
+        joint: JointId,
         /// Its index in [`Joint::ends`](crate::mocap::Joint::ends).
         end: usize,
     },
@@ -209,7 +210,7 @@ pub enum Tip {
 
 impl Tip {
     /// Its position in a pose of the skeleton.
-    pub(crate) fn place(self, skeleton: &Skeleton, pose: &[Transform]) -> DVec3 {
+    pub(crate) fn place(self, skeleton: &Skeleton, pose: &TiSlice<JointId, Transform>) -> DVec3 {
         match self {
             Self::Joint(joint) => pose[joint].position,
             Self::End { joint, end } => {

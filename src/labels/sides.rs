@@ -1,11 +1,12 @@
 //! Tells left from right in a skeleton whose names do not.
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
 
 use super::Tip;
 use super::joint_names::LimbJoints;
 use super::joint_tree::JointTree;
-use crate::mocap::{Skeleton, Transform};
+use crate::mocap::{JointId, Pose, Skeleton, Transform};
 
 /// A front vector shorter than this share of a leg says nothing: a trunk that leans a little gives as much.
 const UNDECIDED: f64 = 0.03;
@@ -18,7 +19,7 @@ pub(super) struct Sides<'a> {
     pub(super) arms: &'a [LimbJoints],
     pub(super) legs: &'a [LimbJoints],
     /// The joints at the lower and upper end of the trunk.
-    pub(super) trunk: [usize; 2],
+    pub(super) trunk: [JointId; 2],
 }
 
 impl Sides<'_> {
@@ -27,8 +28,9 @@ impl Sides<'_> {
     /// Up points from the feet to the trunk. Front is where the feet point and the knees bend to, and, with half the weight,
     /// opposite to where the elbows bend. Left is up × front. Each pose votes with the length of its front vector. Without any
     /// vote left is +x, as in most BVH files.
-    pub(super) fn first_is_left(&self, pair: [usize; 2], poses: &[Vec<Transform>]) -> bool {
-        let across = |pose: &[Transform]| pose[pair[0]].position - pose[pair[1]].position;
+    pub(super) fn first_is_left(&self, pair: [JointId; 2], poses: &[Pose]) -> bool {
+        let across =
+            |pose: &TiSlice<JointId, Transform>| pose[pair[0]].position - pose[pair[1]].position;
         let votes: f64 = poses
             .iter()
             .map(|pose| {
@@ -50,7 +52,7 @@ impl Sides<'_> {
         to_the_left.filter(|x| x.is_finite()).sum::<f64>() >= 0.0
     }
 
-    fn up(&self, pose: &[Transform]) -> DVec3 {
+    fn up(&self, pose: &TiSlice<JointId, Transform>) -> DVec3 {
         let feet: Vec<DVec3> = self
             .legs
             .iter()
@@ -64,7 +66,7 @@ impl Sides<'_> {
         (pose[self.trunk[1]].position - low).normalize_or_zero()
     }
 
-    fn front(&self, pose: &[Transform], up: DVec3) -> DVec3 {
+    fn front(&self, pose: &TiSlice<JointId, Transform>, up: DVec3) -> DVec3 {
         let mut front = DVec3::ZERO;
         for leg in self.legs {
             front += self.foot(leg, pose).unwrap_or_default() + bend(leg, pose);
@@ -76,7 +78,7 @@ impl Sides<'_> {
     }
 
     /// The vector from the ankle to the end of the toes, in leg lengths.
-    fn foot(&self, leg: &LimbJoints, pose: &[Transform]) -> Option<DVec3> {
+    fn foot(&self, leg: &LimbJoints, pose: &TiSlice<JointId, Transform>) -> Option<DVec3> {
         let [hip, ankle] = [leg.upper?, leg.end?];
         let last = self.tree.chain(ankle).last()?;
         let toes = self.tree.own_end(last).unwrap_or(Tip::Joint(last));
@@ -88,7 +90,7 @@ impl Sides<'_> {
 }
 
 /// The offset of a limb's middle joint from the line between its ends, in lengths of that line.
-fn bend(limb: &LimbJoints, pose: &[Transform]) -> DVec3 {
+fn bend(limb: &LimbJoints, pose: &TiSlice<JointId, Transform>) -> DVec3 {
     let (Some(upper), Some(lower), Some(end)) = (limb.upper, limb.lower, limb.end) else {
         return DVec3::ZERO;
     };

@@ -1,5 +1,7 @@
 //! Labels the joints of a skeleton: by name, and where names fail by the skeleton's shape.
 
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
 use super::joint_names::{self, JointName, LimbJoints};
 use super::joint_tree::JointTree;
 use super::sides::Sides;
@@ -7,7 +9,7 @@ use super::topology;
 use super::trunk;
 use super::{Class, Label, LimbSegment, Side, Tip};
 use crate::anatomy::{self, Term, name_words};
-use crate::mocap::{Clip, Skeleton, Transform};
+use crate::mocap::{Clip, JointId, Pose, Skeleton};
 
 /// How many frames of a clip are used where its shape has to tell left from right.
 const FRAMES: usize = 32;
@@ -16,31 +18,31 @@ const FRAMES: usize = 32;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Anatomy {
     /// Per joint its label; `None` for helpers, fingers and faces.
-    pub labels: Vec<Option<Label>>,
+    pub labels: TiVec<JointId, Option<Label>>,
     /// The limbs that were found: left arm, right arm, left leg, right leg.
     pub limbs: Vec<Limb>,
     /// The joint that carries the legs.
-    pub hips: Option<usize>,
+    pub hips: Option<JointId>,
     /// The joints of the trunk, from above the hips up to the chest, which carries the arms. Empty if arms and legs are
     /// attached to the same joint.
-    pub spine: Vec<usize>,
+    pub spine: Vec<JointId>,
     /// The joints of the neck, bottom up.
-    pub neck: Vec<usize>,
+    pub neck: Vec<JointId>,
     /// The head's joint.
-    pub head: Option<usize>,
+    pub head: Option<JointId>,
     /// The joints of the tail, starting at the trunk.
-    pub tail: Vec<usize>,
+    pub tail: Vec<JointId>,
 }
 
 impl Anatomy {
     /// The joint that carries the arms: the last one of the spine, else the hips.
-    pub fn chest(&self) -> Option<usize> {
+    pub fn chest(&self) -> Option<JointId> {
         self.spine.last().copied().or(self.hips)
     }
 
     /// The joints that have a label: all but helpers, fingers and faces.
-    pub fn labeled(&self) -> impl Iterator<Item = usize> + '_ {
-        let labels = self.labels.iter().enumerate();
+    pub fn labeled(&self) -> impl Iterator<Item = JointId> + '_ {
+        let labels = self.labels.iter_enumerated();
         labels.filter_map(|(joint, label)| label.as_ref().map(|_| joint))
     }
 
@@ -72,15 +74,15 @@ pub struct Limb {
     /// Which limb of its class and side: 0 is the rearmost. A skeleton from a file has one of each.
     pub pair: usize,
     /// Where the collar bone begins, or the bone that carries the thigh.
-    pub collar: Option<usize>,
+    pub collar: Option<JointId>,
     /// The shoulder or hip: where upper arm or thigh begins.
-    pub upper: usize,
+    pub upper: JointId,
     /// The elbow or knee.
-    pub lower: Option<usize>,
+    pub lower: Option<JointId>,
     /// The wrist or ankle.
-    pub end: Option<usize>,
+    pub end: Option<JointId>,
     /// The joint of the toes.
-    pub toe: Option<usize>,
+    pub toe: Option<JointId>,
     /// The far end of its last bone: the hand or foot, or the last segment that exists.
     pub tip: Option<Tip>,
 }
@@ -103,16 +105,16 @@ pub fn label_clip(clip: &Clip) -> Anatomy {
 }
 
 /// The joint names without the prefixes that most of them share.
-pub(crate) fn plain_names(skeleton: &Skeleton) -> Vec<&str> {
+pub(crate) fn plain_names(skeleton: &Skeleton) -> TiVec<JointId, &str> {
     let names: Vec<&str> = skeleton
         .joints
         .iter()
         .map(|joint| joint.name.as_str())
         .collect();
-    name_words::without_prefixes(&names, |prefix| !anatomy::terms(prefix).is_empty())
+    name_words::without_prefixes(&names, |prefix| !anatomy::terms(prefix).is_empty()).into()
 }
 
-fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Transform>>) -> Anatomy {
+fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Pose>) -> Anatomy {
     let tree = JointTree::new(skeleton);
     if tree.len() == 0 {
         return Anatomy::default();
@@ -120,12 +122,13 @@ fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Transform>>) -> 
     let named = joint_names::named(skeleton);
     let limbs = limbs(skeleton, &tree, &named, poses);
     let mut anatomy = Anatomy {
-        labels: vec![None; tree.len()],
+        labels: ti_vec![None; tree.len()],
         limbs: limbs.iter().map(|(limb, _)| *limb).collect(),
         ..Anatomy::default()
     };
     trunk::fill(&tree, &named, &mut anatomy);
-    anatomy.tail = (0..tree.len())
+    anatomy.tail = tree
+        .joints()
         .filter(|joint| named[*joint] == Some(JointName::Tail))
         .collect();
     write_labels(skeleton, &named, &limbs, &mut anatomy);
@@ -143,10 +146,10 @@ enum Source {
 fn limbs(
     skeleton: &Skeleton,
     tree: &JointTree,
-    named: &[Option<JointName>],
-    poses: impl FnOnce() -> Vec<Vec<Transform>>,
+    named: &TiSlice<JointId, Option<JointName>>,
+    poses: impl FnOnce() -> Vec<Pose>,
 ) -> Vec<(Limb, Source)> {
-    let names: Vec<&str> = skeleton
+    let names: TiVec<JointId, &str> = skeleton
         .joints
         .iter()
         .map(|joint| joint.name.as_str())
@@ -161,14 +164,14 @@ fn limbs(
     ];
     if !has(&arms) || !has(&legs) {
         let shape = topology::limbs(tree);
-        let known: Vec<usize> = [arms, legs]
+        let known: Vec<JointId> = [arms, legs]
             .into_iter()
             .flatten()
             .flatten()
             .filter_map(|limb| limb.upper)
             .collect();
         // A pair that names have already assigned is not the other class as well.
-        let free = |pair: &[usize; 2]| {
+        let free = |pair: &[JointId; 2]| {
             !pair.iter().any(|start| {
                 known
                     .iter()
@@ -204,15 +207,16 @@ fn limbs(
 fn sides_of_pairs(
     skeleton: &Skeleton,
     tree: &JointTree,
-    pairs: [Option<[usize; 2]>; 2],
-    poses: &[Vec<Transform>],
+    pairs: [Option<[JointId; 2]>; 2],
+    poses: &[Pose],
 ) -> [Option<[LimbJoints; 2]>; 2] {
     let found =
         pairs.map(|pair| pair.map(|pair| pair.map(|start| topology::segments(tree, start, poses))));
     let [arms, legs] = found.map(|pair| pair.map_or(Vec::new(), Vec::from));
-    let branch = |limbs: Option<[usize; 2]>| limbs.and_then(|[start, _]| tree.parents[start]);
-    let low = branch(pairs[1]).unwrap_or(0);
-    let high = branch(pairs[0]).unwrap_or_else(|| tree.chain(0).last().unwrap_or(0));
+    let branch = |limbs: Option<[JointId; 2]>| limbs.and_then(|[start, _]| tree.parents[start]);
+    let low = branch(pairs[1]).unwrap_or_default();
+    let high = branch(pairs[0])
+        .unwrap_or_else(|| tree.chain(JointId::default()).last().unwrap_or_default());
     let sides = Sides {
         skeleton,
         tree,
@@ -236,13 +240,13 @@ fn sides_of_pairs(
 fn completed(
     skeleton: &Skeleton,
     tree: &JointTree,
-    named: &[Option<JointName>],
+    named: &TiSlice<JointId, Option<JointName>>,
     class: Class,
     side: Side,
     found: LimbJoints,
 ) -> Option<Limb> {
     let upper = found.upper?;
-    let useful = |joint: &usize| named[*joint] != Some(JointName::Helper);
+    let useful = |joint: &JointId| named[*joint] != Some(JointName::Helper);
     let (mut lower, mut end) = (found.lower, found.end);
     if lower.is_none() {
         match end {
@@ -286,8 +290,8 @@ fn completed(
 }
 
 /// The joint of the middle finger, which a hand points to.
-fn middle_finger(skeleton: &Skeleton, tree: &JointTree, hand: usize) -> Option<usize> {
-    let name = |joint: usize| skeleton.joints[joint].name.as_str();
+fn middle_finger(skeleton: &Skeleton, tree: &JointTree, hand: JointId) -> Option<JointId> {
+    let name = |joint: JointId| skeleton.joints[joint].name.as_str();
     tree.children[hand]
         .iter()
         .copied()
@@ -297,13 +301,13 @@ fn middle_finger(skeleton: &Skeleton, tree: &JointTree, hand: usize) -> Option<u
 
 fn write_labels(
     skeleton: &Skeleton,
-    named: &[Option<JointName>],
+    named: &TiSlice<JointId, Option<JointName>>,
     limbs: &[(Limb, Source)],
     anatomy: &mut Anatomy,
 ) {
-    let mut labels: Vec<Option<Label>> = vec![None; skeleton.joints.len()];
+    let mut labels: TiVec<JointId, Option<Label>> = ti_vec![None; skeleton.joints.len()];
     let mut put =
-        |joint: usize, class: Class, side: Option<Side>, segment: LimbSegment, why: &str| {
+        |joint: JointId, class: Class, side: Option<Side>, segment: LimbSegment, why: &str| {
             let name = &skeleton.joints[joint].name;
             let side_name = side.map_or(String::new(), |side| format!("{} ", side.name()));
             labels[joint] = Some(Label {
@@ -314,7 +318,7 @@ fn write_labels(
                 why: format!("`{name}` is the {side_name}{} {why}", segment.name(class)),
             });
         };
-    let by = |joint: usize| match named[joint] {
+    let by = |joint: JointId| match named[joint] {
         Some(JointName::Helper | JointName::Limb(..)) | None => "by its place in the skeleton",
         Some(_) => "by its name",
     };

@@ -1,8 +1,10 @@
 //! Finds the limbs of a skeleton by its shape: the two longest mirrored pairs of chains.
 
+use typed_index_collections::TiSlice;
+
 use super::joint_names::LimbJoints;
 use super::joint_tree::JointTree;
-use crate::mocap::Transform;
+use crate::mocap::{JointId, Pose, Transform};
 
 /// Two chains are mirrored if the lengths of their bones differ by at most this share of the chain, summed up.
 const MIRRORED: f64 = 0.1;
@@ -28,9 +30,9 @@ const LEGS_DEPTH: usize = 1;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pair {
     /// The joint where they branch.
-    branch: usize,
+    branch: JointId,
     /// The first joint of each.
-    starts: [usize; 2],
+    starts: [JointId; 2],
     /// The length of the shorter one.
     length: f64,
 }
@@ -38,14 +40,15 @@ pub(super) struct Pair {
 /// The pairs of arms and legs.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Limbs {
-    pub(super) arms: Option<[usize; 2]>,
-    pub(super) legs: Option<[usize; 2]>,
+    pub(super) arms: Option<[JointId; 2]>,
+    pub(super) legs: Option<[JointId; 2]>,
 }
 
 /// The two longest mirrored pairs of chains. The pair that branches off nearer to the root is the legs; of two at the same
 /// depth, the longer one.
 pub(super) fn limbs(tree: &JointTree) -> Limbs {
-    let mut pairs: Vec<Pair> = (0..tree.len())
+    let mut pairs: Vec<Pair> = tree
+        .joints()
         .flat_map(|joint| pairs_at(tree, joint))
         .collect();
     pairs.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.starts.cmp(&b.starts)));
@@ -82,7 +85,7 @@ pub(super) fn limbs(tree: &JointTree) -> Limbs {
 
 /// The mirrored pairs that branch off at a joint, each child in at most one; only the two longest, since there are no more
 /// limbs.
-fn pairs_at(tree: &JointTree, branch: usize) -> Vec<Pair> {
+fn pairs_at(tree: &JointTree, branch: JointId) -> Vec<Pair> {
     let mut children = tree.children[branch].clone();
     children.retain(|child| tree.reaches[*child] > 0.0);
     children.sort_by(|a, b| tree.reaches[*b].total_cmp(&tree.reaches[*a]).then(a.cmp(b)));
@@ -109,7 +112,7 @@ fn pairs_at(tree: &JointTree, branch: usize) -> Vec<Pair> {
     pairs
 }
 
-fn mirrored(tree: &JointTree, a: usize, b: usize) -> bool {
+fn mirrored(tree: &JointTree, a: JointId, b: JointId) -> bool {
     let longer = tree.reaches[a].max(tree.reaches[b]);
     let allowed = MIRRORED * longer;
     let [small, large] = {
@@ -144,16 +147,16 @@ fn are_separate(tree: &JointTree, a: &Pair, b: &Pair) -> bool {
 /// A bone of a chain: its first joint and its length.
 #[derive(Debug, Clone, Copy)]
 struct Bone {
-    joint: usize,
+    joint: JointId,
     length: f64,
 }
 
 /// The bones of the longest chain that begins at a joint. A short bone is merged with the long one that follows it: the result
 /// begins where the short one does, except at the start of the chain, where it begins where the long one does. `None` for a
 /// chain of too many joints.
-fn bones(tree: &JointTree, start: usize) -> Option<Vec<Bone>> {
+fn bones(tree: &JointTree, start: JointId) -> Option<Vec<Bone>> {
     let short = SHORT * tree.reaches[start];
-    let chain: Vec<usize> = tree.chain(start).take(MAX_CHAIN + 1).collect();
+    let chain: Vec<JointId> = tree.chain(start).take(MAX_CHAIN + 1).collect();
     if chain.len() > MAX_CHAIN {
         return None;
     }
@@ -176,7 +179,7 @@ fn bones(tree: &JointTree, start: usize) -> Option<Vec<Bone>> {
 }
 
 /// Joins bones between which no pose bends, as long as an upper bone, a lower bone and an end are left. Few poses say nothing.
-fn joined(tree: &JointTree, mut bones: Vec<Bone>, poses: &[Vec<Transform>]) -> Vec<Bone> {
+fn joined(tree: &JointTree, mut bones: Vec<Bone>, poses: &[Pose]) -> Vec<Bone> {
     if poses.len() < FEWEST_POSES {
         return bones;
     }
@@ -200,7 +203,7 @@ fn joined(tree: &JointTree, mut bones: Vec<Bone>, poses: &[Vec<Transform>]) -> V
 }
 
 /// The angle between the bones from one joint to the next and from there to the third, degrees; 0 without length.
-fn bend(pose: &[Transform], joints: [usize; 3]) -> f64 {
+fn bend(pose: &TiSlice<JointId, Transform>, joints: [JointId; 3]) -> f64 {
     let [a, b, c] = joints.map(|joint| pose[joint].position);
     let angle = (b - a).angle_between(c - b).to_degrees();
     if angle.is_finite() { angle } else { 0.0 }
@@ -209,7 +212,7 @@ fn bend(pose: &[Transform], joints: [usize; 3]) -> f64 {
 /// Assigns the bones of the chain that begins at a joint: upper and lower are the two neighbours with the greatest total
 /// length. A bone before them is a collar bone. Bones between which no pose bends count as one, so elbows and knees are where
 /// the motion bends, whatever joints for twists there are.
-pub(super) fn segments(tree: &JointTree, start: usize, poses: &[Vec<Transform>]) -> LimbJoints {
+pub(super) fn segments(tree: &JointTree, start: JointId, poses: &[Pose]) -> LimbJoints {
     let Some(bones) = bones(tree, start) else {
         return LimbJoints::default();
     };

@@ -1,15 +1,22 @@
 //! Finds hips, spine, neck and head of a skeleton whose limbs are known.
 
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
 use super::Class;
 use super::joint_names::JointName;
 use super::joint_tree::JointTree;
 use super::skeleton::{Anatomy, Limb};
+use crate::mocap::JointId;
 
 /// The most joints of an unnamed neck; longer chains are hair or a trunk.
 const MAX_NECK: usize = 16;
 
 /// Finds hips, spine, neck and head.
-pub(super) fn fill(tree: &JointTree, named: &[Option<JointName>], anatomy: &mut Anatomy) {
+pub(super) fn fill(
+    tree: &JointTree,
+    named: &TiSlice<JointId, Option<JointName>>,
+    anatomy: &mut Anatomy,
+) {
     let hips = hips(tree, named, anatomy);
     anatomy.hips = Some(hips);
     let head_by_name = first(tree, named, JointName::Head);
@@ -29,9 +36,9 @@ pub(super) fn fill(tree: &JointTree, named: &[Option<JointName>], anatomy: &mut 
     }
     match head_by_name {
         Some(head) => {
-            let trunk = |joint: &usize| *joint == hips || anatomy.spine.contains(joint);
+            let trunk = |joint: &JointId| *joint == hips || anatomy.spine.contains(joint);
             let below = tree.upward(head).skip(1).take_while(|joint| !trunk(joint));
-            let mut neck: Vec<usize> = below
+            let mut neck: Vec<JointId> = below
                 .filter(|joint| !matches!(named[*joint], Some(JointName::Helper | JointName::Head)))
                 .take(MAX_NECK)
                 .collect();
@@ -46,24 +53,32 @@ pub(super) fn fill(tree: &JointTree, named: &[Option<JointName>], anatomy: &mut 
 }
 
 /// The joint of a name that is nearest to the root.
-fn first(tree: &JointTree, named: &[Option<JointName>], wanted: JointName) -> Option<usize> {
-    (0..tree.len())
+fn first(
+    tree: &JointTree,
+    named: &TiSlice<JointId, Option<JointName>>,
+    wanted: JointName,
+) -> Option<JointId> {
+    tree.joints()
         .filter(|joint| named[*joint] == Some(wanted))
         .min_by_key(|joint| (tree.depths[*joint], *joint))
 }
 
-fn roots<'a>(anatomy: &'a Anatomy, class: Class) -> impl Iterator<Item = usize> + 'a {
+fn roots<'a>(anatomy: &'a Anatomy, class: Class) -> impl Iterator<Item = JointId> + 'a {
     let root = |limb: &Limb| limb.collar.unwrap_or(limb.upper);
     let limbs = anatomy.limbs.iter().filter(move |limb| limb.class == class);
     limbs.map(root)
 }
 
 /// The joint that carries all limbs of a class.
-fn carrier(tree: &JointTree, anatomy: &Anatomy, class: Class) -> Option<usize> {
+fn carrier(tree: &JointTree, anatomy: &Anatomy, class: Class) -> Option<JointId> {
     tree.common(roots(anatomy, class).filter_map(|root| tree.parents[root]))
 }
 
-fn hips(tree: &JointTree, named: &[Option<JointName>], anatomy: &Anatomy) -> usize {
+fn hips(
+    tree: &JointTree,
+    named: &TiSlice<JointId, Option<JointName>>,
+    anatomy: &Anatomy,
+) -> JointId {
     let carrier = carrier(tree, anatomy, Class::Leg);
     let above_legs = carrier.and_then(|carrier| {
         tree.upward(carrier)
@@ -72,17 +87,17 @@ fn hips(tree: &JointTree, named: &[Option<JointName>], anatomy: &Anatomy) -> usi
     above_legs
         .or(carrier)
         .or_else(|| first(tree, named, JointName::Hips))
-        .unwrap_or(0)
+        .unwrap_or_default()
 }
 
 fn chest(
     tree: &JointTree,
-    named: &[Option<JointName>],
+    named: &TiSlice<JointId, Option<JointName>>,
     anatomy: &Anatomy,
-    head: Option<usize>,
-) -> Option<usize> {
+    head: Option<JointId>,
+) -> Option<JointId> {
     let last_spine = || {
-        (0..tree.len())
+        tree.joints()
             .filter(|joint| named[*joint] == Some(JointName::Spine))
             .max_by_key(|joint| (tree.depths[*joint], std::cmp::Reverse(*joint)))
     };
@@ -101,8 +116,13 @@ fn chest(
 
 /// Finds neck and head if no name tells the head: the longest chain at the chest that is not a limb, up to where it branches or
 /// ends.
-fn by_shape(tree: &JointTree, named: &[Option<JointName>], anatomy: &mut Anatomy, hips: usize) {
-    let mut carries = vec![false; tree.len()];
+fn by_shape(
+    tree: &JointTree,
+    named: &TiSlice<JointId, Option<JointName>>,
+    anatomy: &mut Anatomy,
+    hips: JointId,
+) {
+    let mut carries: TiVec<JointId, bool> = ti_vec![false; tree.len()];
     for limb in &anatomy.limbs {
         for joint in tree.upward(limb.upper) {
             carries[joint] = true;
@@ -116,7 +136,7 @@ fn by_shape(tree: &JointTree, named: &[Option<JointName>], anatomy: &mut Anatomy
             .filter(|child| !carries[**child] && usable(named[**child]))
             .copied()
             .reduce(|best, child| {
-                let whole = |child: usize| tree.bones[child] + tree.reaches[child];
+                let whole = |child: JointId| tree.bones[child] + tree.reaches[child];
                 if whole(child) > whole(best) {
                     child
                 } else {

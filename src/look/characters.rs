@@ -5,15 +5,19 @@ use glam::{DQuat, DVec3};
 use crate::billboard::{Character, ViewId};
 use crate::compile::Compiled;
 use crate::scene::{
-    Mesh, Node, Primitive, Scene, Surface, SurfacePatch, ViewDependent, WorldTransform,
+    Mesh, NewNode, Node, NodeId, Primitive, Scene, Surface, SurfacePatch, ViewDependent,
+    WorldTransform,
 };
 
 /// Replaces each character that turns by its views, side by side as on the page.
 pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mut Scene) {
-    let nodes = scene.nodes.iter().enumerate();
-    let turning =
-        nodes.filter(|(_, node)| matches!(node.view_dependent, Some(ViewDependent::Turn(_))));
-    let turning: Vec<usize> = turning.map(|(index, _)| index).collect();
+    let turns = |node: &NodeId| {
+        matches!(
+            scene.nodes[*node].view_dependent,
+            Some(ViewDependent::Turn(_))
+        )
+    };
+    let turning: Vec<NodeId> = scene.nodes.keys().filter(turns).collect();
     for (root, character) in turning.into_iter().zip(&compiled.characters) {
         let regions = std::mem::take(&mut scene.nodes[root].children);
         for view in character.frames.keys() {
@@ -29,21 +33,22 @@ pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mu
 fn add_view(
     character: &Character,
     view: ViewId,
-    regions: &[usize],
+    regions: &[NodeId],
     world: &WorldTransform,
     scene: &mut Scene,
 ) {
     let weights = character.turn.weights(character.turn.views[view]);
     let frame = &character.frames[view];
-    let root = scene.nodes.len();
     let center = DVec3::new(frame.center.x, -frame.center.y, 0.0);
-    scene.nodes.push(Node {
-        name: format!("{} {}", character.name, usize::from(view) + 1),
-        translation: world.point(center),
-        rotation: world.rotation,
-        ..Node::default()
+    let root = scene.add(NewNode {
+        node: Node {
+            name: format!("{} {}", character.name, usize::from(view) + 1),
+            translation: world.point(center),
+            rotation: world.rotation,
+            ..Node::default()
+        },
+        ..NewNode::default()
     });
-    scene.roots.push(root);
     // Meshes are as large as in the first view.
     let larger = frame.height / character.frames[ViewId::FIRST].height;
     for (region, node) in character.regions.iter().zip(regions) {
@@ -52,16 +57,16 @@ fn add_view(
         };
         let mesh = still(&scene.meshes[mesh], view, larger);
         let place = character.turn.position(&weights, &region.positions);
-        let index = scene.nodes.len();
-        scene.meshes.push(mesh);
-        scene.nodes.push(Node {
-            name: region.name.clone(),
-            translation: place * frame.height * world.scale,
-            rotation: DQuat::IDENTITY,
-            mesh: Some(scene.meshes.len() - 1),
-            ..Node::default()
+        scene.add(NewNode {
+            node: Node {
+                name: region.name.clone(),
+                translation: place * frame.height * world.scale,
+                rotation: DQuat::IDENTITY,
+                ..Node::default()
+            },
+            mesh: Some(mesh),
+            parent: Some(root),
         });
-        scene.nodes[root].children.push(index);
     }
 }
 

@@ -19,6 +19,7 @@ mod hints;
 mod view;
 
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiSlice;
 
 use crate::assemble::{Owner, assemble_apart};
 use crate::bind::Bindings;
@@ -28,6 +29,7 @@ use crate::export::{self, GLB};
 use crate::lang::keyword::Keyword;
 use crate::render::{self, Options, PosedModel, RenderError};
 use crate::resolver::Resolver;
+use crate::scene::MaterialId;
 use crate::terrain::Layer;
 use crate::threads;
 use borders::Borders;
@@ -149,7 +151,7 @@ pub fn compare(
 /// What the model shows in each pixel: the surface, and its sRGB colour multiplied by alpha, and alpha.
 fn shown(
     view: &DrawnView,
-    owners: &[Option<Owner>],
+    owners: &TiSlice<MaterialId, Option<Owner>>,
     resolver: &dyn Resolver,
 ) -> Result<Vec<(Shown, [u8; 4])>, LookError> {
     let [width, height] = view.size;
@@ -171,7 +173,7 @@ fn shown(
         };
         let owner = surface
             .material
-            .and_then(|material| owners.get(material).copied().flatten());
+            .and_then(|material| owners.get(MaterialId::from(material)).copied().flatten());
         let what = owner.map_or(Shown::File, Shown::Owner);
         let byte = |value: f32| (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8;
         (what, surface.blended.map(byte))

@@ -6,7 +6,7 @@ use super::{LookError, characters};
 use crate::assemble::world_transform;
 use crate::compile::Compiled;
 use crate::render::{MAX_SIDE, RenderError, Sheet};
-use crate::scene::{Scene, ViewDependent, WorldTransform};
+use crate::scene::{NodeId, Scene, ViewDependent, WorldTransform};
 use crate::terrain::Layer;
 
 /// The elevation from which a landscape looks as drawn, in degrees.
@@ -64,9 +64,8 @@ impl DrawnView {
 /// Moves and turns the landscapes to where they look as drawn from the front.
 fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scene) {
     let layers = &compiled.layers;
-    let nodes = scene.nodes.iter().enumerate();
-    let bent = nodes.filter(|(_, node)| node.view_dependent == Some(ViewDependent::Bend));
-    let bent: Vec<usize> = bent.map(|(index, _)| index).collect();
+    let is_bent = |node: &NodeId| scene.nodes[*node].view_dependent == Some(ViewDependent::Bend);
+    let bent: Vec<NodeId> = scene.nodes.keys().filter(is_bent).collect();
     if layers.is_empty() || bent.len() != layers.len() {
         return;
     }

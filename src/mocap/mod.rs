@@ -11,5 +11,5 @@ pub(crate) mod turns;
 mod up;
 
 pub(crate) use skeleton::height;
-pub use skeleton::{Axis, Channel, Clip, Joint, Skeleton, Transform};
+pub use skeleton::{Axis, Channel, Clip, Joint, JointId, Pose, Skeleton, Transform};
 pub use up::{NoAxis, UpAxis};

@@ -3,12 +3,27 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
+use typed_index_collections::{TiVec, ti_vec};
+
+use crate::index::index_type;
+
+index_type!(
+    /// Refers to a joint of a skeleton.
+    pub JointId
+);
+
+impl Default for JointId {
+    /// The first joint of a skeleton, which is a root.
+    fn default() -> Self {
+        Self::from(0)
+    }
+}
 
 /// A hierarchy of joints. Parents precede their children (a parent that does not is ignored); there may be several roots.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Skeleton {
     /// The joints, in the order of the file.
-    pub joints: Vec<Joint>,
+    pub joints: TiVec<JointId, Joint>,
 }
 
 /// A joint, with its channels.
@@ -16,8 +31,8 @@ pub struct Skeleton {
 pub struct Joint {
     /// Its name, which need not be unique.
     pub name: String,
-    /// Index of its parent.
-    pub parent: Option<usize>,
+    /// Its parent.
+    pub parent: Option<JointId>,
     /// Its position in its parent's frame, unless position channels replace it.
     pub offset: DVec3,
     /// Its channels, in the order of their numbers in a frame.
@@ -61,19 +76,19 @@ impl Skeleton {
     }
 
     /// Per joint its children, in order.
-    pub fn children(&self) -> Vec<Vec<usize>> {
-        let mut children = vec![Vec::new(); self.joints.len()];
-        for (index, joint) in self.joints.iter().enumerate() {
+    pub fn children(&self) -> TiVec<JointId, Vec<JointId>> {
+        let mut children: TiVec<JointId, _> = ti_vec![Vec::new(); self.joints.len()];
+        for (id, joint) in self.joints.iter_enumerated() {
             if let Some(parent) = joint.parent {
-                children[parent].push(index);
+                children[parent].push(id);
             }
         }
         children
     }
 
     /// Per joint whether it is a descendant of `joint`.
-    pub fn descendants(&self, joint: usize) -> Vec<bool> {
-        let mut descendants: Vec<bool> = Vec::with_capacity(self.joints.len());
+    pub fn descendants(&self, joint: JointId) -> TiVec<JointId, bool> {
+        let mut descendants: TiVec<JointId, bool> = TiVec::with_capacity(self.joints.len());
         for other in &self.joints {
             // Parents precede their children.
             descendants.push(
@@ -86,8 +101,8 @@ impl Skeleton {
     }
 
     /// The world transforms of the joints when all channels are 0 and all positions are the offsets.
-    pub fn offset_pose(&self) -> Vec<Transform> {
-        let mut pose: Vec<Transform> = Vec::with_capacity(self.joints.len());
+    pub fn offset_pose(&self) -> Pose {
+        let mut pose = Pose::with_capacity(self.joints.len());
         for joint in &self.joints {
             let parent = joint.parent.and_then(|parent| pose.get(parent));
             let above = parent.map_or(DVec3::ZERO, |parent| parent.position);
@@ -129,6 +144,9 @@ pub(crate) fn height(points: impl Iterator<Item = DVec3>) -> f64 {
     });
     (high - low).max(0.0)
 }
+
+/// The world transforms of the joints in a pose.
+pub type Pose = TiVec<JointId, Transform>;
 
 /// A motion: frames of a skeleton at a constant rate.
 #[derive(Debug, Clone, PartialEq)]
@@ -231,7 +249,7 @@ impl Clip {
     }
 
     /// Writes the world transforms of the joints in a frame to `pose`, which is cleared first.
-    pub fn pose_into(&self, frame: usize, pose: &mut Vec<Transform>) {
+    pub fn pose_into(&self, frame: usize, pose: &mut Pose) {
         pose.clear();
         let mut numbers = self.row(frame);
         for joint in &self.skeleton.joints {
@@ -249,8 +267,8 @@ impl Clip {
     }
 
     /// The world transforms of the joints in a frame.
-    pub fn pose(&self, frame: usize) -> Vec<Transform> {
-        let mut pose = Vec::with_capacity(self.skeleton.joints.len());
+    pub fn pose(&self, frame: usize) -> Pose {
+        let mut pose = TiVec::with_capacity(self.skeleton.joints.len());
         self.pose_into(frame, &mut pose);
         pose
     }
@@ -270,7 +288,7 @@ impl Clip {
             .par_chunks_mut(GRAIN * joints)
             .enumerate()
             .for_each(|(chunk, positions)| {
-                let mut pose = Vec::with_capacity(joints);
+                let mut pose = TiVec::with_capacity(joints);
                 for (frame, positions) in positions.chunks_mut(joints).enumerate() {
                     self.pose_into(chunk * GRAIN + frame, &mut pose);
                     for (position, placed) in positions.iter_mut().zip(&pose) {

@@ -1,8 +1,9 @@
 //! Travel over the ground: how far a body has gone, and clips in place, without it.
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
 
-use crate::mocap::{Axis, Channel, Clip};
+use crate::mocap::{Axis, Channel, Clip, JointId};
 
 /// How a motion ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -43,10 +44,11 @@ pub fn travel(path: &[DVec3], up: DVec3, fps: f64, ending: Ending) -> Vec<DVec3>
 
 /// The clip without the travel of a joint, its hips. `up` is the axis of the clip's world that points up.
 #[must_use]
-pub fn in_place(clip: &Clip, hips: usize, up: DVec3, ending: Ending) -> Clip {
+pub fn in_place(clip: &Clip, hips: JointId, up: DVec3, ending: Ending) -> Clip {
     let positions = clip.positions();
     let poses = positions.chunks_exact(clip.skeleton.joints.len().max(1));
-    let path: Vec<DVec3> = poses.map(|pose| pose[hips]).collect();
+    let place = |pose: &[DVec3]| TiSlice::<JointId, DVec3>::from_ref(pose)[hips];
+    let path: Vec<DVec3> = poses.map(place).collect();
     let travel = travel(&path, up, 1.0 / clip.frame_time, ending);
     let mut values = clip.values().to_vec();
     let width = clip.skeleton.channel_count();

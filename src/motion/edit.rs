@@ -7,7 +7,7 @@ use crate::limited::Measured;
 use crate::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method, Poses};
 use crate::mocap::bvh::{self, Decimals};
 use crate::mocap::resample;
-use crate::mocap::{Clip, height};
+use crate::mocap::{Clip, JointId, height};
 use crate::motion::{Chart, PointChoice, chart};
 use crate::performance::{self, Filming};
 use crate::prepare::{Cycle, PreparedClip};
@@ -67,7 +67,7 @@ pub struct EditedClip {
     /// The cycle that was made a loop.
     pub cycle: Option<Cycle>,
     /// The joint that a camera follows.
-    pub filmed_joint: Option<usize>,
+    pub filmed_joint: Option<JointId>,
     is_changed: bool,
     /// Where speed is measured, in the file's unit; upright if there is a camera.
     measured: Measured,
@@ -132,7 +132,7 @@ pub struct Film {
     /// Whether a camera moves, or the character.
     pub filming: Filming,
     /// The joint in the middle of the picture.
-    pub joint: usize,
+    pub joint: JointId,
 }
 
 /// Whether a motion could be filmed.
@@ -156,13 +156,13 @@ impl EditedClip {
         Filmed::Filmed
     }
 
-    fn move_character(&mut self, joint: usize) -> Filmed {
+    fn move_character(&mut self, joint: JointId) -> Filmed {
         let shown = Exposure::shown(self.exposure.as_ref(), self.clip.frames());
         let upright = |at: &DVec3| self.to_model * *at;
         let points: Vec<DVec3> = self.clip.positions().iter().map(upright).collect();
         let per_frame = self.clip.skeleton.joints.len();
         let filmed =
-            performance::Filmed::new(Filming::Character, &points, per_frame, &shown, joint);
+            performance::Filmed::new(Filming::Character, &points, per_frame, &shown, joint.into());
         let back = self.to_model.inverse();
         let shifts = filmed.shifts().unwrap_or_default();
         let shifts: Vec<DVec3> = shifts.iter().map(|shift| back * *shift).collect();

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use crate::labels::{Anatomy, Class, Tip};
 use crate::limited::Measured;
-use crate::mocap::Clip;
+use crate::mocap::{Clip, Pose};
 
 /// Frames that a thread processes at once.
 const GRAIN: usize = 256;
@@ -49,7 +49,7 @@ impl Measured {
             .par_chunks_mut(GRAIN * tips.len())
             .enumerate()
             .for_each(|(chunk, points)| {
-                let mut pose = Vec::with_capacity(joints);
+                let mut pose = Pose::with_capacity(joints);
                 for (frame, points) in points.chunks_mut(tips.len()).enumerate() {
                     let frame = chunk * GRAIN + frame;
                     if ends {
@@ -57,7 +57,7 @@ impl Measured {
                     }
                     for (point, tip) in points.iter_mut().zip(&tips) {
                         *point = match tip {
-                            Tip::Joint(joint) => positions[frame * joints + joint],
+                            Tip::Joint(joint) => positions[frame * joints + usize::from(*joint)],
                             Tip::End { .. } => tip.place(&clip.skeleton, &pose),
                         };
                     }

@@ -1,10 +1,11 @@
 //! Performances of a motion by itself, on its joints.
 
 use glam::DVec3;
+use typed_index_collections::{TiSlice, TiVec};
 
 use crate::labels::{Class, Facing};
 use crate::mark_tracks::{MarkId, MarkTracks};
-use crate::mocap::resample;
+use crate::mocap::{JointId, resample};
 use crate::performance::{Limbs, Plan, Request, joint_steps, mark_movements, plan, ratios};
 use crate::prepare::PreparedClip;
 use crate::retarget::to_drawing;
@@ -14,10 +15,10 @@ use crate::retarget::to_drawing;
 pub struct JointChannel {
     /// The mark.
     pub mark: MarkId,
-    /// Index of the joint.
-    pub joint: usize,
+    /// The joint.
+    pub joint: JointId,
     /// Joints that are edited along with it.
-    pub followers: Vec<usize>,
+    pub followers: Vec<JointId>,
 }
 
 /// A motion as it is performed.
@@ -39,9 +40,10 @@ pub fn perform(
     let marks: Vec<MarkId> = channels.iter().map(|channel| channel.mark).collect();
     let input = mark_movements(tracks, &marks, 1.0 / prepared.clip.frame_time);
     let count = prepared.clip.skeleton.joints.len().max(1);
-    let path = |joint: usize| -> Vec<DVec3> {
+    let path = |joint: JointId| -> Vec<DVec3> {
         let frames = prepared.positions.chunks(count);
-        frames.map(|frame| frame[joint]).collect()
+        let place = |frame: &[DVec3]| TiSlice::<JointId, DVec3>::from_ref(frame)[joint];
+        frames.map(place).collect()
     };
     let paths: Vec<Vec<DVec3>> = channels.iter().map(|channel| path(channel.joint)).collect();
     let landmarks = prepared.landmarks();
@@ -54,17 +56,17 @@ pub fn perform(
     };
     if let Some(emphasized) = plan.emphasized.filter(|_| plan.is_damping) {
         let joints = &prepared.clip.skeleton.joints;
-        let parents: Vec<Option<usize>> = joints.iter().map(|joint| joint.parent).collect();
+        let parents: TiVec<JointId, _> = joints.iter().map(|joint| joint.parent).collect();
         let labels = prepared.anatomy.labels.iter();
-        let classes: Vec<Option<Class>> = labels
+        let classes: TiVec<JointId, Option<Class>> = labels
             .map(|label| label.as_ref().map(|label| label.class))
             .collect();
         let limbs = Limbs {
             parents: &parents,
             classes: &classes,
         };
-        let nodes: Vec<Vec<usize>> = channels.iter().map(|channel| vec![channel.joint]).collect();
-        let followers: Vec<Vec<usize>> = channels
+        let nodes: Vec<Vec<JointId>> = channels.iter().map(|channel| vec![channel.joint]).collect();
+        let followers: Vec<Vec<JointId>> = channels
             .iter()
             .map(|channel| channel.followers.clone())
             .collect();

@@ -1,13 +1,15 @@
 //! A model of a clip's skeleton: a bone for each joint that leads to another, so that viewers show what a motion file holds.
 
 use glam::{DQuat, DVec2, DVec3, Vec3};
+use typed_index_collections::TiSlice;
 
 use crate::limited::{Exposure, KeyTimes};
 use crate::mocap::turns::continuous;
-use crate::mocap::{Channel, Clip, Transform, height};
+use crate::mocap::{Channel, Clip, JointId, Transform, height};
 use crate::performance::{Filmed, Filming};
 use crate::scene::{
-    Animation, Material, Mesh, Node, Primitive, Scene, Surface, Track, Values, WorldTransform,
+    Animation, Material, Mesh, Node, NodeId, Primitive, Scene, Surface, Track, Values,
+    WorldTransform,
 };
 
 /// The height of the model in the first frame, metres: files have any unit.
@@ -33,44 +35,42 @@ pub fn skeleton_model(
         _ => clip.pose(0),
     };
     let scale = scale(&first, to_model);
-    let mut scene = Scene {
-        materials: vec![Material {
-            name: "bone".to_owned(),
-            base_color: [0.61, 0.55, 0.42, 1.0],
-            ..Material::default()
-        }],
-        ..Scene::default()
-    };
+    let mut scene = Scene::default();
+    let material = scene.materials.push_and_get_key(Material {
+        name: "bone".to_owned(),
+        base_color: [0.61, 0.55, 0.42, 1.0],
+        ..Material::default()
+    });
     let children = skeleton.children();
-    for (index, joint) in skeleton.joints.iter().enumerate() {
-        let ways = children[index]
+    for (id, joint) in skeleton.joints.iter_enumerated() {
+        let ways = children[id]
             .iter()
             .map(|child| skeleton.joints[*child].offset);
         let ways: Vec<DVec3> = ways
             .chain(joint.ends.iter().copied())
             .map(|way| way * scale)
             .collect();
-        scene.meshes.push(Mesh {
+        let mesh = scene.meshes.push_and_get_key(Mesh {
             primitives: vec![Primitive {
                 patches: vec![bones(&ways).into()],
-                material: 0,
+                material,
             }],
         });
         let at_root = joint.parent.is_none();
-        scene.nodes.push(Node {
+        let node = scene.nodes.push_and_get_key(Node {
             name: joint.name.clone(),
-            children: children[index].clone(),
+            children: children[id].iter().copied().map(node_of).collect(),
             translation: if at_root {
                 to_model * joint.offset * scale
             } else {
                 joint.offset * scale
             },
             rotation: if at_root { to_model } else { DQuat::IDENTITY },
-            mesh: Some(index),
+            mesh: Some(mesh),
             ..Node::default()
         });
         if at_root {
-            scene.roots.push(index);
+            scene.roots.push(node);
         }
     }
     scene
@@ -84,7 +84,7 @@ pub fn add_camera(
     scene: &mut Scene,
     clip: &Clip,
     exposure: Option<&Exposure>,
-    joint: usize,
+    joint: JointId,
     to_model: DQuat,
 ) {
     let Some(mut animation) = scene.animations.pop() else {
@@ -99,13 +99,18 @@ pub fn add_camera(
     let shown = Exposure::shown(exposure, clip.frames());
     let keys = KeyTimes::of_shown(exposure, clip.frames(), clip.frame_time);
     let per_frame = clip.skeleton.joints.len();
-    let filmed = Filmed::new(Filming::Camera, &points, per_frame, &shown, joint);
+    let filmed = Filmed::new(Filming::Camera, &points, per_frame, &shown, joint.into());
     filmed.add_camera(&world, &keys, &mut animation, scene);
     scene.animations.push(animation);
 }
 
+/// The node of a joint: they have the same order.
+fn node_of(joint: JointId) -> NodeId {
+    usize::from(joint).into()
+}
+
 /// Metres per unit of the file.
-fn scale(pose: &[Transform], to_model: DQuat) -> f64 {
+fn scale(pose: &TiSlice<JointId, Transform>, to_model: DQuat) -> f64 {
     match height(pose.iter().map(|placed| to_model * placed.position)) {
         height if height > 0.0 && height.is_finite() => HEIGHT / height,
         _ => 1.0,
@@ -128,7 +133,7 @@ fn animation(
         return animation;
     }
     let mut start = 0;
-    for (node, joint) in clip.skeleton.joints.iter().enumerate() {
+    for (id, joint) in clip.skeleton.joints.iter_enumerated() {
         let numbers = start..start + joint.channels.len();
         start = numbers.end;
         if joint.channels.is_empty() {
@@ -152,7 +157,7 @@ fn animation(
             .any(|channel| matches!(channel, Channel::Position(_)));
         let mut add = |values| {
             animation.tracks.push(Track {
-                node,
+                node: node_of(id),
                 timing: keys.timing(),
                 values,
             });

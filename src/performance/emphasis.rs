@@ -1,40 +1,46 @@
 //! Emphasis: what does not matter moves less (Manya & Matsuda, section 3.3.2).
 
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
 use crate::labels::Class;
 
-/// The nodes of a figure or skeleton, and the limbs that they belong to.
-pub struct Limbs<'a> {
+/// The nodes of a figure or skeleton, and the limbs that they belong to. `Node` counts them: places of parts, or joints.
+pub struct Limbs<'a, Node> {
     /// Per node its parent. Chains that never end are climbed only once around.
-    pub parents: &'a [Option<usize>],
+    pub parents: &'a TiSlice<Node, Option<Node>>,
     /// Per node what it is a part of; `None` for what has no class of its own, such as fingers.
-    pub classes: &'a [Option<Class>],
+    pub classes: &'a TiSlice<Node, Option<Class>>,
 }
 
-impl Limbs<'_> {
+impl<Node> Limbs<'_, Node>
+where
+    Node: Copy + PartialEq + From<usize>,
+    usize: From<Node>,
+{
     /// A node and what it hangs on, up to the root.
-    fn upwards(&self, node: usize) -> impl Iterator<Item = usize> {
-        let parent = |node: &usize| self.parents[*node];
+    fn upwards(&self, node: Node) -> impl Iterator<Item = Node> {
+        let parent = |node: &Node| self.parents[*node];
         std::iter::successors(Some(node), parent).take(self.parents.len())
     }
 
     /// The limb of a node, from its root to its tips: the connected nodes of its class, with what is between them and hangs on them
     /// and has no class.
-    fn limb(&self, node: usize) -> Vec<bool> {
+    fn limb(&self, node: Node) -> TiVec<Node, bool> {
         let class = self.classes[node];
-        let same = |node: &usize| self.classes[*node].is_none() || self.classes[*node] == class;
-        let above: Vec<usize> = self.upwards(node).take_while(same).collect();
+        let same = |node: &Node| self.classes[*node].is_none() || self.classes[*node] == class;
+        let above: Vec<Node> = self.upwards(node).take_while(same).collect();
         let root = above
             .iter()
             .rev()
             .find(|node| self.classes[**node] == class);
         let root = *root.unwrap_or(&node);
-        let belongs = |other: usize| {
+        let belongs = |other: Node| {
             // All on the way up to the limb's root must belong to the limb.
             self.upwards(other)
                 .take_while(|node| *node == root || same(node))
                 .any(|node| node == root)
         };
-        (0..self.parents.len()).map(belongs).collect()
+        self.parents.keys().map(belongs).collect()
     }
 }
 
@@ -43,15 +49,19 @@ impl Limbs<'_> {
 /// `channels` are the nodes of each characteristic joint, `followers` those that are edited along with them, and `largest` the largest
 /// input of their marks. The nodes of the `emphasized` one stay, and so do their limbs and what they hang on. Of several ratios for
 /// one node the largest counts.
-pub fn ratios(
-    limbs: &Limbs<'_>,
-    channels: &[Vec<usize>],
-    followers: &[Vec<usize>],
+pub fn ratios<Node>(
+    limbs: &Limbs<'_, Node>,
+    channels: &[Vec<Node>],
+    followers: &[Vec<Node>],
     largest: &[f64],
     emphasized: usize,
-) -> Vec<Option<f64>> {
+) -> TiVec<Node, Option<f64>>
+where
+    Node: Copy + PartialEq + From<usize>,
+    usize: From<Node>,
+{
     let count = limbs.parents.len();
-    let mut stays = vec![false; count];
+    let mut stays: TiVec<Node, bool> = ti_vec![false; count];
     for node in &channels[emphasized] {
         for above in limbs.upwards(*node) {
             stays[above] = true;
@@ -60,7 +70,7 @@ pub fn ratios(
             *stays |= is_limb;
         }
     }
-    let mut ratios: Vec<Option<f64>> = vec![None; count];
+    let mut ratios: TiVec<Node, Option<f64>> = ti_vec![None; count];
     let most = largest[emphasized];
     for (channel, nodes) in channels.iter().enumerate() {
         if channel == emphasized || most <= 0.0 {
@@ -68,14 +78,16 @@ pub fn ratios(
         }
         let ratio = ratio(largest[channel], most);
         let limb = nodes.iter().map(|node| limbs.limb(*node));
-        let mut damped = limb.fold(vec![false; count], |mut all, limb| {
+        let none: TiVec<Node, bool> = ti_vec![false; count];
+        let mut damped = limb.fold(none, |mut all, limb| {
             all.iter_mut().zip(limb).for_each(|(all, own)| *all |= own);
             all
         });
         for follower in followers.get(channel).into_iter().flatten() {
             damped[*follower] = true;
         }
-        for node in (0..count).filter(|node| damped[*node] && !stays[*node]) {
+        let nodes = damped.keys();
+        for node in nodes.filter(|node| damped[*node] && !stays[*node]) {
             ratios[node] = Some(ratios[node].map_or(ratio, |other| ratio.max(other)));
         }
     }
@@ -103,10 +115,10 @@ mod tests {
         Some(6),
     ];
 
-    fn limbs(classes: &[Option<Class>]) -> Limbs<'_> {
+    fn limbs(classes: &[Option<Class>]) -> Limbs<'_, usize> {
         Limbs {
-            parents: &PARENTS,
-            classes,
+            parents: TiSlice::from_ref(&PARENTS),
+            classes: TiSlice::from_ref(classes),
         }
     }
 
@@ -116,7 +128,7 @@ mod tests {
         let classes = [Some(Class::Hips), arm, arm, arm, None, arm, leg, leg];
         let limbs = limbs(&classes);
         let of = |node| -> Vec<usize> {
-            let limb = limbs.limb(node).into_iter().enumerate();
+            let limb = limbs.limb(node).into_iter_enumerated();
             limb.filter_map(|(node, is)| is.then_some(node)).collect()
         };
         assert_eq!(of(3), [1, 2, 3, 4]);
@@ -140,7 +152,7 @@ mod tests {
             Some(0.5),
             Some(0.5),
         ];
-        assert_eq!(found, expected);
+        assert_eq!(found.raw, expected);
         let followers = [vec![], vec![1, 0, 6], vec![]];
         let found = ratios(
             &limbs,
@@ -159,15 +171,15 @@ mod tests {
             Some(0.5),
             Some(0.0),
         ];
-        assert_eq!(found, expected);
+        assert_eq!(found.raw, expected);
     }
 
     #[test]
     fn cycles_end() {
         let limbs = Limbs {
-            parents: &[Some(1), Some(0)],
-            classes: &[Some(Class::Arm), Some(Class::Arm)],
+            parents: TiSlice::from_ref(&[Some(1_usize), Some(0)]),
+            classes: TiSlice::from_ref(&[Some(Class::Arm), Some(Class::Arm)]),
         };
-        assert_eq!(limbs.limb(0), [true, true]);
+        assert_eq!(limbs.limb(0).raw, [true, true]);
     }
 }

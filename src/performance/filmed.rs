@@ -106,17 +106,16 @@ impl Filmed {
             return;
         };
         let name = free_name(scene, &animation.name);
-        scene.cameras.push(Camera {
+        let camera = scene.cameras.push_and_get_key(Camera {
             name: name.clone(),
             projection,
         });
-        let node = scene.nodes.len();
-        scene.add(NewNode {
+        let node = scene.add(NewNode {
             node: Node {
                 name,
                 translation: world.point(*first),
                 rotation: world.rotation,
-                camera: Some(scene.cameras.len() - 1),
+                camera: Some(camera),
                 ..Node::default()
             },
             ..NewNode::default()

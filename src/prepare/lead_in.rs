@@ -4,6 +4,9 @@
 //! thesis' speed (equation 5.1), √SSD(k), over all joints.
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
+
+use crate::mocap::JointId;
 
 /// The first frame alone is a T-pose if the first step exceeds the clip's median by this factor …
 const SINGLE_OVER_MEDIAN: f64 = 8.0;
@@ -51,7 +54,7 @@ pub fn find_lead_in(
     positions: &[DVec3],
     joints: usize,
     frame_time: f64,
-    arms: &[[usize; 2]],
+    arms: &[[JointId; 2]],
 ) -> LeadIn {
     if joints == 0 || positions.len() / joints < 3 {
         return LeadIn::default();
@@ -67,7 +70,7 @@ pub fn find_lead_in(
     let next = steps.iter().skip(1).take(NEXT).copied().fold(0.0, f64::max);
     let (frames, kind) = if first > SINGLE_OVER_MEDIAN * median && first > SINGLE_OVER_NEXT * next {
         (1, LeadInKind::Single)
-    } else if is_t(&positions[..joints], arms) {
+    } else if is_t(TiSlice::from_ref(&positions[..joints]), arms) {
         match eased(&steps, median, frame_time) {
             0 => (0, LeadInKind::None),
             frames => (frames, LeadInKind::Eased),
@@ -116,7 +119,7 @@ fn eased(steps: &[f64], median_step: f64, frame_time: f64) -> usize {
 }
 
 /// Whether each arm points away from the other shoulders, along the line through them. This needs no up direction.
-fn is_t(pose: &[DVec3], arms: &[[usize; 2]]) -> bool {
+fn is_t(pose: &TiSlice<JointId, DVec3>, arms: &[[JointId; 2]]) -> bool {
     let places: Option<Vec<[DVec3; 2]>> = arms
         .iter()
         .map(|[shoulder, hand]| Some([*pose.get(*shoulder)?, *pose.get(*hand)?]))
@@ -139,13 +142,16 @@ mod tests {
     use std::path::Path;
     use std::sync::Arc;
 
+    use typed_index_collections::ti_vec;
+
     use super::*;
     use crate::mocap::bvh::read_bytes;
     use crate::mocap::{Axis, Channel, Clip, Joint, Skeleton};
 
     fn find(clip: &Clip, arms: &[[usize; 2]]) -> LeadIn {
         let joints = clip.skeleton.joints.len();
-        find_lead_in(&clip.positions(), joints, clip.frame_time, arms)
+        let arms: Vec<[JointId; 2]> = arms.iter().map(|arm| arm.map(JointId::from)).collect();
+        find_lead_in(&clip.positions(), joints, clip.frame_time, &arms)
     }
 
     fn file(name: &str) -> Clip {
@@ -163,12 +169,27 @@ mod tests {
             ends: Vec::new(),
         };
         let turn = || vec![Channel::Rotation(Axis::Z)];
-        let joints = vec![
+        let joints = ti_vec![
             joint("Hips", None, DVec3::ZERO, Vec::new()),
-            joint("LeftArm", Some(0), DVec3::new(1.0, 5.0, 0.0), turn()),
-            joint("LeftHand", Some(1), DVec3::new(4.0, 0.0, 0.0), Vec::new()),
-            joint("RightArm", Some(0), DVec3::new(-1.0, 5.0, 0.0), turn()),
-            joint("RightHand", Some(3), DVec3::new(-4.0, 0.0, 0.0), Vec::new()),
+            joint("LeftArm", Some(0.into()), DVec3::new(1.0, 5.0, 0.0), turn()),
+            joint(
+                "LeftHand",
+                Some(1.into()),
+                DVec3::new(4.0, 0.0, 0.0),
+                Vec::new()
+            ),
+            joint(
+                "RightArm",
+                Some(0.into()),
+                DVec3::new(-1.0, 5.0, 0.0),
+                turn()
+            ),
+            joint(
+                "RightHand",
+                Some(3.into()),
+                DVec3::new(-4.0, 0.0, 0.0),
+                Vec::new()
+            ),
         ];
         let values = angles.iter().flat_map(|angle| [-angle, *angle]).collect();
         Clip::new(Arc::new(Skeleton { joints }), frame_time, values)

@@ -1,12 +1,13 @@
 //! Loops: finds the cycle of a clip that can be repeated best, and closes it.
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
 
 use crate::labels::Anatomy;
 use crate::limited::ssd;
-use crate::mocap::Clip;
 use crate::mocap::resample::{Mix, mixed};
 use crate::mocap::travel::root_positions;
+use crate::mocap::{Clip, JointId};
 use crate::smoothing::ease;
 
 /// A cycle has at least this length, seconds …
@@ -81,13 +82,14 @@ struct Poses {
 impl Poses {
     fn of(clip: &Clip, anatomy: &Anatomy, up: DVec3) -> Self {
         let count = clip.skeleton.joints.len();
-        let mut points: Vec<usize> = anatomy.labeled().collect();
+        let mut points: Vec<JointId> = anatomy.labeled().collect();
         if points.is_empty() {
-            points = (0..count).collect();
+            points = clip.skeleton.joints.keys().collect();
         }
-        let hips = anatomy.hips.unwrap_or(0);
+        let hips = anatomy.hips.unwrap_or_default();
         let mut places = Vec::with_capacity(clip.frames() * points.len());
         for pose in clip.positions().chunks_exact(count.max(1)) {
+            let pose: &TiSlice<JointId, DVec3> = TiSlice::from_ref(pose);
             let below = pose[hips].reject_from(up);
             places.extend(points.iter().map(|joint| pose[*joint] - below));
         }
@@ -158,6 +160,8 @@ fn closed(clip: &Clip, cycle: Cycle, up: DVec3) -> Clip {
 mod tests {
     use std::sync::Arc;
 
+    use typed_index_collections::ti_vec;
+
     use super::*;
     use crate::labels::label_clip;
     use crate::mocap::bvh;
@@ -175,10 +179,10 @@ mod tests {
         };
         let position = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position);
         let turns = [Axis::Z, Axis::X, Axis::Y].map(Channel::Rotation);
-        let joints = vec![
+        let joints = ti_vec![
             joint("Hips", None, DVec3::ZERO, &position),
-            joint("LeftArm", Some(0), DVec3::Y * 50.0, &turns),
-            joint("LeftHand", Some(1), DVec3::X * 50.0, &[]),
+            joint("LeftArm", Some(0.into()), DVec3::Y * 50.0, &turns),
+            joint("LeftHand", Some(1.into()), DVec3::X * 50.0, &[]),
         ];
         let mut values = Vec::new();
         for frame in 0..frames {

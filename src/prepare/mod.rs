@@ -12,7 +12,7 @@ use crate::labels::{Anatomy, Class, Facing, Side, label_clip};
 use crate::mocap::UpAxis;
 use crate::mocap::resample::{self, Error, FPS, Range};
 use crate::mocap::travel::{self, Ending};
-use crate::mocap::{Axis, Clip};
+use crate::mocap::{Axis, Clip, JointId};
 use crate::retarget::{self, Landmarks};
 
 pub use lead_in::{LeadIn, LeadInKind, find_lead_in};
@@ -163,7 +163,7 @@ impl PreparedClip {
             }
         }
         if options.is_in_place {
-            let hips = self.anatomy.hips.unwrap_or(0);
+            let hips = self.anatomy.hips.unwrap_or_default();
             let up = self.up_direction();
             self.replace(travel::in_place(&self.clip, hips, up, self.ending));
         }
@@ -211,7 +211,7 @@ fn lead_in_frames(
         let arm = anatomy.limb(Class::Arm, side)?;
         Some([arm.upper, arm.end.or(arm.lower)?])
     };
-    let arms: Vec<[usize; 2]> = Side::BOTH.into_iter().filter_map(arm).collect();
+    let arms: Vec<[JointId; 2]> = Side::BOTH.into_iter().filter_map(arm).collect();
     let joints = clip.skeleton.joints.len();
     let lead_in = find_lead_in(positions, joints, clip.frame_time, &arms);
     match lead_in.kind {

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use glam::{DVec3, Vec3, Vec3Swizzles as _};
 use rayon::prelude::*;
+use typed_index_collections::TiVec;
 
 use super::camera::{Framing, View};
 use super::follow::CameraPath;
@@ -13,7 +14,7 @@ use super::posed_model::Image;
 use super::sampling::STILL;
 use super::surface::{Normalization, Surface};
 use super::{MAX_CLIP_FRAMES, MAX_FILM_STRIP_PIXELS, Options, RenderError, on_pool};
-use crate::import::{Clip, ImportError, ModelCamera, Pose};
+use crate::import::{Clip, ImportError, ModelCamera, NodeId, Pose};
 
 /// At how many times the pose is sampled, at most, to find the space that the clip needs.
 const MAX_SAMPLES: u32 = 32;
@@ -47,7 +48,7 @@ pub struct Film<'a> {
 struct Following {
     path: CameraPath,
     /// For each node whether it has a mesh that is followed, and so is kept in the picture.
-    meshes: Vec<bool>,
+    meshes: TiVec<NodeId, bool>,
     /// The longest side of what is followed, in normalised space.
     length: f32,
     /// How far in front of it there may be something else, in normalised space.

@@ -1,6 +1,7 @@
 //! A model as read from a file.
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
 
 use super::RenderError;
 use super::hierarchy::{Hierarchy, Rays};
@@ -8,7 +9,7 @@ use super::materials;
 use super::surface::{Material, Normalization, Surface};
 use super::texture::Texture;
 use super::trace::Tracer;
-use crate::import::{self, CameraPose, Clip, Geometry, ModelCamera, Pose, Travellers};
+use crate::import::{self, CameraPose, Clip, Geometry, ModelCamera, NodeId, Pose, Travellers};
 use crate::resolver::Resolver;
 
 /// A model as read from a file, not yet posed.
@@ -104,14 +105,14 @@ impl Model {
     }
 
     /// The places of some nodes in a pose, in the world.
-    pub(super) fn places(&self, pose: &Pose, nodes: &[usize]) -> Vec<DVec3> {
+    pub(super) fn places(&self, pose: &Pose, nodes: &[NodeId]) -> Vec<DVec3> {
         self.geometry.places(pose, nodes)
     }
 
     /// The triangles of the nodes that are marked, in a pose, moved by `normalization`.
     pub(super) fn surface_of(
         &self,
-        marked: &[bool],
+        marked: &TiSlice<NodeId, bool>,
         pose: &Pose,
         normalization: Normalization,
     ) -> Result<Surface, RenderError> {

@@ -1,33 +1,33 @@
 //! How a body is oriented in its clip.
 
 use glam::{DMat3, DQuat, DVec3};
+use typed_index_collections::TiSlice;
 
 use super::{PoseBuffer, ground};
 use crate::labels::{Anatomy, Class, Facing, Limb, Side, Tip};
-use crate::mocap::UpAxis;
-use crate::mocap::{Clip, Transform};
+use crate::mocap::{Clip, JointId, Transform, UpAxis};
 
 /// The joints that define how a body is oriented. Pairs are left and right from the body's own point of view.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Landmarks {
     /// The joint whose travel is the body's travel.
-    pub hips: usize,
+    pub hips: JointId,
     /// The head, or the joint nearest to it.
-    pub head: Option<usize>,
+    pub head: Option<JointId>,
     /// Where the arms begin: the shoulders.
-    pub shoulders: Option<[usize; 2]>,
+    pub shoulders: Option<[JointId; 2]>,
     /// Where the legs begin: the hip joints.
-    pub thighs: Option<[usize; 2]>,
+    pub thighs: Option<[JointId; 2]>,
     /// The knees.
-    pub knees: Option<[usize; 2]>,
+    pub knees: Option<[JointId; 2]>,
     /// Where the feet begin, or the legs end: the ankles.
-    pub feet: Option<[usize; 2]>,
+    pub feet: Option<[JointId; 2]>,
     /// Where the toes begin.
-    pub toes: Option<[usize; 2]>,
+    pub toes: Option<[JointId; 2]>,
     /// The far ends of the feet.
     pub foot_tips: Option<[Tip; 2]>,
     /// Where the hands begin, or the arms end: the wrists.
-    pub hands: Option<[usize; 2]>,
+    pub hands: Option<[JointId; 2]>,
     /// The axis of the clip's world that points up; `None` to find it.
     pub up: Option<UpAxis>,
 }
@@ -42,7 +42,7 @@ impl Landmarks {
         let [arms, legs] =
             [Class::Arm, Class::Leg].map(|class| Side::BOTH.map(|side| anatomy.limb(class, side)));
         Self {
-            hips: anatomy.hips.unwrap_or(0),
+            hips: anatomy.hips.unwrap_or_default(),
             head: anatomy
                 .head
                 .or(anatomy.neck.last().copied())
@@ -86,15 +86,20 @@ impl Axes {
     }
 
     /// From the drawing's axes to the clip's world, by the body's axes in a pose.
-    pub(super) fn at(&self, landmarks: &Landmarks, pose: &[Transform]) -> DQuat {
+    pub(super) fn at(&self, landmarks: &Landmarks, pose: &TiSlice<JointId, Transform>) -> DQuat {
         self.at_upright(landmarks, pose, self.up)
     }
 
     /// From the drawing's axes to the axes of a pose in which another axis points up.
     ///
     /// A body's left is the mean of the lines through hips and shoulders, projected to the ground; its front is left × up.
-    pub(super) fn at_upright(&self, landmarks: &Landmarks, pose: &[Transform], up: DVec3) -> DQuat {
-        let line = |pair: Option<[usize; 2]>| {
+    pub(super) fn at_upright(
+        &self,
+        landmarks: &Landmarks,
+        pose: &TiSlice<JointId, Transform>,
+        up: DVec3,
+    ) -> DQuat {
+        let line = |pair: Option<[JointId; 2]>| {
             let [left, right] = pair?;
             (pose[left].position - pose[right].position).try_normalize()
         };

@@ -1,10 +1,11 @@
 //! Which axis of a clip's world points up.
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
 
 use super::PoseBuffer;
 use super::axes::Landmarks;
-use crate::mocap::{Clip, Transform};
+use crate::mocap::{Clip, JointId, Transform};
 
 /// A sample of the poses is enough.
 const MAX_POSES: usize = 1000;
@@ -71,7 +72,7 @@ pub(super) fn up(clip: &Clip, landmarks: &Landmarks) -> DVec3 {
 }
 
 /// The up axis of a pose: the one nearest to the direction from feet to head.
-pub(super) fn upright(pose: &[Transform], landmarks: &Landmarks) -> DVec3 {
+pub(super) fn upright(pose: &TiSlice<JointId, Transform>, landmarks: &Landmarks) -> DVec3 {
     nearest(feet_to_head(pose, landmarks))
 }
 
@@ -85,7 +86,7 @@ fn nearest(direction: DVec3) -> DVec3 {
     best
 }
 
-fn feet_to_head(pose: &[Transform], landmarks: &Landmarks) -> DVec3 {
+fn feet_to_head(pose: &TiSlice<JointId, Transform>, landmarks: &Landmarks) -> DVec3 {
     let low = match landmarks.feet {
         Some([left, right]) => (pose[left].position + pose[right].position) / 2.0,
         None => pose[landmarks.hips].position,
@@ -104,8 +105,8 @@ struct Heights {
 }
 
 impl Heights {
-    fn add(&mut self, axis: DVec3, pose: &[Transform], landmarks: &Landmarks) {
-        let height = |joint: usize| axis.dot(pose[joint].position);
+    fn add(&mut self, axis: DVec3, pose: &TiSlice<JointId, Transform>, landmarks: &Landmarks) {
+        let height = |joint: JointId| axis.dot(pose[joint].position);
         let trunk = std::iter::once(landmarks.hips).chain(landmarks.head);
         let mut lowest = trunk.map(height).fold(f64::INFINITY, f64::min);
         let limbs = [

@@ -18,9 +18,10 @@ mod swing;
 mod turns;
 
 use glam::{DQuat, DVec3};
+use typed_index_collections::TiSlice;
 
 use crate::labels::Facing;
-use crate::mocap::{Clip, Transform};
+use crate::mocap::{Clip, JointId, Pose, Transform};
 
 pub use axes::Landmarks;
 pub use matching::{
@@ -146,7 +147,7 @@ pub fn to_drawing(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> DQuat {
 struct PoseBuffer<'a> {
     clip: &'a Clip,
     frame: Option<usize>,
-    pose: Vec<Transform>,
+    pose: Pose,
 }
 
 impl<'a> PoseBuffer<'a> {
@@ -154,11 +155,11 @@ impl<'a> PoseBuffer<'a> {
         Self {
             clip,
             frame: None,
-            pose: Vec::new(),
+            pose: Pose::new(),
         }
     }
 
-    fn at(&mut self, frame: usize) -> &[Transform] {
+    fn at(&mut self, frame: usize) -> &TiSlice<JointId, Transform> {
         if self.frame != Some(frame) {
             self.clip.pose_into(frame, &mut self.pose);
             self.frame = Some(frame);

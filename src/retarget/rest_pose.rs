@@ -1,10 +1,11 @@
 //! The rest pose: the pose from which a clip's rotations are measured.
 
 use glam::{DQuat, DVec3};
+use typed_index_collections::TiSlice;
 
 use super::axes::{Axes, Landmarks};
 use super::{PoseBuffer, Rig, ground};
-use crate::mocap::{Clip, Transform};
+use crate::mocap::{Clip, JointId, Pose, Transform};
 use crate::retarget::Follow;
 
 /// In a standing pose the legs deviate from straight down by at most this, degrees.
@@ -27,7 +28,7 @@ pub enum RestSource {
 
 pub(super) struct RestPose {
     pub(super) source: RestSource,
-    pub(super) pose: Vec<Transform>,
+    pub(super) pose: Pose,
     /// From the drawing's axes to the clip's world, by the body's axes in the rest pose: Cᵣ.
     pub(super) axes: DQuat,
 }
@@ -59,8 +60,8 @@ pub(super) fn choose(
 }
 
 /// Whether a body stands upright in a pose: legs down, hips and shoulders level.
-fn stands(pose: &[Transform], landmarks: &Landmarks, up: DVec3) -> bool {
-    let way = |from: usize, to: usize| pose[to].position - pose[from].position;
+fn stands(pose: &TiSlice<JointId, Transform>, landmarks: &Landmarks, up: DVec3) -> bool {
+    let way = |from: JointId, to: JointId| pose[to].position - pose[from].position;
     let down = |leg: DVec3| {
         leg.try_normalize()
             .is_some_and(|leg| leg.dot(-up) >= LEGS.to_radians().cos())

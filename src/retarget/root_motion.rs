@@ -8,7 +8,7 @@ use super::kinematics::ForwardKinematics;
 use super::planting::{CONTACT_HEIGHT, Hold};
 use super::rotations::Rotations;
 use super::{PoseBuffer, Rig};
-use crate::mocap::Clip;
+use crate::mocap::{Clip, JointId};
 use crate::retarget::Drive;
 
 /// A foot rolls over the points of its sole that are about this high above the lowest one, in leg lengths.
@@ -217,7 +217,7 @@ pub(super) fn leg_lengths(
         0 => None,
         count => Some(lengths.iter().sum::<f64>() / count as f64).filter(|length| *length > 0.0),
     };
-    let way = |from: usize, to: usize| (pose[to].position - pose[from].position).length();
+    let way = |from: JointId, to: JointId| (pose[to].position - pose[from].position).length();
     let clip_legs = match (landmarks.thighs, landmarks.feet) {
         (Some(thighs), Some(feet)) => [0, 1].map(|side| match landmarks.knees {
             Some(knees) => way(thighs[side], knees[side]) + way(knees[side], feet[side]),

@@ -1,13 +1,14 @@
 //! The rotations of a rig's parts.
 
 use glam::{DQuat, DVec3};
+use typed_index_collections::TiSlice;
 
 use super::axes::{Axes, Landmarks};
 use super::rest_pose::RestPose;
 use super::{PoseBuffer, Rig, RigPart};
 use crate::mocap::resample::TimeMap;
 use crate::mocap::turns::{continuous, damp};
-use crate::mocap::{Clip, Transform};
+use crate::mocap::{Clip, JointId, Transform};
 use crate::retarget::{Drive, Follow};
 
 /// The rotations of parts in the drawing's axes, frame by frame.
@@ -175,7 +176,7 @@ impl Reference {
     }
 
     /// A pose as the reference, in which the body has these axes.
-    fn of(clip: &Clip, drive: &Drive, axes: DQuat, pose: &[Transform]) -> Self {
+    fn of(clip: &Clip, drive: &Drive, axes: DQuat, pose: &TiSlice<JointId, Transform>) -> Self {
         let direction = drive.direction(&clip.skeleton, pose);
         Self {
             turn: pose[drive.joint].rotation.inverse() * axes,
@@ -259,7 +260,7 @@ impl PartRotation {
 
     /// G(k) · D with G(k) = C₀ᵀ · S(k) · Rⱼ(k) · Rⱼ(r)ᵀ · Cᵣ · A; A is the identity for parts that keep the drawn pose, S for those
     /// that follow no chain.
-    fn at(&self, clip: &Clip, pose: &[Transform]) -> DQuat {
+    fn at(&self, clip: &Clip, pose: &TiSlice<JointId, Transform>) -> DQuat {
         let turn = pose[self.drive.joint].rotation * self.reference.turn;
         let now = self.drive.direction(&clip.skeleton, pose);
         let straighten = match (self.reference.direction, now) {

@@ -6,7 +6,7 @@ use crate::bind::{FollowedName, PartMark, PerformanceRequest};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::limited::{Cut, MAX_OMITTED_RUN};
 use crate::mark_tracks;
-use crate::mocap::{Skeleton, bvh};
+use crate::mocap::{JointId, Skeleton, bvh};
 use crate::performance::Finding;
 use crate::retarget::{Matching, Problem};
 use crate::source::Span;
@@ -338,7 +338,7 @@ fn match_problem(
         .span;
     let bones = bindings.attributes(part).bones();
     let span = bones.map_or(element, |bones| bindings.span_of(&bones.source));
-    let called = |joint: usize| {
+    let called = |joint: JointId| {
         let joint = skeleton.and_then(|skeleton| skeleton.joints.get(joint));
         joint.map_or_else(String::new, |joint| format!("`{}`", joint.name))
     };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::labels::{Label, Tip};
 use crate::limited::{Cut, Exposure};
 use crate::limited::{KeyTimes, Measured};
-use crate::mocap::Skeleton;
+use crate::mocap::{JointId, Skeleton};
 use crate::performance::Filmed;
 use crate::prepare::PreparedClip;
 use crate::retarget::RetargetedClip;
@@ -51,8 +51,8 @@ pub struct FigureClip {
 pub struct PartDrive {
     /// Index of the part.
     pub part: usize,
-    /// Index of the joint; `None` for a part that follows its parent.
-    pub joint: Option<usize>,
+    /// The joint; `None` for a part that follows its parent.
+    pub joint: Option<JointId>,
     /// The far end of the bone or chain that it points along; `None` for a part that turns with its joint.
     pub tip: Option<Tip>,
     /// Why, for people to read.
@@ -116,17 +116,17 @@ impl FigureClip {
     }
 
     /// The name of a joint.
-    pub fn joint_name(&self, joint: usize) -> &str {
+    pub fn joint_name(&self, joint: JointId) -> &str {
         &self.skeleton().joints[joint].name
     }
 
     /// The label of a joint; `None` for helpers, fingers and faces.
-    pub fn label(&self, joint: usize) -> Option<&Label> {
+    pub fn label(&self, joint: JointId) -> Option<&Label> {
         self.motion.anatomy.labels.get(joint)?.as_ref()
     }
 
     /// The joint that `Bone` means by a name; of several the first.
-    pub fn joint_named(&self, name: &str) -> Option<usize> {
+    pub fn joint_named(&self, name: &str) -> Option<JointId> {
         joints_named(self.skeleton(), name).first().copied()
     }
 

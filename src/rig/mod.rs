@@ -18,6 +18,10 @@ mod tracks;
 
 use std::sync::Arc;
 
+use typed_index_collections::TiVec;
+
+pub use crate::mocap::JointId;
+
 use crate::bind::{Bindings, MotionSource};
 use crate::clips::BuiltIn;
 use crate::diagnostic::Diagnostic;
@@ -25,7 +29,7 @@ use crate::geometry::{Frame, Thickness};
 use crate::memo::Memo;
 use crate::prepare::PreparedClip;
 use crate::resolver::Resolver;
-use crate::scene::{Scene, WorldTransform};
+use crate::scene::{NodeId, Scene, WorldTransform};
 use crate::svg::Drawing;
 
 use builder::{ClipBuilder, Requested};
@@ -73,7 +77,7 @@ enum Motion {
 /// children.
 pub fn add_clips(
     context: &Context<'_>,
-    nodes: impl Iterator<Item = RestNode>,
+    nodes: TiVec<NodeId, RestNode>,
     resolver: &dyn Resolver,
     memo: &Memo,
     scene: &mut Scene,
@@ -83,8 +87,7 @@ pub fn add_clips(
     if requests.is_empty() {
         return Vec::new();
     }
-    let nodes: Vec<RestNode> = nodes.collect();
-    let rest = RestNodes::new(context.frames, &nodes);
+    let rest = RestNodes::new(context.frames, &nodes.raw);
     let groups = figures::find(context.bindings);
     let mut builder = ClipBuilder {
         context,

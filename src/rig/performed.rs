@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
 
 use super::Context;
 use super::builder::MatchedFigure;
@@ -13,7 +14,7 @@ use crate::diagnostic::{Diagnostic, nearest_word};
 use crate::labels::{Facing, Tip};
 use crate::mark_tracks::{Hsv, MarkId, MarkTrack, MarkTracks, hue_difference, same_name};
 use crate::memo::{Memo, Same};
-use crate::mocap::Clip;
+use crate::mocap::{Clip, JointId, Pose};
 use crate::performance::{
     Effects, Filming, Finding, Limbs, Plan, Request, joint_steps, mark_movements, plan, ratios,
 };
@@ -224,8 +225,8 @@ impl Channels {
         let class = |part: &MatchedPart| part.label.as_ref().map(|label| label.class);
         let classes: Vec<_> = matched.matching.parts.iter().map(class).collect();
         let limbs = Limbs {
-            parents: &parents,
-            classes: &classes,
+            parents: TiSlice::from_ref(&parents),
+            classes: TiSlice::from_ref(&classes),
         };
         let channels: Vec<Vec<usize>> = self
             .marks
@@ -233,7 +234,7 @@ impl Channels {
             .map(|(_, places)| places.clone())
             .collect();
         let largest = plan.largest_inputs();
-        ratios(&limbs, &channels, &self.followers, &largest, emphasized)
+        ratios(&limbs, &channels, &self.followers, &largest, emphasized).into()
     }
 
     /// The part that the camera shows, in places of the group.
@@ -264,10 +265,10 @@ fn effects(request: &PerformanceRequest<'_>) -> Effects {
 }
 
 /// The steps of the far ends of some drives relative to the hips; of several, in each frame that of the one that moves most.
-fn drive_steps(clip: &Clip, drives: &[Drive], hips: usize) -> Vec<DVec3> {
+fn drive_steps(clip: &Clip, drives: &[Drive], hips: JointId) -> Vec<DVec3> {
     let mut paths = vec![Vec::with_capacity(clip.frames()); drives.len()];
     let mut hip_path = Vec::with_capacity(clip.frames());
-    let mut pose = Vec::new();
+    let mut pose = Pose::new();
     for frame in 0..clip.frames() {
         clip.pose_into(frame, &mut pose);
         hip_path.push(pose.get(hips).map_or(DVec3::ZERO, |hips| hips.position));

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
+use typed_index_collections::TiVec;
 
 use crate::limited::KeyTimes;
 use crate::mocap::turns::continuous;
 use crate::retarget::RetargetedClip;
-use crate::scene::{Animation, Track, Values, WorldTransform};
+use crate::scene::{Animation, NodeId, Track, Values, WorldTransform};
 
 use super::RestNode;
 
@@ -25,7 +26,7 @@ pub(super) struct Shifts<'a> {
 #[derive(Debug)]
 pub(super) struct AnimatedNodes {
     /// The first nodes of the scene, in its order.
-    pub(super) nodes: Vec<RestNode>,
+    pub(super) nodes: TiVec<NodeId, RestNode>,
     pub(super) world: WorldTransform,
 }
 
@@ -41,7 +42,7 @@ impl AnimatedNodes {
     ) -> Animation {
         let index: BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
         let mut tracks = Vec::new();
-        for (node, rest) in self.nodes.iter().enumerate() {
+        for (node, rest) in self.nodes.iter_enumerated() {
             let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames().is_empty()) else {
                 continue;
             };

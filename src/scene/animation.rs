@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
+use super::NodeId;
+
 /// A clip: nodes that turn and move in time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Animation {
@@ -27,8 +29,8 @@ impl Animation {
 /// The rotations, the translations or the weights of a node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
-    /// Index of the node.
-    pub node: usize,
+    /// The node.
+    pub node: NodeId,
     /// The times of the keys, shared by the tracks of a figure.
     pub timing: Arc<Timing>,
     /// The values at the keys.

@@ -1,8 +1,9 @@
 //! One skinned mesh instead of a mesh for each node, for engines that need that.
 
 use glam::{DQuat, DVec3, Vec3};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::{Mesh, Node, Primitive, Scene, Surface, SurfacePatch};
+use super::{MaterialId, Mesh, MeshId, Node, NodeId, Primitive, Scene, Surface, SurfacePatch};
 
 /// The largest number of joints of a skin: corners refer to them by 16 bits.
 pub const MAX_JOINTS: usize = 1 << 16;
@@ -10,10 +11,10 @@ pub const MAX_JOINTS: usize = 1 << 16;
 /// A mesh that is bound to the nodes: every node of the scene is a joint, except those of cameras.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skin {
-    /// Index of the mesh; its corners are in the world's frame, in the rest pose.
-    pub mesh: usize,
-    /// Indices of the nodes that are joints, ascending.
-    pub joints: Vec<usize>,
+    /// The mesh; its corners are in the world's frame, in the rest pose.
+    pub mesh: MeshId,
+    /// The nodes that are joints, ascending.
+    pub joints: Vec<NodeId>,
     /// Per joint its transform to the world in the rest pose.
     pub rest: Vec<RigidTransform>,
 }
@@ -113,7 +114,9 @@ impl Scene {
     /// # Errors
     /// More joints than [`MAX_JOINTS`].
     pub fn skinned(mut self) -> Result<Self, TooManyJoints> {
-        let joints: Vec<usize> = (0..self.nodes.len())
+        let joints: Vec<NodeId> = self
+            .nodes
+            .keys()
             .filter(|node| self.nodes[*node].camera.is_none())
             .collect();
         if joints.len() > MAX_JOINTS {
@@ -124,12 +127,13 @@ impl Scene {
         let to_world = rest(&self.nodes);
         let rest: Vec<RigidTransform> = joints.iter().map(|node| to_world[*node]).collect();
         let kept = below_view_dependent(&self.nodes);
-        let mut by_material: Vec<Vec<SurfacePatch>> = vec![Vec::new(); self.materials.len()];
-        for (joint, index) in joints.iter().enumerate() {
-            if kept[*index] {
+        let mut by_material: TiVec<MaterialId, Vec<SurfacePatch>> =
+            ti_vec![Vec::new(); self.materials.len()];
+        for (joint, node) in joints.iter().enumerate() {
+            if kept[*node] {
                 continue;
             }
-            let Some(mesh) = self.nodes[*index].mesh.take() else {
+            let Some(mesh) = self.nodes[*node].mesh.take() else {
                 continue;
             };
             for primitive in &self.meshes[mesh].primitives {
@@ -144,15 +148,13 @@ impl Scene {
             }
         }
         let primitives: Vec<Primitive> = by_material
-            .into_iter()
-            .enumerate()
+            .into_iter_enumerated()
             .filter(|(_, patches)| !patches.is_empty())
             .map(|(material, patches)| Primitive { patches, material })
             .collect();
         self.keep_used_meshes();
         if !primitives.is_empty() {
-            let mesh = self.meshes.len();
-            self.meshes.push(Mesh { primitives });
+            let mesh = self.meshes.push_and_get_key(Mesh { primitives });
             self.skin = Some(Skin { mesh, joints, rest });
         }
         Ok(self)
@@ -160,41 +162,41 @@ impl Scene {
 
     /// Removes the meshes that no node uses.
     fn keep_used_meshes(&mut self) {
-        let mut kept = vec![None; self.meshes.len()];
+        let mut is_used: TiVec<MeshId, bool> = ti_vec![false; self.meshes.len()];
         for mesh in self.nodes.iter().filter_map(|node| node.mesh) {
-            kept[mesh] = Some(0);
+            is_used[mesh] = true;
         }
-        let mut numbers = 0..;
-        for kept in kept.iter_mut().flatten() {
-            *kept = numbers.next().unwrap_or_default();
-        }
+        let mut kept = TiVec::with_capacity(self.meshes.len());
+        let meshes = std::mem::take(&mut self.meshes).into_iter_enumerated();
+        let numbers: TiVec<MeshId, Option<MeshId>> = meshes
+            .map(|(mesh, content)| is_used[mesh].then(|| kept.push_and_get_key(content)))
+            .collect();
+        self.meshes = kept;
         for node in &mut self.nodes {
-            node.mesh = node.mesh.and_then(|mesh| kept[mesh]);
+            node.mesh = node.mesh.and_then(|mesh| numbers[mesh]);
         }
-        let mut kept = kept.into_iter();
-        self.meshes.retain(|_| kept.next().flatten().is_some());
     }
 }
 
 /// Per node whether it or an ancestor is view-dependent; a child comes after its parent.
-fn below_view_dependent(nodes: &[Node]) -> Vec<bool> {
-    let mut found = vec![false; nodes.len()];
-    for (index, node) in nodes.iter().enumerate() {
-        found[index] |= node.view_dependent.is_some();
+fn below_view_dependent(nodes: &TiSlice<NodeId, Node>) -> TiVec<NodeId, bool> {
+    let mut found: TiVec<NodeId, bool> = ti_vec![false; nodes.len()];
+    for (id, node) in nodes.iter_enumerated() {
+        found[id] |= node.view_dependent.is_some();
         for child in &node.children {
-            found[*child] = found[index];
+            found[*child] = found[id];
         }
     }
     found
 }
 
 /// The transforms of nodes to the world; a child comes after its parent.
-fn rest(nodes: &[Node]) -> Vec<RigidTransform> {
-    let mut outer = vec![RigidTransform::IDENTITY; nodes.len()];
-    for (index, node) in nodes.iter().enumerate() {
-        outer[index] = outer[index].after(&RigidTransform::of(node));
+fn rest(nodes: &TiSlice<NodeId, Node>) -> TiVec<NodeId, RigidTransform> {
+    let mut outer: TiVec<NodeId, RigidTransform> = ti_vec![RigidTransform::IDENTITY; nodes.len()];
+    for (id, node) in nodes.iter_enumerated() {
+        outer[id] = outer[id].after(&RigidTransform::of(node));
         for child in &node.children {
-            outer[*child] = outer[index];
+            outer[*child] = outer[id];
         }
     }
     outer

@@ -6,7 +6,8 @@ use super::reading::Layer;
 use crate::bind::Bindings;
 use crate::geometry::{Frame, y_up};
 use crate::scene::{
-    Mesh, NewNode, Node, Primitive, Provenance, SurfacePatch, ViewDependent, WorldTransform,
+    MaterialId, Mesh, NewNode, Node, NodeId, Primitive, Provenance, SurfacePatch, ViewDependent,
+    WorldTransform,
 };
 use crate::svg::Drawing;
 
@@ -17,8 +18,8 @@ pub fn node(
     drawing: &Drawing,
     bindings: &Bindings,
     world: &WorldTransform,
-    parent: Option<(usize, &Frame)>,
-    material_of: impl Fn(u8) -> Option<usize>,
+    parent: Option<(NodeId, &Frame)>,
+    material_of: impl Fn(u8) -> Option<MaterialId>,
 ) -> NewNode {
     let [low, high] = layer.bounds();
     let middle = (low + high) / 2.0;
@@ -49,7 +50,7 @@ pub fn node(
 }
 
 /// The mesh of a landscape; `tile` is the side of a tile in metres.
-fn mesh(layer: &Layer, tile: f64, material_of: impl Fn(u8) -> Option<usize>) -> Option<Mesh> {
+fn mesh(layer: &Layer, tile: f64, material_of: impl Fn(u8) -> Option<MaterialId>) -> Option<Mesh> {
     let mut primitives: Vec<Primitive> = Vec::new();
     for (index, mut surfaces) in layer.landscape.surface(layer.roof, layer.bevel) {
         let Some(material) = material_of(index) else {

@@ -102,16 +102,16 @@ fn filmed() -> Option<Vec<u8>> {
         },
     ];
     for (index, projection) in projections.into_iter().enumerate() {
+        let name = format!("Camera {index}");
+        let camera = scene.cameras.push_and_get_key(Camera { name, projection });
         scene.add(NewNode {
             node: Node {
                 translation: glam::DVec3::Z * 3.0,
-                camera: Some(index),
+                camera: Some(camera),
                 ..Node::default()
             },
             ..NewNode::default()
         });
-        let name = format!("Camera {index}");
-        scene.cameras.push(Camera { name, projection });
     }
     Some(to_memory(&GLTF, &scene, None).ok()?.bytes)
 }

@@ -1,8 +1,8 @@
 //! Every motion file is read, or refused with a line; a clip that was read can be resampled, written and read again.
 
-use okoshi::mocap::Clip;
 use okoshi::mocap::bvh::{Decimals, MAX_MAGNITUDE, Reading, read_bytes, write};
 use okoshi::mocap::resample::resample;
+use okoshi::mocap::{Clip, JointId};
 use okoshi::prepare::find_lead_in;
 
 use super::files;
@@ -44,7 +44,7 @@ fn check_clip(clip: &Clip) {
     write(clip, Decimals::All, &mut written).expect("all numbers are finite");
     let again = read_bytes(&written).expect("what was written is BVH").clip;
     assert_eq!(&again, clip);
-    let arms = [[0, 1], [1, 2]];
+    let arms = [[0, 1], [1, 2]].map(|arm| arm.map(JointId::from));
     let joints = clip.skeleton.joints.len();
     let lead_in = find_lead_in(&clip.positions(), joints, clip.frame_time, &arms);
     assert!(lead_in.frames <= clip.frames());

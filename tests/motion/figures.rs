@@ -14,7 +14,7 @@ use std::{env, fs};
 use okoshi::compile::Compiled;
 use okoshi::labels::{Anatomy, Class, Limb, LimbSegment, Side, Tip, label_clip};
 use okoshi::mocap::bvh::{self, Decimals};
-use okoshi::mocap::{Clip, Skeleton};
+use okoshi::mocap::{Clip, JointId, Skeleton};
 use okoshi::resolver::MemoryResolver;
 
 use crate::common::compiled;
@@ -153,13 +153,13 @@ impl Motion {
 }
 
 /// Where the bone or chain that drives a part begins and ends; `None` for a part that follows its parent.
-type Found = Option<(usize, Option<Tip>)>;
+type Found = Option<(JointId, Option<Tip>)>;
 
 /// Whether a part is driven as chosen. Which joint of spine or neck drives a segment of it is left open, and so is where a hand or
 /// foot points.
 fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> bool {
     let joint = found.map(|(joint, _)| joint);
-    let one_of = |joints: &[usize]| match joints {
+    let one_of = |joints: &[JointId]| match joints {
         [] => joint.is_none(),
         joints => joint.is_some_and(|joint| joints.contains(&joint)),
     };
@@ -207,7 +207,7 @@ fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> boo
     }
 }
 
-fn bone(limb: &Limb, segment: LimbSegment) -> (Option<usize>, Option<usize>) {
+fn bone(limb: &Limb, segment: LimbSegment) -> (Option<JointId>, Option<JointId>) {
     match segment {
         LimbSegment::Upper => (Some(limb.upper), limb.lower),
         LimbSegment::Lower => (limb.lower, limb.end),

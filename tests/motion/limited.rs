@@ -22,6 +22,7 @@ use okoshi::motion::PointChoice;
 use okoshi::motion::edit::{self, ExposureMethod, edit};
 use okoshi::prepare;
 use plain_limited::{Plain, plain, repeats};
+use typed_index_collections::ti_vec;
 
 /// A random point of a grid with `places` places in each direction.
 fn place(random: &mut Rng, places: u64) -> DVec3 {
@@ -229,12 +230,12 @@ fn nodding(end: Vec<DVec3>, axis: Axis) -> Clip {
         channels,
         ends,
     };
-    let joints = vec![
+    let joints = ti_vec![
         joint("Hips", None, DVec3::ZERO, Vec::new(), Vec::new()),
-        joint("Spine", Some(0), DVec3::Y, Vec::new(), Vec::new()),
+        joint("Spine", Some(0.into()), DVec3::Y, Vec::new(), Vec::new()),
         joint(
             "Head",
-            Some(1),
+            Some(1.into()),
             DVec3::Y,
             vec![Channel::Rotation(axis)],
             end,

@@ -7,10 +7,10 @@ use glam::{DQuat, DVec2, DVec3};
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::disk::FolderResolver;
 use okoshi::labels::Facing;
-use okoshi::mocap::{Clip, Transform};
+use okoshi::mocap::{Clip, JointId, Pose, Transform};
 use okoshi::retarget::Landmarks;
 use okoshi::rig::FigureClip;
-use okoshi::scene::{Animation, Interpolation, Scene, Values};
+use okoshi::scene::{Animation, Interpolation, NodeId, Scene, TiVec, Values};
 
 use crate::retarget::clips::clip;
 use crate::retarget::{Body, angle};
@@ -40,8 +40,8 @@ fn compiled(text: &str) -> Compiled {
 }
 
 /// The world transforms of the nodes at a key of a clip.
-fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Transform> {
-    let mut local: Vec<Transform> = scene
+fn world(scene: &Scene, clip: &Animation, key: usize) -> TiVec<NodeId, Transform> {
+    let mut local: TiVec<NodeId, Transform> = scene
         .nodes
         .iter()
         .map(|node| Transform {
@@ -73,15 +73,15 @@ fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Transform> {
 }
 
 /// The joint of a name.
-fn joint(clip: &Clip, name: &str) -> usize {
-    let mut joints = clip.skeleton.joints.iter();
+fn joint(clip: &Clip, name: &str) -> JointId {
+    let joints = &clip.skeleton.joints;
     joints
         .position(|joint| joint.name == name)
         .unwrap_or_else(|| panic!("no joint `{name}`"))
 }
 
 /// The direction of the chain that a part follows, parsed from the reported reason.
-fn chain(clip: &Clip, pose: &[Transform], why: &str) -> Option<DVec3> {
+fn chain(clip: &Clip, pose: &Pose, why: &str) -> Option<DVec3> {
     let ways = ["it points from `", "it turns like the line from `"];
     let (_, way) = ways.iter().find_map(|way| why.split_once(way))?;
     let (from, to) = way.split_once("` to ")?;
@@ -118,16 +118,11 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
     let body = Body::of(clip, &Landmarks::of(&prepared.anatomy), facing);
     let first = clip.pose(0);
     let full = &figure_clip.full_animation();
-    let names: BTreeMap<&str, usize> = compiled
-        .scene
-        .nodes
-        .iter()
-        .enumerate()
-        .map(|(index, node)| (&*node.name, index))
-        .collect();
-    let nodes = compiled.scene.nodes.iter().enumerate();
-    let parents: BTreeMap<usize, usize> = nodes
-        .flat_map(|(index, node)| node.children.iter().map(move |child| (*child, index)))
+    let nodes = compiled.scene.nodes.iter_enumerated();
+    let names: BTreeMap<&str, NodeId> = nodes.map(|(id, node)| (&*node.name, id)).collect();
+    let nodes = compiled.scene.nodes.iter_enumerated();
+    let parents: BTreeMap<NodeId, NodeId> = nodes
+        .flat_map(|(id, node)| node.children.iter().map(move |child| (*child, id)))
         .collect();
     let rest = {
         let still = Animation::default();
@@ -309,9 +304,9 @@ fn a_key_for_each_drawing() {
 }
 
 /// The corners of all nodes' meshes, each in its node's frame.
-fn corners(scene: &Scene) -> Vec<(usize, Vec<DVec3>)> {
-    let nodes = scene.nodes.iter().enumerate();
-    let corners = nodes.filter_map(|(index, node)| {
+fn corners(scene: &Scene) -> Vec<(NodeId, Vec<DVec3>)> {
+    let nodes = scene.nodes.iter_enumerated();
+    let corners = nodes.filter_map(|(id, node)| {
         let patches = scene.meshes[node.mesh?].primitives.iter();
         let patches = patches.flat_map(|primitive| &primitive.patches);
         let corners = patches.flat_map(|patch| {
@@ -320,7 +315,7 @@ fn corners(scene: &Scene) -> Vec<(usize, Vec<DVec3>)> {
             let corners = corners.map(|corner| DVec3::from(corner.map(f64::from)));
             corners.collect::<Vec<DVec3>>()
         });
-        Some((index, corners.collect()))
+        Some((id, corners.collect()))
     });
     corners.collect()
 }
@@ -332,7 +327,7 @@ fn nothing_sinks_into_the_ground() {
     for (name, _) in DRAWINGS {
         let compiled = compiled(&text(name));
         let corners = corners(&compiled.scene);
-        let extent = |nodes: &[Transform]| {
+        let extent = |nodes: &TiVec<NodeId, Transform>| {
             let heights = corners.iter().flat_map(|(node, corners)| {
                 let placed = nodes[*node];
                 let height = move |corner: &DVec3| (placed.rotation * *corner + placed.position).y;

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::performance::Filming;
 use okoshi::resolver::MemoryResolver;
-use okoshi::scene::{CameraProjection, Interpolation, Scene, Track, Values};
+use okoshi::scene::{CameraProjection, Interpolation, NodeId, Scene, Track, Values};
 
 const DRAWING: &str = include_str!("../cases/perform-plays/drawing.svg");
 const BOXING: &[u8] = include_bytes!("../../examples/motion/boxing.bvh");
@@ -82,7 +82,7 @@ fn between(track: &Track, time: f64) -> (usize, usize, f64) {
 }
 
 /// A node's transform in the world at a time of a clip.
-fn placed(scene: &Scene, clip: &str, node: usize, time: f64) -> (DQuat, DVec3) {
+fn placed(scene: &Scene, clip: &str, node: NodeId, time: f64) -> (DQuat, DVec3) {
     let own = &scene.nodes[node];
     let mut local = (own.rotation, own.translation);
     if let Some(track) = track(scene, clip, &own.name, true)
@@ -97,11 +97,7 @@ fn placed(scene: &Scene, clip: &str, node: usize, time: f64) -> (DQuat, DVec3) {
         let (from, to, t) = between(track, time);
         local.1 = values[from].lerp(values[to], t);
     }
-    match scene
-        .nodes
-        .iter()
-        .position(|other| other.children.contains(&node))
-    {
+    match scene.nodes.position(|other| other.children.contains(&node)) {
         Some(parent) => {
             let (turn, place) = placed(scene, clip, parent, time);
             (turn * local.0, place + turn * local.1)
@@ -111,7 +107,7 @@ fn placed(scene: &Scene, clip: &str, node: usize, time: f64) -> (DQuat, DVec3) {
 }
 
 /// The far end of a part in its node: the middle of its farthest points along +Y.
-fn far_end(scene: &Scene, node: usize) -> DVec3 {
+fn far_end(scene: &Scene, node: NodeId) -> DVec3 {
     let mesh = &scene.meshes[scene.nodes[node].mesh.expect("a solid")];
     let points = mesh
         .primitives
@@ -239,7 +235,6 @@ fn the_camera_keeps_the_joint_in_the_middle() {
         let scene = &compiled.scene;
         let camera = scene
             .nodes
-            .iter()
             .position(|node| node.camera.is_some())
             .expect("a camera");
         assert_eq!(scene.nodes[camera].name, format!("{name} camera"));
@@ -247,14 +242,13 @@ fn the_camera_keeps_the_joint_in_the_middle() {
             vertical_field_of_view,
             near,
             ..
-        } = scene.cameras[0].projection
+        } = scene.cameras.raw[0].projection
         else {
             panic!("a perspective camera");
         };
         let half = (vertical_field_of_view / 2.0).tan();
         let arm = scene
             .nodes
-            .iter()
             .position(|node| node.name == "Rarm")
             .expect("an arm");
         let tip = far_end(scene, arm);
@@ -338,14 +332,12 @@ fn the_character_moves_in_place_of_the_camera() {
         let arm = moved
             .scene
             .nodes
-            .iter()
             .position(|node| node.name == "Rarm")
             .expect("an arm");
         let tip = far_end(&moved.scene, arm);
         let camera = filmed
             .scene
             .nodes
-            .iter()
             .position(|node| node.camera.is_some())
             .expect("a camera");
         // The way from the camera to the joint changes as it does for a camera that moves.

@@ -10,7 +10,7 @@ mod walks;
 
 use glam::{DQuat, DVec3};
 use okoshi::labels::{Facing, Tip};
-use okoshi::mocap::{Clip, Transform};
+use okoshi::mocap::{Clip, JointId, Pose, Transform};
 use okoshi::retarget::{Drive, Follow};
 use okoshi::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
 
@@ -50,8 +50,8 @@ impl Body {
     }
 
     /// The left and the front of the body in a pose, horizontal, in the clip's world.
-    fn left_and_front(&self, pose: &[Transform]) -> [DVec3; 2] {
-        let line = |pair: Option<[usize; 2]>| {
+    fn left_and_front(&self, pose: &Pose) -> [DVec3; 2] {
+        let line = |pair: Option<[JointId; 2]>| {
             let [left, right] = pair.expect("hips and shoulders");
             (pose[left].position - pose[right].position).normalize()
         };
@@ -61,7 +61,7 @@ impl Body {
     }
 
     /// A direction of the clip's world in the axes of a drawing of the body in a pose.
-    pub(crate) fn drawn(&self, pose: &[Transform], way: DVec3) -> DVec3 {
+    pub(crate) fn drawn(&self, pose: &Pose, way: DVec3) -> DVec3 {
         let [left, front] = self.left_and_front(pose).map(|axis| axis.dot(way));
         let up = self.up.dot(way);
         match self.facing {
@@ -73,28 +73,28 @@ impl Body {
     }
 
     /// The mean of a direction over all frames, in the axes of a drawing of the body.
-    pub(crate) fn mean(&self, clip: &Clip, way: impl Fn(&[Transform]) -> Option<DVec3>) -> DVec3 {
+    pub(crate) fn mean(&self, clip: &Clip, way: impl Fn(&Pose) -> Option<DVec3>) -> DVec3 {
         let poses = (0..clip.frames()).map(|frame| clip.pose(frame));
         let ways = poses.filter_map(|pose| Some(self.drawn(&pose, way(&pose)?.normalize())));
         ways.sum::<DVec3>().normalize()
     }
 
     /// The same as a rotation.
-    fn turn(&self, pose: &[Transform]) -> DQuat {
+    fn turn(&self, pose: &Pose) -> DQuat {
         let columns = DVec3::AXES.map(|axis| self.drawn(pose, axis));
         DQuat::from_mat3(&glam::DMat3::from_cols(columns[0], columns[1], columns[2]))
     }
 }
 
 /// From feet to head.
-fn rise(landmarks: &Landmarks, pose: &[Transform]) -> DVec3 {
+fn rise(landmarks: &Landmarks, pose: &Pose) -> DVec3 {
     let [left, right] = landmarks.feet.expect("feet");
     let head = landmarks.head.expect("a head");
     pose[head].position - (pose[left].position + pose[right].position) / 2.0
 }
 
 /// The far end of a chain.
-fn end(clip: &Clip, pose: &[Transform], tip: Tip) -> DVec3 {
+fn end(clip: &Clip, pose: &Pose, tip: Tip) -> DVec3 {
     match tip {
         Tip::Joint(joint) => pose[joint].position,
         Tip::End { joint, end } => {
@@ -105,7 +105,7 @@ fn end(clip: &Clip, pose: &[Transform], tip: Tip) -> DVec3 {
 }
 
 /// The direction of a drive's chain in a pose, in the clip's world; `None` if it has no length.
-fn direction(clip: &Clip, pose: &[Transform], drive: &Drive) -> Option<DVec3> {
+fn direction(clip: &Clip, pose: &Pose, drive: &Drive) -> Option<DVec3> {
     (end(clip, pose, drive.tip?) - pose[drive.joint].position).try_normalize()
 }
 
@@ -221,7 +221,7 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
                 }
                 (Follow::Direction, None) => worst.checked -= 1,
                 (Follow::Trunk { hips, shoulders }, _) => {
-                    let lean = |pose: &[Transform]| {
+                    let lean = |pose: &Pose| {
                         let joints = [hips, shoulders[0], shoulders[1]];
                         let [hips, left, right] = joints.map(|joint| pose[joint].position);
                         (left + right) / 2.0 - hips

@@ -16,16 +16,18 @@ use rustc_hash::FxHashMap;
 use serde::Serialize;
 use serde_json::json;
 use serde_json::value::to_raw_value;
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::buffer::Kind;
 use super::json::Json;
 use super::primitives::Packed;
 use super::{ROOT, SKINNED, VIEW_DEPENDENT, animations, cameras, materials};
-use crate::scene::{self, Scene, Turn, ViewDependent};
+use crate::scene::{self, CameraId, MaterialId, MeshId, NodeId, Scene, Turn, ViewDependent};
 
 /// The JSON up to the buffers, without the closing brace.
 pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
     let root_node = scene.nodes.len();
+    let root_id = scene.nodes.next_key();
     let skin = packed.bind_matrices.and(scene.skin.as_ref());
     let mut root = Root {
         asset: Asset {
@@ -58,22 +60,24 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
         }));
     let mut json = Json::new(&root)?;
 
-    let first_primitives = starts(scene.meshes.iter().map(|mesh| mesh.primitives.len()));
-    let primitives = |mesh: usize| {
+    let first_primitives: TiVec<MeshId, usize> =
+        starts(scene.meshes.iter().map(|mesh| mesh.primitives.len()));
+    let primitives = |mesh: MeshId| {
         let first = first_primitives[mesh];
         &packed.primitives[first..first + scene.meshes[mesh].primitives.len()]
     };
-    let written = |mesh: usize| !primitives(mesh).iter().all(Range::is_empty);
-    let meshes = starts((0..scene.meshes.len()).map(|mesh| usize::from(written(mesh))));
-    let mesh_index = |mesh: usize| written(mesh).then(|| index(meshes[mesh]));
+    let written = |mesh: MeshId| !primitives(mesh).iter().all(Range::is_empty);
+    let meshes: TiVec<MeshId, usize> =
+        starts(scene.meshes.keys().map(|mesh| usize::from(written(mesh))));
+    let mesh_index = |mesh: MeshId| written(mesh).then(|| index(meshes[mesh]));
     let nodes = root_node + 1 + usize::from(skin.is_some());
-    json.list("nodes", nodes, |number| {
-        Some(match (scene.nodes.get(number), skin) {
+    json.list("nodes", nodes, |id: NodeId| {
+        Some(match (scene.nodes.get(id), skin) {
             (Some(node), _) => JsonNode {
                 mesh: node.mesh.and_then(mesh_index),
                 ..json_node(node)
             },
-            (None, Some(skin)) if number > root_node => JsonNode {
+            (None, Some(skin)) if id > root_id => JsonNode {
                 name: name(SKINNED),
                 mesh: mesh_index(skin.mesh),
                 skin: Some(Index::new(0)),
@@ -88,14 +92,14 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
     })?;
 
     // A mesh is named after the first node that shows it.
-    let mut names = vec![""; scene.meshes.len()];
+    let mut names: TiVec<MeshId, &str> = ti_vec![""; scene.meshes.len()];
     for node in scene.nodes.iter().rev() {
         if let Some(mesh) = node.mesh {
             names[mesh] = &node.name;
         }
     }
     let targets = target_names(scene);
-    json.list("meshes", scene.meshes.len(), |mesh| {
+    json.list("meshes", scene.meshes.len(), |mesh: MeshId| {
         let primitives = scene.meshes[mesh].primitives.iter().zip(primitives(mesh));
         let primitives = primitives.filter(|(_, accessors)| !accessors.is_empty());
         let primitives: Vec<_> = primitives
@@ -111,23 +115,23 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
                 .and_then(|target_names| to_raw_value(&TargetNames { target_names }).ok()),
         })
     })?;
-    json.list("cameras", scene.cameras.len(), |number| {
-        Some(cameras::camera(&scene.cameras[number]))
+    json.list("cameras", scene.cameras.len(), |id: CameraId| {
+        Some(cameras::camera(&scene.cameras[id]))
     })?;
-    json.list("materials", scene.materials.len(), |number| {
-        Some(materials::material(&scene.materials[number]))
+    json.list("materials", scene.materials.len(), |id: MaterialId| {
+        Some(materials::material(&scene.materials[id]))
     })?;
-    let first_tracks = starts(scene.animations.iter().map(|a| a.tracks.len()));
-    json.list("animations", scene.animations.len(), |number| {
+    let first_tracks: Vec<usize> = starts(scene.animations.iter().map(|a| a.tracks.len()));
+    json.list("animations", scene.animations.len(), |number: usize| {
         let animation = &scene.animations[number];
         let accessors = &packed.tracks[first_tracks[number]..];
         (!animation.tracks.is_empty()).then(|| animations::animation(animation, accessors))
     })?;
     let layout = &packed.layout;
-    json.list("accessors", layout.accessors.len(), |number| {
+    json.list("accessors", layout.accessors.len(), |number: usize| {
         Some(JsonAccessor::from(&layout.accessors[number]))
     })?;
-    json.list("bufferViews", layout.views.len(), |number| {
+    json.list("bufferViews", layout.views.len(), |number: usize| {
         Some(JsonView::from(&layout.views[number]))
     })?;
     Ok(json)
@@ -158,7 +162,7 @@ fn extensions(scene: &Scene) -> Vec<String> {
 }
 
 /// The index of the first element of each group, for groups that follow one another.
-fn starts(counts: impl Iterator<Item = usize>) -> Vec<usize> {
+fn starts<List: FromIterator<usize>>(counts: impl Iterator<Item = usize>) -> List {
     let start = |next: &mut usize, count| {
         *next += count;
         Some(*next - count)
@@ -226,7 +230,7 @@ struct TargetNames<'a> {
 }
 
 /// The names of the morph targets of the regions of characters, by mesh: the views that they belong to.
-fn target_names(scene: &Scene) -> FxHashMap<usize, Vec<String>> {
+fn target_names(scene: &Scene) -> FxHashMap<MeshId, Vec<String>> {
     let mut names = FxHashMap::default();
     for node in &scene.nodes {
         let Some(ViewDependent::Turn(turn)) = &node.view_dependent else {
@@ -291,8 +295,8 @@ fn json_primitive(
 }
 
 /// The index of an item. A file that fits its format has fewer than 2³² items of each kind.
-pub(super) fn index<T>(number: usize) -> Index<T> {
-    Index::new(number as u32)
+pub(super) fn index<T>(number: impl Into<usize>) -> Index<T> {
+    Index::new(number.into() as u32)
 }
 
 /// A name, unless it is empty.
@@ -300,6 +304,6 @@ pub(super) fn name(name: &str) -> Option<String> {
     (!name.is_empty()).then(|| name.to_owned())
 }
 
-fn children<T>(nodes: &[usize]) -> Option<Vec<Index<T>>> {
+fn children<T>(nodes: &[NodeId]) -> Option<Vec<Index<T>>> {
     (!nodes.is_empty()).then(|| nodes.iter().copied().map(index).collect())
 }

@@ -24,15 +24,15 @@ impl Json {
     }
 
     /// Appends a list of those of `count` elements that exist, unless there are none: glTF has no empty arrays.
-    pub(super) fn list<T: Serialize>(
+    pub(super) fn list<Id: From<usize>, T: Serialize>(
         &mut self,
         name: &str,
         count: usize,
-        element: impl Fn(usize) -> Option<T> + Sync,
+        element: impl Fn(Id) -> Option<T> + Sync,
     ) -> io::Result<()> {
         let chunk = |start: usize| {
             let mut text = Vec::new();
-            for element in (start..count.min(start + CHUNK)).filter_map(&element) {
+            for element in (start..count.min(start + CHUNK)).filter_map(|id| element(id.into())) {
                 text.push(b',');
                 write_value(&mut text, &element)?;
             }

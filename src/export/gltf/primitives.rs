@@ -10,6 +10,7 @@ use std::ops::Range;
 use glam::DMat4;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::animations;
 use super::buffer::{Accessor, BufferWriter, Kind, Layout, Sink, floats};
@@ -17,7 +18,7 @@ use super::{Written, invalid};
 use crate::export::check;
 use crate::export::surfaces::with_surface;
 use crate::memo::Memo;
-use crate::scene::{Image, MediaType, Mesh, Primitive, RigidTransform, Scene, Surface};
+use crate::scene::{Image, ImageId, MediaType, Mesh, Primitive, RigidTransform, Scene, Surface};
 
 /// Primitives in a window.
 const WINDOW: usize = 512;
@@ -27,8 +28,8 @@ const BATCH: usize = 32;
 /// An image that was packed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StoredImage {
-    /// Its index in the scene: the first of those that are equal.
-    pub(super) image: usize,
+    /// The image of the scene: the first of those that are equal.
+    pub(super) image: ImageId,
     /// Index of the view that holds its bytes.
     pub(super) view: usize,
 }
@@ -46,7 +47,7 @@ pub(super) struct Packed {
     /// The images, equal ones once.
     pub(super) images: Vec<StoredImage>,
     /// Per image of the scene its index in `images`.
-    pub(super) image_numbers: Vec<usize>,
+    pub(super) image_numbers: TiVec<ImageId, usize>,
 }
 
 /// Data of a batch of primitives, a buffer for each of [`Kind::OF_PRIMITIVES`].
@@ -100,9 +101,13 @@ impl Packed {
     }
 
     /// Writes the images behind the surfaces, equal ones once.
-    fn write_images(&mut self, images: &[Image], out: &mut BufferWriter<'_>) -> io::Result<()> {
+    fn write_images(
+        &mut self,
+        images: &TiSlice<ImageId, Image>,
+        out: &mut BufferWriter<'_>,
+    ) -> io::Result<()> {
         let mut known: FxHashMap<(MediaType, &[u8]), usize> = FxHashMap::default();
-        for (index, image) in images.iter().enumerate() {
+        for (id, image) in images.iter_enumerated() {
             let next = self.images.len();
             let number = *known
                 .entry((image.media_type, &image.bytes))
@@ -112,7 +117,7 @@ impl Packed {
                 continue;
             }
             let view = out.view(None);
-            self.images.push(StoredImage { image: index, view });
+            self.images.push(StoredImage { image: id, view });
             out.write(&image.bytes)?;
             out.pad()?;
         }

@@ -3,12 +3,13 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use serde_json::json;
+use typed_index_collections::ti_vec;
 
 use super::*;
 use crate::export::{self, SeekableOutput};
 use crate::scene::{
-    AlphaMode, Filter, Image, Material, MediaType, Mesh, Node, Primitive, Provenance, Surface,
-    SurfacePatch, Texture, TextureUse, ViewDependent, Wrap,
+    AlphaMode, Filter, Image, Material, MediaType, Mesh, Node, NodeId, Primitive, Provenance,
+    Surface, SurfacePatch, Texture, TextureUse, ViewDependent, Wrap,
 };
 
 mod animated;
@@ -30,13 +31,13 @@ fn bytes(scene: &Scene, exporter: &dyn Exporter) -> Vec<u8> {
 fn primitive(surface: Surface, material: usize) -> Primitive {
     Primitive {
         patches: vec![surface.into()],
-        material,
+        material: material.into(),
     }
 }
 
 /// The surface of a primitive, to be made invalid.
 fn first_surface(scene: &mut Scene) -> &mut Surface {
-    match &mut scene.meshes[0].primitives[0].patches[0] {
+    match &mut scene.meshes.raw[0].primitives[0].patches[0] {
         SurfacePatch::Surface(surface) => surface,
         _ => panic!("these scenes have surfaces only"),
     }
@@ -106,16 +107,16 @@ fn strip(corners: u32) -> Surface {
 
 fn single(surface: Surface) -> Scene {
     Scene {
-        nodes: vec![Node {
+        nodes: ti_vec![Node {
             name: "Part".to_owned(),
-            mesh: Some(0),
+            mesh: Some(0.into()),
             ..Node::default()
         }],
-        roots: vec![0],
-        meshes: vec![Mesh {
+        roots: vec![0.into()],
+        meshes: ti_vec![Mesh {
             primitives: vec![primitive(surface, 0)],
         }],
-        materials: vec![material(1.0)],
+        materials: ti_vec![material(1.0)],
         ..Scene::default()
     }
 }
@@ -128,14 +129,15 @@ fn assert_round_trip(scene: &Scene, exporter: &dyn Exporter) {
     assert_eq!(nodes.len(), scene.nodes.len() + 1);
     let root = document.default_scene().unwrap().nodes().next().unwrap();
     assert_eq!((root.name(), root.index()), (Some(ROOT), scene.nodes.len()));
-    let children = |node: &gltf::Node| node.children().map(|child| child.index()).collect();
-    let roots: Vec<usize> = children(&root);
+    let children = |node: &gltf::Node| -> Vec<NodeId> {
+        node.children().map(|child| child.index().into()).collect()
+    };
+    let roots = children(&root);
     assert_eq!(roots, scene.roots);
 
     for (node, read) in scene.nodes.iter().zip(&nodes) {
         assert_eq!(read.name(), (!node.name.is_empty()).then_some(&*node.name));
-        let read_children: Vec<usize> = children(read);
-        assert_eq!(read_children, node.children);
+        assert_eq!(children(read), node.children);
         let (translation, rotation, scale) = read.transform().decomposed();
         assert_eq!(translation, node.translation.as_vec3().to_array());
         assert_eq!(rotation, node.rotation.as_quat().to_array());
@@ -174,7 +176,7 @@ fn assert_primitive(part: &Primitive, read: &gltf::Primitive, buffers: &[Vec<u8>
         .into_u32()
         .collect::<Vec<_>>();
     assert_eq!(indices, surface.triangles.as_flattened());
-    assert_eq!(read.material().index(), Some(part.material));
+    assert_eq!(read.material().index(), Some(part.material.into()));
 
     // What was written as decimals is exactly the least and the greatest `f32`.
     let mut min = [f32::INFINITY; 3];
@@ -204,8 +206,8 @@ fn an_empty_scene_has_a_root_and_no_empty_arrays() {
 #[test]
 fn a_part_is_written_as_documented() {
     let mut scene = single(strip(3));
-    scene.nodes[0].translation = DVec3::new(0.1, -2.0, 0.0);
-    scene.nodes[0].provenance = Some(Provenance {
+    scene.nodes.raw[0].translation = DVec3::new(0.1, -2.0, 0.0);
+    scene.nodes.raw[0].provenance = Some(Provenance {
         element: Some("path12".to_owned()),
         string: Some("腕@体$\n\"x\"".to_owned()),
     });
@@ -244,7 +246,7 @@ fn a_part_is_written_as_documented() {
 #[test]
 fn see_through_paint_is_blended() {
     let mut scene = single(strip(3));
-    scene.materials[0] = material(0.5);
+    scene.materials.raw[0] = material(0.5);
     let json = json(&bytes(&scene, &GLB));
     assert_eq!(json["materials"][0]["alphaMode"], "BLEND");
     assert_eq!(json["materials"][0]["doubleSided"], true);
@@ -285,11 +287,10 @@ fn kinds_of_data_share_a_view_each() {
     for corners in [300, 4, 70_000, 9] {
         let mut surface = strip(corners);
         surface.uvs = vec![[0.25, 1.0]; corners as usize];
-        let material = scene.materials.len();
-        scene.materials.push(self::material(0.5));
-        scene.meshes[0]
+        let material = scene.materials.push_and_get_key(self::material(0.5));
+        scene.meshes.raw[0]
             .primitives
-            .push(primitive(surface, material));
+            .push(primitive(surface, material.into()));
     }
     let (document, _) = read(&bytes(&scene, &GLB));
     assert_eq!(document.views().count(), 6);
@@ -309,10 +310,10 @@ fn parts_without_triangles_have_no_mesh() {
     let mut scene = single(strip(2));
     scene.nodes.push(Node {
         name: "Other".to_owned(),
-        mesh: Some(1),
+        mesh: Some(1.into()),
         ..Node::default()
     });
-    scene.roots.push(1);
+    scene.roots.push(1.into());
     scene.meshes.push(Mesh {
         primitives: vec![primitive(strip(4), 0)],
     });
@@ -326,16 +327,16 @@ fn a_broken_scene_is_refused_before_a_byte_is_written() {
     let break_it: [fn(&mut Scene); 12] = [
         |scene| first_surface(scene).positions[1][2] = f32::NAN,
         |scene| first_surface(scene).triangles[0][1] = 3,
-        |scene| scene.meshes[0].primitives[0].material = 1,
-        |scene| scene.nodes[0].translation.x = f64::INFINITY,
-        |scene| scene.nodes[0].children.push(0),
-        |scene| scene.nodes[0].mesh = Some(1),
-        |scene| scene.materials[0].roughness = f32::NAN,
-        |scene| scene.textures[1].image = 4,
-        |scene| scene.materials[0].normal_texture = Some(TextureUse::new(5)),
-        |scene| scene.materials[0].base_color_texture = Some(TextureUse::new(0)),
-        |scene| scene.materials[0].alpha_mode = AlphaMode::Mask { cutoff: f32::NAN },
-        |scene| scene.images[0].media_type = MediaType::Jpeg,
+        |scene| scene.meshes.raw[0].primitives[0].material = 1.into(),
+        |scene| scene.nodes.raw[0].translation.x = f64::INFINITY,
+        |scene| scene.nodes.raw[0].children.push(0.into()),
+        |scene| scene.nodes.raw[0].mesh = Some(1.into()),
+        |scene| scene.materials.raw[0].roughness = f32::NAN,
+        |scene| scene.textures.raw[1].image = 4.into(),
+        |scene| scene.materials.raw[0].normal_texture = Some(TextureUse::new(5.into())),
+        |scene| scene.materials.raw[0].base_color_texture = Some(TextureUse::new(0.into())),
+        |scene| scene.materials.raw[0].alpha_mode = AlphaMode::Mask { cutoff: f32::NAN },
+        |scene| scene.images.raw[0].media_type = MediaType::Jpeg,
     ];
     for break_it in break_it {
         let mut scene = single(strip(3));
@@ -355,15 +356,15 @@ fn a_broken_scene_is_refused_before_a_byte_is_written() {
 fn a_large_model_is_written_in_windows() {
     let count = 40_000;
     let mut scene = single(strip(120));
-    let node = scene.nodes[0].clone();
-    let mesh = scene.meshes[0].clone();
+    let node = scene.nodes.raw[0].clone();
+    let mesh = scene.meshes.raw[0].clone();
     for index in 1..count {
         scene.nodes.push(Node {
             name: format!("Part{index}"),
-            mesh: Some(index),
+            mesh: Some(index.into()),
             ..node.clone()
         });
-        scene.roots.push(index);
+        scene.roots.push(index.into());
         scene.meshes.push(mesh.clone());
     }
     let bytes = bytes(&scene, &GLB);
@@ -393,7 +394,7 @@ fn long_numbers_and_names_are_written_without_gaps() {
     let node = |part: usize| Node {
         name: "\u{1}\"\\".repeat(60),
         children: if part + 1 < PARTS {
-            vec![part + 1]
+            vec![(part + 1).into()]
         } else {
             vec![]
         },
@@ -404,7 +405,7 @@ fn long_numbers_and_names_are_written_without_gaps() {
             longest.into(),
             longest.into(),
         ),
-        mesh: Some(part),
+        mesh: Some(part.into()),
         camera: None,
         view_dependent: Some(ViewDependent::Bend),
         provenance: Some(Provenance {
@@ -414,13 +415,13 @@ fn long_numbers_and_names_are_written_without_gaps() {
     };
     let scene = Scene {
         nodes: (0..PARTS).map(node).collect(),
-        roots: vec![0],
+        roots: vec![0.into()],
         meshes: (0..PARTS)
             .map(|_| Mesh {
                 primitives: vec![primitive(surface.clone(), 0); 2],
             })
             .collect(),
-        materials: vec![material(1.0)],
+        materials: ti_vec![material(1.0)],
         ..Scene::default()
     };
     let bytes = bytes(&scene, &GLB);
@@ -484,19 +485,19 @@ fn any_scene() -> impl Strategy<Value = Scene> {
     let surfaces = prop::collection::vec(prop::collection::vec(any_surface(), 0..3), 1..6);
     (prop::collection::vec(node, 1..6), surfaces).prop_map(|(nodes, meshes)| {
         let mut scene = Scene {
-            materials: vec![material(1.0), material(0.5), material(0.0)],
+            materials: ti_vec![material(1.0), material(0.5), material(0.0)],
             ..Scene::default()
         };
         for (index, (name, parent, [x, y, angle])) in nodes.into_iter().enumerate() {
             match (parent as usize % (index + 1)).checked_sub(1) {
-                Some(parent) => scene.nodes[parent].children.push(index),
-                None => scene.roots.push(index),
+                Some(parent) => scene.nodes.raw[parent].children.push(index.into()),
+                None => scene.roots.push(index.into()),
             }
             scene.nodes.push(Node {
                 name,
                 translation: DVec3::new(x, y, 0.0),
                 rotation: DQuat::from_rotation_z(angle),
-                mesh: (index < meshes.len()).then_some(index),
+                mesh: (index < meshes.len()).then(|| index.into()),
                 ..Node::default()
             });
         }

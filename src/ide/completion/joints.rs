@@ -1,9 +1,11 @@
 //! The joints that `Bone` can name.
 
+use typed_index_collections::ti_vec;
+
 use super::{Cursor, Proposal, ProposalKind, own_name_of, simple};
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
-use crate::rig::FigureClip;
+use crate::rig::{FigureClip, JointId};
 
 impl Cursor<'_> {
     /// The joints of the drawing's motions, those of the part's figure first; as the second argument only descendants of the first
@@ -30,14 +32,14 @@ impl Cursor<'_> {
             }
             skeletons.push(clip.skeleton());
             let below = match first {
-                None => vec![true; clip.skeleton().joints.len()],
+                None => ti_vec![true; clip.skeleton().joints.len()],
                 Some(name) => match clip.joint_named(name) {
                     Some(joint) => clip.skeleton().descendants(joint),
                     None => continue,
                 },
             };
-            let joints = (0..below.len()).filter(|joint| below[*joint]);
-            let (known, others): (Vec<usize>, Vec<usize>) =
+            let joints = below.keys().filter(|joint| below[*joint]);
+            let (known, others): (Vec<JointId>, Vec<JointId>) =
                 joints.partition(|joint| clip.label(*joint).is_some());
             proposals.extend(
                 known
@@ -49,7 +51,7 @@ impl Cursor<'_> {
         proposals
     }
 
-    fn joint(&self, clip: &FigureClip, joint: usize) -> Option<Proposal> {
+    fn joint(&self, clip: &FigureClip, joint: JointId) -> Option<Proposal> {
         let name = clip.joint_name(joint);
         // A name in a string cannot contain quotes or line breaks.
         if name.is_empty() || name.contains(['"', '＂']) || name.contains(char::is_control) {

@@ -79,7 +79,7 @@ fn error_of(file: &Value) -> String {
 fn at(file: &Value, node: usize, time: f64) -> (DVec3, DQuat, DVec3) {
     let (file, clips) = opened(file).unwrap();
     let pose = clips[0].pose_at(&file.geometry.rest(), time);
-    pose.locals[node].to_scale_rotation_translation()
+    pose.locals[NodeId::from(node)].to_scale_rotation_translation()
 }
 
 #[track_caller]
@@ -177,7 +177,10 @@ fn a_matrix_is_decomposed_only_for_animated_nodes() {
     assert!(turn.angle_between(quarter) < 1e-6);
     let (opened, clips) = opened(&file).unwrap();
     let rest = opened.geometry.rest();
-    assert_eq!(clips[0].pose_at(&rest, 0.0).locals[0], rest.locals[0]);
+    assert_eq!(
+        clips[0].pose_at(&rest, 0.0).locals.first(),
+        rest.locals.first()
+    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::{limbs, skeleton};
 use crate::labels::{Anatomy, label_skeleton};
-use crate::mocap::Skeleton;
+use crate::mocap::{JointId, Skeleton};
 
 /// Limbs as `left upper, lower, end; right …` arms first, and hips, chest, neck and head.
 pub(super) fn check(names: &str, arms_and_legs: &str, trunk: [&str; 4]) -> (Skeleton, Anatomy) {
@@ -14,7 +14,7 @@ pub(super) fn check(names: &str, arms_and_legs: &str, trunk: [&str; 4]) -> (Skel
         .collect();
     assert_eq!(limbs(&skeleton, &anatomy), expected, "limbs of {names}");
     let name =
-        |joint: Option<usize>| joint.map_or("", |joint| skeleton.joints[joint].name.as_str());
+        |joint: Option<JointId>| joint.map_or("", |joint| skeleton.joints[joint].name.as_str());
     let found = [
         name(anatomy.hips),
         name(anatomy.chest()),
@@ -139,7 +139,6 @@ Hips
     assert_eq!(anatomy.neck.len(), 2);
     let thumb = skeleton
         .joints
-        .iter()
         .position(|joint| joint.name == "LThumb")
         .unwrap();
     assert_eq!(anatomy.labels[thumb], None);

@@ -1,13 +1,15 @@
 //! Skeletons of real files: by their names, and with the names taken away.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::limbs;
 use crate::labels::{Anatomy, Class, Limb, Side, Tip, label_clip, label_skeleton};
 use crate::mocap::bvh;
-use crate::mocap::{Axis, Channel, Clip, Joint, Skeleton};
+use crate::mocap::{Axis, Channel, Clip, Joint, JointId, Skeleton};
 
 const FILES: [(&str, &[u8], [&str; 4]); 4] = [
     (
@@ -61,7 +63,7 @@ fn clips() -> Vec<(&'static str, Clip)> {
 }
 
 /// Upper, lower and end joint per limb, hips, chest and head.
-fn bones(anatomy: &Anatomy) -> (Vec<[Option<usize>; 3]>, [Option<usize>; 3]) {
+fn bones(anatomy: &Anatomy) -> (Vec<[Option<JointId>; 3]>, [Option<JointId>; 3]) {
     let limbs = [Class::Arm, Class::Leg]
         .into_iter()
         .flat_map(|class| Side::BOTH.map(|side| anatomy.limb(class, side)))
@@ -136,11 +138,12 @@ fn by_shape_alone() {
 }
 
 /// A clip whose siblings stand in another order, and per joint its place in the other.
-fn shuffled(clip: &Clip, seed: u64) -> (Clip, Vec<usize>) {
+fn shuffled(clip: &Clip, seed: u64) -> (Clip, TiVec<JointId, JointId>) {
     let children = clip.skeleton.children();
     let mut random = fastrand::Rng::with_seed(seed);
     let mut order = Vec::new();
-    let mut open: Vec<usize> = (0..clip.skeleton.joints.len())
+    let joints = clip.skeleton.joints.keys();
+    let mut open: Vec<JointId> = joints
         .filter(|joint| clip.skeleton.joints[*joint].parent.is_none())
         .collect();
     while !open.is_empty() {
@@ -148,9 +151,9 @@ fn shuffled(clip: &Clip, seed: u64) -> (Clip, Vec<usize>) {
         order.push(joint);
         open.extend(&children[joint]);
     }
-    let mut places = vec![0; order.len()];
+    let mut places: TiVec<JointId, JointId> = ti_vec![0.into(); order.len()];
     for (place, joint) in order.iter().enumerate() {
-        places[*joint] = place;
+        places[*joint] = place.into();
     }
     let joints = order.iter().map(|joint| {
         let mut joint = clip.skeleton.joints[*joint].clone();
@@ -160,16 +163,23 @@ fn shuffled(clip: &Clip, seed: u64) -> (Clip, Vec<usize>) {
     let skeleton = Skeleton {
         joints: joints.collect(),
     };
-    let mut starts = vec![0];
-    for joint in &clip.skeleton.joints {
-        starts.push(starts[starts.len() - 1] + joint.channels.len());
-    }
+    let mut next = 0;
+    let columns: TiVec<JointId, Range<usize>> = clip
+        .skeleton
+        .joints
+        .iter()
+        .map(|joint| {
+            let start = next;
+            next += joint.channels.len();
+            start..next
+        })
+        .collect();
     let values = (0..clip.frames())
         .flat_map(|frame| {
             let row = clip.row(frame);
             order
                 .iter()
-                .flat_map(|joint| row[starts[*joint]..starts[*joint + 1]].to_vec())
+                .flat_map(|joint| row[columns[*joint].clone()].to_vec())
                 .collect::<Vec<f64>>()
         })
         .collect();
@@ -186,7 +196,7 @@ fn by_shape_whatever_the_order_of_siblings() {
         let (limbs, trunk) = bones(&label_clip(&clip));
         for seed in 0..20 {
             let (other, places) = shuffled(&blank, seed);
-            let to = |joint: Option<usize>| joint.map(|joint| places[joint]);
+            let to = |joint: Option<JointId>| joint.map(|joint| places[joint]);
             let expected = (
                 limbs.iter().map(|limb| limb.map(to)).collect(),
                 trunk.map(to),
@@ -251,27 +261,26 @@ fn a_hand_points_to_its_middle_finger() {
 }
 
 /// The clip with a joint that only twists in the middle of each bone of the limbs, and the places of the old joints.
-fn with_twist_joints(clip: &Clip, anatomy: &Anatomy) -> (Clip, Vec<usize>) {
+fn with_twist_joints(clip: &Clip, anatomy: &Anatomy) -> (Clip, TiVec<JointId, JointId>) {
     let of_limb = |limb: &Limb| [limb.lower, limb.end];
-    let split: Vec<usize> = anatomy.limbs.iter().flat_map(of_limb).flatten().collect();
-    let mut joints: Vec<Joint> = Vec::new();
-    let mut places = Vec::new();
+    let split: Vec<JointId> = anatomy.limbs.iter().flat_map(of_limb).flatten().collect();
+    let mut joints: TiVec<JointId, Joint> = TiVec::new();
+    let mut places: TiVec<JointId, JointId> = TiVec::new();
     let mut new = Vec::new();
-    for (index, joint) in clip.skeleton.joints.iter().enumerate() {
+    for (id, joint) in clip.skeleton.joints.iter_enumerated() {
         let mut joint = joint.clone();
-        joint.parent = joint.parent.map(|parent: usize| places[parent]);
-        if split.contains(&index) {
+        joint.parent = joint.parent.map(|parent| places[parent]);
+        if split.contains(&id) {
             joint.offset /= 2.0;
-            new.push(joints.len());
-            joints.push(Joint {
+            let twist = joints.push_and_get_key(Joint {
                 channels: Vec::new(),
                 ends: Vec::new(),
                 ..joint.clone()
             });
-            joint.parent = Some(joints.len() - 1);
+            new.push(twist);
+            joint.parent = Some(twist);
         }
-        places.push(joints.len());
-        joints.push(joint);
+        places.push(joints.push_and_get_key(joint));
     }
     let skeleton = Arc::new(Skeleton { joints });
     let clip = Clip::new(skeleton, clip.frame_time, clip.values().to_vec());
@@ -283,7 +292,7 @@ fn elbows_and_knees_are_where_the_motion_bends() {
     for (name, clip) in clips() {
         let known = label_clip(&clip);
         let (split, places) = with_twist_joints(&blank(&clip), &known);
-        let to = |joint: Option<usize>| joint.map(|joint| places[joint]);
+        let to = |joint: Option<JointId>| joint.map(|joint| places[joint]);
         let (limbs, _) = bones(&known);
         let found = bones(&label_clip(&split)).0;
         for (limb, found) in limbs.iter().zip(found) {

@@ -8,24 +8,25 @@ mod programs;
 mod random;
 
 use glam::DVec3;
+use typed_index_collections::TiVec;
 
 use super::{Anatomy, Class, Side};
-use crate::mocap::{Joint, Skeleton};
+use crate::mocap::{Joint, JointId, Skeleton};
 
 /// A skeleton from names, indented by a space a level. Every bone is one up.
 pub(super) fn skeleton(names: &str) -> Skeleton {
-    let mut joints: Vec<Joint> = Vec::new();
-    let mut above: Vec<usize> = Vec::new();
+    let mut joints: TiVec<JointId, Joint> = TiVec::new();
+    let mut above: Vec<JointId> = Vec::new();
     for line in names.lines().filter(|line| !line.trim().is_empty()) {
         let name = line.trim_start_matches(' ');
         above.truncate(line.len() - name.len());
-        joints.push(Joint {
+        let joint = joints.push_and_get_key(Joint {
             name: name.to_owned(),
             parent: above.last().copied(),
             offset: DVec3::Y,
             ..Joint::default()
         });
-        above.push(joints.len() - 1);
+        above.push(joint);
     }
     Skeleton { joints }
 }

@@ -79,9 +79,9 @@ fn sound(clip: &Clip) {
             .iter()
             .all(|value| value.abs() <= MAX_MAGNITUDE)
     );
-    for (index, joint) in clip.skeleton.joints.iter().enumerate() {
+    for (id, joint) in clip.skeleton.joints.iter_enumerated() {
         assert!(
-            joint.parent.is_none_or(|parent| parent < index)
+            joint.parent.is_none_or(|parent| parent < id)
                 && joint.offset.is_finite()
                 && !joint.name.is_empty()
         );

@@ -2,15 +2,15 @@
 
 use glam::DVec3;
 
-use crate::mocap::{Joint, Skeleton};
+use crate::mocap::{Joint, JointId, Skeleton};
 
 use super::error::{Error, Notes, quoted};
 use super::tokens::{Token, Tokens};
 use super::{MAX_JOINTS, MAX_NAME_BYTES};
 
 /// The name of a joint that has none in the file.
-pub(super) fn made_name(joint: usize) -> String {
-    format!("Joint{}", joint + 1)
+pub(super) fn made_name(joint: JointId) -> String {
+    format!("Joint{}", usize::from(joint) + 1)
 }
 
 /// The words that can begin a statement of the hierarchy, to tell a missing name from a statement.
@@ -30,7 +30,7 @@ const KEYWORDS: [&str; 9] = [
 #[derive(Debug)]
 pub(super) struct OpenBlock {
     /// The joint; for an end site the joint that it belongs to.
-    pub joint: usize,
+    pub joint: JointId,
     /// Whether it is an end site.
     pub end: bool,
     pub line: usize,
@@ -213,7 +213,7 @@ impl HierarchyParser {
                 if self.ends > MAX_JOINTS {
                     return Err(limit(line, word, "ends of bones", MAX_JOINTS));
                 }
-                (above.unwrap_or(0), true)
+                (above.unwrap_or_default(), true)
             }
         };
         self.open.push(OpenBlock {
@@ -231,18 +231,17 @@ impl HierarchyParser {
         line: Line<'_>,
         word: Token<'_>,
         mut name: String,
-        parent: Option<usize>,
+        parent: Option<JointId>,
         notes: &mut Notes,
-    ) -> Result<usize, Error> {
-        let joint = self.skeleton.joints.len();
-        if joint == MAX_JOINTS {
+    ) -> Result<JointId, Error> {
+        if self.skeleton.joints.len() == MAX_JOINTS {
             return Err(limit(line, word, "joints", MAX_JOINTS));
         }
         if name.is_empty() {
-            name = made_name(joint);
+            name = made_name(self.skeleton.joints.next_key());
             notes.add(line.number, format!("a joint has no name: called `{name}`"));
         }
-        self.skeleton.joints.push(Joint {
+        let joint = self.skeleton.joints.push_and_get_key(Joint {
             name,
             parent,
             ..Joint::default()

@@ -126,9 +126,9 @@ fn real_files_are_read_whole() {
 #[test]
 fn a_small_file_is_read_exactly() {
     let clip = small();
-    let joints = &clip.skeleton.joints;
+    let joints = &clip.skeleton.joints.raw;
     assert_eq!(joints[0].channels[3], Channel::Rotation(Axis::Z));
-    assert_eq!(joints[1].parent, Some(0));
+    assert_eq!(joints[1].parent, Some(0.into()));
     assert_eq!(joints[1].offset, DVec3::new(0.0, 2.5, 0.0));
     assert_eq!(joints[1].ends, [DVec3::Y]);
     assert_eq!(
@@ -302,7 +302,7 @@ fn names_are_read_unchanged() {
         .concat();
         let reading = read_bytes(&whole).unwrap();
         (
-            reading.clip.skeleton.joints[0].name.clone(),
+            reading.clip.skeleton.joints.raw[0].name.clone(),
             reading.notes.len(),
         )
     };
@@ -373,7 +373,7 @@ fn mistakes_in_the_motion_header_are_corrected() {
 fn several_roots_and_joints_without_channels_are_read() {
     let two = SMALL.replace("}\nMOTION", "}\nROOT Prop\n{\nOFFSET 1 2 3\nCHANNELS 0\nEnd Site\n{\nOFFSET 1 1 1\n}\nEnd Site\n{\nOFFSET 2 2 2\n}\n}\nMOTION");
     let Reading { clip, notes } = read_bytes(two.as_bytes()).unwrap();
-    let prop = &clip.skeleton.joints[2];
+    let prop = &clip.skeleton.joints.raw[2];
     assert_eq!((prop.parent, prop.ends.len(), notes.len()), (None, 2, 0));
     assert_eq!(clip.frames(), 3);
     assert_eq!(

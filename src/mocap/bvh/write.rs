@@ -5,8 +5,9 @@ use std::io::Write;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use typed_index_collections::{TiVec, ti_vec};
 
-use crate::mocap::{Clip, Joint, Skeleton};
+use crate::mocap::{Clip, Joint, JointId, Skeleton};
 
 use super::MAX_NAME_BYTES;
 use super::fields::CHANNELS;
@@ -125,52 +126,44 @@ fn frame(
 
 /// The joints in depth-first order, as they are nested in the text, each with its depth.
 struct Order {
-    joints: Vec<[usize; 2]>,
+    joints: Vec<(JointId, usize)>,
 }
 
 impl Order {
     fn of(skeleton: &Skeleton) -> Self {
         let count = skeleton.joints.len();
-        let mut children = vec![Vec::new(); count];
+        let mut children: TiVec<JointId, _> = ti_vec![Vec::new(); count];
         let mut left = Vec::new();
-        for (index, joint) in skeleton.joints.iter().enumerate() {
-            match joint.parent.filter(|parent| *parent < index) {
-                Some(parent) => children[parent].push(index),
-                None => left.push([index, 0]),
+        for (id, joint) in skeleton.joints.iter_enumerated() {
+            match joint.parent.filter(|parent| *parent < id) {
+                Some(parent) => children[parent].push(id),
+                None => left.push((id, 0)),
             }
         }
         left.reverse();
         let mut joints = Vec::with_capacity(count);
-        while let Some([index, depth]) = left.pop() {
-            joints.push([index, depth]);
-            left.extend(
-                children[index]
-                    .iter()
-                    .rev()
-                    .map(|child| [*child, depth + 1]),
-            );
+        while let Some((id, depth)) = left.pop() {
+            joints.push((id, depth));
+            let below = children[id].iter().rev();
+            left.extend(below.map(|child| (*child, depth + 1)));
         }
         Self { joints }
     }
 
     /// Per number of a written frame the index of the clip's channel; `None` if the order is the same.
     fn columns(&self, skeleton: &Skeleton) -> Option<Vec<usize>> {
-        if self
-            .joints
-            .iter()
-            .enumerate()
-            .all(|(place, [index, _])| place == *index)
-        {
+        let in_order = self.joints.iter().map(|(id, _)| *id);
+        if in_order.eq(skeleton.joints.keys()) {
             return None;
         }
-        let mut starts = Vec::with_capacity(skeleton.joints.len());
+        let mut starts: TiVec<JointId, usize> = TiVec::with_capacity(skeleton.joints.len());
         let mut first = 0;
         for joint in &skeleton.joints {
             starts.push(first);
             first += joint.channels.len();
         }
-        let numbers = |[index, _]: &[usize; 2]| {
-            starts[*index]..starts[*index] + skeleton.joints[*index].channels.len()
+        let numbers = |(id, _): &(JointId, usize)| {
+            starts[*id]..starts[*id] + skeleton.joints[*id].channels.len()
         };
         Some(self.joints.iter().flat_map(numbers).collect())
     }
@@ -184,14 +177,14 @@ fn hierarchy(
 ) -> io::Result<()> {
     text.extend_from_slice(b"HIERARCHY\n");
     let mut open = 0;
-    for [index, depth] in &order.joints {
+    for (id, depth) in &order.joints {
         while open > *depth {
             open -= 1;
             line(text, open, "}");
         }
-        let joint = &skeleton.joints[*index];
+        let joint = &skeleton.joints[*id];
         let keyword = if *depth == 0 { "ROOT" } else { "JOINT" };
-        line(text, *depth, &format!("{keyword} {}", name(joint, *index)));
+        line(text, *depth, &format!("{keyword} {}", name(joint, *id)));
         line(text, *depth, "{");
         offset(text, depth + 1, joint.offset, decimals)?;
         let mut channels = format!("CHANNELS {}", joint.channels.len());
@@ -238,7 +231,7 @@ fn offset(text: &mut Vec<u8>, depth: usize, offset: DVec3, decimals: Decimals) -
 }
 
 /// A joint's name in a form that the file can hold.
-fn name(joint: &Joint, index: usize) -> String {
+fn name(joint: &Joint, id: JointId) -> String {
     let clean = |c: char| {
         if c.is_control() || matches!(c, '{' | '}') {
             '_'
@@ -254,7 +247,7 @@ fn name(joint: &Joint, index: usize) -> String {
     name.truncate(long);
     let name = name.trim_ascii();
     if name.is_empty() {
-        made_name(index)
+        made_name(id)
     } else {
         name.to_owned()
     }

@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use proptest::prelude::*;
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::tests::{SMALL, small, written};
 use super::*;
-use crate::mocap::{Axis, Channel, Clip, Joint, Skeleton};
+use crate::mocap::{Axis, Channel, Clip, Joint, JointId, Skeleton};
 
 #[test]
 fn joints_in_any_order_are_written_depth_first() {
@@ -19,11 +20,11 @@ fn joints_in_any_order_are_written_depth_first() {
         channels: vec![Channel::Rotation(Axis::X)],
         ..Joint::default()
     };
-    let joints = vec![
+    let joints = ti_vec![
         joint("a", None),
-        joint("b", Some(0)),
-        joint("c", Some(0)),
-        joint("d", Some(1)),
+        joint("b", Some(0.into())),
+        joint("c", Some(0.into())),
+        joint("d", Some(1.into())),
     ];
     let odd = Clip::new(
         Arc::new(Skeleton { joints }),
@@ -52,21 +53,22 @@ fn names_that_a_file_cannot_hold_are_changed() {
         ("OFFSET", "OFFSET"),
     ] {
         let mut skeleton = Skeleton::clone(&clip.skeleton);
-        skeleton.joints[0].name = name.to_owned();
+        skeleton.joints.raw[0].name = name.to_owned();
         let clip = Clip::new(Arc::new(skeleton), clip.frame_time, clip.values().to_vec());
         let again = read_bytes(&written(&clip, Decimals::All)).unwrap().clip;
-        assert_eq!(again.skeleton.joints[0].name, read);
+        assert_eq!(again.skeleton.joints.raw[0].name, read);
         assert_eq!(again.values(), clip.values());
     }
     let mut skeleton = Skeleton::clone(&clip.skeleton);
-    skeleton.joints[0].name = "ü".repeat(MAX_NAME_BYTES);
+    skeleton.joints.raw[0].name = "ü".repeat(MAX_NAME_BYTES);
     let long = Clip::new(Arc::new(skeleton), clip.frame_time, Vec::new());
     assert_eq!(
         read_bytes(&written(&long, Decimals::All))
             .unwrap()
             .clip
             .skeleton
-            .joints[0]
+            .joints
+            .raw[0]
             .name
             .len(),
         MAX_NAME_BYTES
@@ -137,13 +139,12 @@ fn clips() -> impl Strategy<Value = Clip> {
     (joints, frame_time, prop::collection::vec(number, 0..400)).prop_map(
         |(parts, frame_time, values)| {
             // The path from a root to the last joint: the next joint is a child of one of these, or a root.
-            let mut path: Vec<usize> = Vec::new();
-            let mut joints = Vec::new();
-            for (index, (above, mut joint)) in parts.into_iter().enumerate() {
+            let mut path: Vec<JointId> = Vec::new();
+            let mut joints = TiVec::new();
+            for (above, mut joint) in parts {
                 path.truncate(above % (path.len() + 1));
                 joint.parent = path.last().copied();
-                path.push(index);
-                joints.push(joint);
+                path.push(joints.push_and_get_key(joint));
             }
             Clip::new(Arc::new(Skeleton { joints }), frame_time, values)
         },

@@ -3,24 +3,25 @@
 use std::sync::Arc;
 
 use glam::DQuat;
+use typed_index_collections::TiSlice;
 
 use super::euler::RotationTrack;
 use crate::mocap::turns::damp;
-use crate::mocap::{Channel, Clip};
+use crate::mocap::{Channel, Clip, JointId};
 
 /// The clip whose joints turn less: per joint the ratio R of its turns that is left, from its rotation in the first frame on; `None`
 /// and 1 leave every number as it is, 0 repeats those of the first frame. Positions stay. A joint whose channels cannot express
 /// every rotation has its angles scaled, each by itself.
 ///
 /// Source: Manya & Matsuda, equation 1, which scales angles in all cases.
-pub fn damped(clip: &Clip, ratios: &[Option<f64>]) -> Clip {
+pub fn damped(clip: &Clip, ratios: &TiSlice<JointId, Option<f64>>) -> Clip {
     let width = clip.skeleton.channel_count();
     let mut values = clip.values().to_vec();
     let mut start = 0;
-    for (index, joint) in clip.skeleton.joints.iter().enumerate() {
+    for (id, joint) in clip.skeleton.joints.iter_enumerated() {
         let columns = start..start + joint.channels.len();
         start = columns.end;
-        let ratio = ratios.get(index).copied().flatten();
+        let ratio = ratios.get(id).copied().flatten();
         let Some(ratio) = ratio.filter(|ratio| *ratio != 1.0 && clip.frames() > 1) else {
             continue;
         };

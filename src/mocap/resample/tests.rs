@@ -22,13 +22,13 @@ fn single(axes: &[Axis], fps: f64, rows: &[Vec<f64>]) -> Clip {
         ..Joint::default()
     };
     let skeleton = Skeleton {
-        joints: vec![joint],
+        joints: vec![joint].into(),
     };
     Clip::new(Arc::new(skeleton), 1.0 / fps, rows.concat())
 }
 
 fn rotation(clip: &Clip, frame: usize) -> DQuat {
-    Clip::local(&clip.skeleton.joints[0], clip.row(frame)).rotation
+    Clip::local(&clip.skeleton.joints.raw[0], clip.row(frame)).rotation
 }
 
 /// The angle between two rotations, radians, precise for small ones.

@@ -200,27 +200,18 @@ fn orbiting() -> Model {
         triangles,
         ..Surface::default()
     };
-    let mut scene = Scene {
-        materials: vec![Material::default()],
-        ..Scene::default()
-    };
+    let mut scene = Scene::default();
+    let material = scene.materials.push_and_get_key(Material::default());
     scene.add(NewNode {
         mesh: Some(Mesh {
             primitives: vec![Primitive {
                 patches: vec![ball.into()],
-                material: 0,
+                material,
             }],
         }),
         ..NewNode::default()
     });
-    scene.add(NewNode {
-        node: Node {
-            camera: Some(0),
-            ..Node::default()
-        },
-        ..NewNode::default()
-    });
-    scene.cameras.push(scene::Camera {
+    let camera = scene.cameras.push_and_get_key(scene::Camera {
         name: String::new(),
         projection: scene::CameraProjection::Perspective {
             vertical_field_of_view: 0.6,
@@ -228,13 +219,20 @@ fn orbiting() -> Model {
             far: None,
         },
     });
+    let node = scene.add(NewNode {
+        node: Node {
+            camera: Some(camera),
+            ..Node::default()
+        },
+        ..NewNode::default()
+    });
     let timing = Arc::new(Timing {
         times: vec![0.0, 2.0, 3.0],
         interpolation: Interpolation::Step,
     });
     let back = DQuat::from_rotation_y(std::f64::consts::PI);
     let track = |values| Track {
-        node: 1,
+        node,
         timing: timing.clone(),
         values,
     };

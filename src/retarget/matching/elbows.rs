@@ -2,7 +2,7 @@
 
 use super::{Follow, Matching, Problem};
 use crate::labels::{Anatomy, Class, Limb, LimbSegment};
-use crate::mocap::{Clip, Transform};
+use crate::mocap::{Clip, Pose};
 
 /// How many frames of a clip are looked at.
 const FRAMES: usize = 64;
@@ -26,7 +26,7 @@ pub fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> Vec<Pro
         return Vec::new();
     }
     let count = clip.frames().min(FRAMES);
-    let poses: Vec<Vec<Transform>> = (0..count)
+    let poses: Vec<Pose> = (0..count)
         .map(|index| clip.pose(index * clip.frames() / count))
         .collect();
     let bent = arms.into_iter().filter_map(|part| {
@@ -44,9 +44,9 @@ pub fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> Vec<Pro
 
 /// The median of the distance between the end of a stretched arm and the wrist, as a share of the arm's length; `None` for an arm
 /// without an elbow.
-fn median_error(limb: &Limb, poses: &[Vec<Transform>]) -> Option<f64> {
+fn median_error(limb: &Limb, poses: &[Pose]) -> Option<f64> {
     let (elbow, wrist) = (limb.lower?, limb.end?);
-    let error = |pose: &Vec<Transform>| {
+    let error = |pose: &Pose| {
         let [shoulder, elbow, wrist] = [limb.upper, elbow, wrist].map(|joint| pose[joint].position);
         let length = shoulder.distance(elbow) + elbow.distance(wrist);
         1.0 - shoulder.distance(wrist) / length

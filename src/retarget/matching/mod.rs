@@ -8,12 +8,13 @@ mod tests;
 use std::collections::BTreeSet;
 
 use glam::DVec3;
+use typed_index_collections::TiSlice;
 
 use crate::labels::Figure;
 use crate::labels::{
     Anatomy, Carry, Class, Facing, Label, LabeledFigure, Limb, LimbSegment, Side, Tip, label_drawn,
 };
-use crate::mocap::{Skeleton, Transform};
+use crate::mocap::{JointId, Skeleton, Transform};
 pub use elbows::bent_arms;
 use names::Names;
 
@@ -46,7 +47,7 @@ pub struct MatchedPart {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Drive {
     /// The joint.
-    pub joint: usize,
+    pub joint: JointId,
     /// The far end of the bone or chain that begins at the joint; always present if the part follows a direction.
     pub tip: Option<Tip>,
     /// What the part takes over from it.
@@ -64,16 +65,20 @@ pub enum Follow {
     /// Like a change, but it leans by as much as the line from the hips to the middle of the shoulders: a trunk of one segment.
     Trunk {
         /// The joint of the hips.
-        hips: usize,
+        hips: JointId,
         /// The joints where the arms begin.
-        shoulders: [usize; 2],
+        shoulders: [JointId; 2],
     },
 }
 
 impl Drive {
     /// The direction of the chain that the part follows in a pose; `None` if there is none, or where it has no length.
-    pub(crate) fn direction(&self, skeleton: &Skeleton, pose: &[Transform]) -> Option<DVec3> {
-        let place = |joint: usize| pose[joint].position;
+    pub(crate) fn direction(
+        &self,
+        skeleton: &Skeleton,
+        pose: &TiSlice<JointId, Transform>,
+    ) -> Option<DVec3> {
+        let place = |joint: JointId| pose[joint].position;
         let chain = match self.follow {
             Follow::Trunk {
                 hips,
@@ -106,7 +111,7 @@ pub enum Problem {
         /// The name as written.
         name: String,
         /// The joints that have it.
-        joints: Vec<usize>,
+        joints: Vec<JointId>,
     },
     /// A part's string names two joints, and the second is not a descendant of the first. The part is matched as if it named
     /// none.
@@ -114,9 +119,9 @@ pub enum Problem {
         /// The part.
         part: usize,
         /// The first joint.
-        from: usize,
+        from: JointId,
         /// The second joint.
-        to: usize,
+        to: JointId,
     },
     /// A part's string names more than two joints. Those after the second are ignored.
     TooManyBones {
@@ -227,7 +232,7 @@ fn carried(drive: Drive, carry: Option<Carry>, splayed: bool) -> (Drive, &'stati
 
 /// The joints that `Bone` can mean by a name: an exact match, else one that ignores case, else one that also ignores the
 /// prefixes that most joints share.
-pub fn joints_named(skeleton: &Skeleton, name: &str) -> Vec<usize> {
+pub fn joints_named(skeleton: &Skeleton, name: &str) -> Vec<JointId> {
     Names::new(skeleton).joints(name).to_vec()
 }
 
@@ -293,7 +298,7 @@ impl<'a> Matcher<'a> {
         Ok((drive, label.why.clone()))
     }
 
-    fn shoulders(&self) -> Option<[usize; 2]> {
+    fn shoulders(&self) -> Option<[JointId; 2]> {
         let [left, right] = Side::BOTH.map(|side| self.anatomy.limb(Class::Arm, side));
         Some([left?.upper, right?.upper])
     }
@@ -365,7 +370,7 @@ impl<'a> Matcher<'a> {
         }
     }
 
-    fn name(&self, joint: usize) -> &str {
+    fn name(&self, joint: JointId) -> &str {
         &self.skeleton.joints[joint].name
     }
 
@@ -378,15 +383,15 @@ impl<'a> Matcher<'a> {
 }
 
 /// The joint of a chain that drives one of several segments; the last segment gets the last joint.
-fn spread(chain: &[usize], segment: usize, segments: usize) -> Option<usize> {
+fn spread(chain: &[JointId], segment: usize, segments: usize) -> Option<JointId> {
     let place = ((segment + 1) * chain.len()).div_ceil(segments.max(1));
     chain.get(place.checked_sub(1)?).copied()
 }
 
 /// Where the bone or chain that drives a segment begins and ends. Toes, and a hand or foot without a bone, turn with their joint.
-fn bone(limb: &Limb, segment: LimbSegment) -> Option<(usize, Option<Tip>)> {
+fn bone(limb: &Limb, segment: LimbSegment) -> Option<(JointId, Option<Tip>)> {
     let [lower, end] = [limb.lower, limb.end].map(|joint| joint.map(Tip::Joint));
-    let pointing = |joint: Option<usize>, tip: Option<Tip>| Some((joint?, Some(tip?)));
+    let pointing = |joint: Option<JointId>, tip: Option<Tip>| Some((joint?, Some(tip?)));
     match segment {
         LimbSegment::Collar => pointing(limb.collar, Some(Tip::Joint(limb.upper))),
         LimbSegment::Whole => pointing(Some(limb.upper), end.or(limb.tip)),

@@ -1,10 +1,11 @@
 //! Joints that a part's string names with `Bone`.
 
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
 
 use super::{Drive, Follow, Problem, bone};
 use crate::labels::{Anatomy, Class, JointTree, LimbSegment, Tip, plain_names};
-use crate::mocap::Skeleton;
+use crate::mocap::{JointId, Skeleton};
 
 /// How many names are suggested for an unknown one.
 const MAX_OFFERED: usize = 3;
@@ -18,16 +19,16 @@ pub(super) struct Names<'a> {
     skeleton: &'a Skeleton,
     tree: JointTree,
     /// The names without the prefixes that most of them share.
-    plain: Vec<&'a str>,
+    plain: TiVec<JointId, &'a str>,
     /// The joints of a name: as written, in lower case, and without prefixes in lower case.
-    joints: [FxHashMap<String, Vec<usize>>; 3],
+    joints: [FxHashMap<String, Vec<JointId>>; 3],
 }
 
 impl<'a> Names<'a> {
     pub(super) fn new(skeleton: &'a Skeleton) -> Self {
         let plain = plain_names(skeleton);
-        let mut joints: [FxHashMap<String, Vec<usize>>; 3] = Default::default();
-        for (joint, plain) in plain.iter().enumerate() {
+        let mut joints: [FxHashMap<String, Vec<JointId>>; 3] = Default::default();
+        for (joint, plain) in plain.iter_enumerated() {
             let own = &skeleton.joints[joint].name;
             let ways = [own.clone(), own.to_lowercase(), plain.to_lowercase()];
             for (joints, name) in joints.iter_mut().zip(ways) {
@@ -43,7 +44,7 @@ impl<'a> Names<'a> {
     }
 
     /// The joints of a name: an exact match, else one that ignores case, else one that also ignores prefixes.
-    pub(super) fn joints(&self, name: &str) -> &[usize] {
+    pub(super) fn joints(&self, name: &str) -> &[JointId] {
         let [exact, lower, plain] = &self.joints;
         let in_lower = name.to_lowercase();
         exact
@@ -109,7 +110,7 @@ impl<'a> Names<'a> {
     }
 
     /// The end of a joint's bone: as its limb has it, else where its longest chain continues.
-    fn own_bone(&self, joint: usize, anatomy: &Anatomy) -> Option<Tip> {
+    fn own_bone(&self, joint: JointId, anatomy: &Anatomy) -> Option<Tip> {
         let segments = [
             LimbSegment::Collar,
             LimbSegment::Upper,
@@ -130,9 +131,9 @@ impl<'a> Names<'a> {
         let lower: String = name.to_lowercase();
         let letters = lower.chars().count();
         let allowed = (letters / 3).max(1);
-        let mut near: Vec<(usize, usize)> = Vec::new();
+        let mut near: Vec<(usize, JointId)> = Vec::new();
         if before < MAX_UNKNOWN && letters <= MAX_LETTERS {
-            for (joint, plain) in self.plain.iter().enumerate() {
+            for (joint, plain) in self.plain.iter_enumerated() {
                 if plain.chars().count().abs_diff(letters) <= allowed {
                     let distance = strsim::damerau_levenshtein(&lower, &plain.to_lowercase());
                     if distance <= allowed && distance < letters {

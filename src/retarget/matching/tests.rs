@@ -2,7 +2,7 @@ use super::{Follow, MatchedPart, Problem, bent_arms, match_figure};
 use crate::labels::tests::figures::{ANT, DOG, figure};
 use crate::labels::{Carry, Class, Figure, Side, Tip, label_clip};
 use crate::mocap::bvh;
-use crate::mocap::{Clip, Skeleton};
+use crate::mocap::{Clip, JointId, Skeleton};
 
 fn boxing() -> Clip {
     let bytes = include_bytes!("../../../examples/motion/boxing.bvh");
@@ -17,7 +17,7 @@ fn drives(figure: &Figure, clip: &Clip) -> (Vec<String>, Vec<Problem>) {
         None => "-".to_owned(),
         Some(drive) => {
             assert!(drive.tip.is_some() || drive.follow != Follow::Direction);
-            let name = |joint: usize| skeleton.joints[joint].name.clone();
+            let name = |joint: JointId| skeleton.joints[joint].name.clone();
             let tip = drive.tip.filter(|_| drive.follow == Follow::Direction);
             match tip {
                 None => name(drive.joint),
@@ -230,7 +230,6 @@ fn bones_that_cannot_be_used() {
         boxing
             .skeleton
             .joints
-            .iter()
             .position(|joint| joint.name == name)
             .unwrap()
     };

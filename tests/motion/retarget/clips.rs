@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3, EulerRot};
 use okoshi::mocap::bvh;
-use okoshi::mocap::{Axis, Channel, Clip, Skeleton, Transform};
+use okoshi::mocap::{Axis, Channel, Clip, JointId, Pose, Skeleton, Transform};
 use okoshi::prepare::{Options, PreparedClip, prepare};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 pub(crate) const FILES: [&str; 6] = [
     "examples/motion/boxing.bvh",
@@ -39,7 +40,7 @@ pub(crate) struct Moving {
     pub(crate) skeleton: Skeleton,
     frame_time: f64,
     /// Per frame and joint.
-    locals: Vec<Vec<Transform>>,
+    locals: Vec<Pose>,
 }
 
 impl Moving {
@@ -89,8 +90,8 @@ impl Moving {
     }
 
     /// Each joint's frame rotated: points in it get the inverse rotation.
-    pub(crate) fn reoriented(mut self, by: &[DQuat]) -> Self {
-        let above: Vec<DQuat> = self
+    pub(crate) fn reoriented(mut self, by: &TiSlice<JointId, DQuat>) -> Self {
+        let above: TiVec<JointId, DQuat> = self
             .skeleton
             .joints
             .iter()
@@ -100,17 +101,17 @@ impl Moving {
                     .map_or(DQuat::IDENTITY, |parent| by[parent].inverse())
             })
             .collect();
-        for (index, joint) in self.skeleton.joints.iter_mut().enumerate() {
-            joint.offset = above[index] * joint.offset;
+        for (id, joint) in self.skeleton.joints.iter_mut_enumerated() {
+            joint.offset = above[id] * joint.offset;
             joint
                 .ends
                 .iter_mut()
-                .for_each(|end| *end = by[index].inverse() * *end);
+                .for_each(|end| *end = by[id].inverse() * *end);
         }
         for frame in &mut self.locals {
-            for (index, local) in frame.iter_mut().enumerate() {
-                local.rotation = above[index] * local.rotation * by[index];
-                local.position = above[index] * local.position;
+            for (id, local) in frame.iter_mut_enumerated() {
+                local.rotation = above[id] * local.rotation * by[id];
+                local.position = above[id] * local.position;
             }
         }
         self
@@ -118,7 +119,7 @@ impl Moving {
 
     /// World and skeleton rotated alike, as from a program with other axes.
     pub(crate) fn in_other_axes(self, by: DQuat) -> Self {
-        let back = vec![by.inverse(); self.skeleton.joints.len()];
+        let back = ti_vec![by.inverse(); self.skeleton.joints.len()];
         let mut out = self.turned(by).reoriented(&back);
         for joint in &mut out.skeleton.joints {
             if joint.parent.is_none() {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use okoshi::labels::{Facing, Tip, label_clip};
-use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
+use okoshi::mocap::{Axis, Channel, Clip, Joint, JointId, Skeleton, Transform};
 use okoshi::retarget::{Drive, Follow};
 use okoshi::retarget::{Landmarks, Rig, RigPart, retarget};
 use proptest::prelude::*;
@@ -40,7 +40,7 @@ fn joint(index: usize) -> impl Strategy<Value = Joint> {
     )
         .prop_map(move |(name, parent, offset, ends, kind, lone)| Joint {
             name: name.to_owned(),
-            parent: (index > 0 && lone > 0).then(|| parent.index(index)),
+            parent: (index > 0 && lone > 0).then(|| parent.index(index).into()),
             offset,
             channels: match kind {
                 0 => vec![],
@@ -61,8 +61,10 @@ fn motion() -> impl Strategy<Value = Clip> {
         prop_oneof![Just(0.0), Just(180.0), -1000.0..1000.0_f64],
         0..200,
     );
-    (skeleton, numbers)
-        .prop_map(|(joints, numbers)| Clip::new(Arc::new(Skeleton { joints }), 1.0 / 24.0, numbers))
+    (skeleton, numbers).prop_map(|(joints, numbers)| {
+        let joints = joints.into();
+        Clip::new(Arc::new(Skeleton { joints }), 1.0 / 24.0, numbers)
+    })
 }
 
 type PartSpec = (
@@ -102,8 +104,7 @@ fn rig(clip: &Clip, (parts, facing): (Vec<PartSpec>, Facing)) -> Rig {
         PartSpec,
     )| {
         let drive = drive.map(|(from, kind, to)| {
-            let joint = from.index(joints.len());
-            let to = to.index(joints.len());
+            let [joint, to] = [from, to].map(|at| JointId::from(at.index(joints.len())));
             let end = Tip::End { joint: to, end: 0 };
             Drive {
                 joint,

@@ -2,11 +2,12 @@
 
 use glam::{DQuat, DVec3};
 use okoshi::labels::{Facing, label_clip};
-use okoshi::mocap::Clip;
 use okoshi::mocap::bvh::{Decimals, read_bytes, write};
+use okoshi::mocap::{Clip, JointId};
 use okoshi::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
 
 use fastrand::Rng;
+use typed_index_collections::TiVec;
 
 use super::clips::{FILES, Moving, clip};
 use super::rigs::{Limbs, biped};
@@ -54,7 +55,7 @@ fn same(file: &str, what: &str, a: &Clip, b: &Clip) {
     }
 }
 
-fn random_turns(count: usize, seed: u64) -> Vec<DQuat> {
+fn random_turns(count: usize, seed: u64) -> TiVec<JointId, DQuat> {
     let mut random = Rng::with_seed(seed);
     let turns = (0..count).map(|_| {
         if random.u8(..100) < 20 {

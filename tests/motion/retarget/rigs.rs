@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, dvec3};
 use okoshi::labels::{Anatomy, Class, Facing, Limb, Side, Tip};
-use okoshi::mocap::Transform;
+use okoshi::mocap::{JointId, Transform};
 use okoshi::retarget::{Drive, Follow};
 use okoshi::retarget::{Rig, RigPart};
 
@@ -20,7 +20,7 @@ impl Limbs {
 }
 
 /// The bones of a limb of this many pieces.
-fn bones(limb: &Limb, pieces: usize) -> Vec<(usize, Option<Tip>)> {
+fn bones(limb: &Limb, pieces: usize) -> Vec<(JointId, Option<Tip>)> {
     let [lower, end] = [limb.lower, limb.end].map(|joint| joint.expect("a whole limb"));
     match pieces {
         1 => vec![(limb.upper, Some(Tip::Joint(end)))],
@@ -71,7 +71,7 @@ impl Builder {
         self.rig.parts.len() - 1
     }
 
-    fn trunk(&mut self, parent: Option<usize>, ends: [DVec3; 2], joint: Option<usize>) -> usize {
+    fn trunk(&mut self, parent: Option<usize>, ends: [DVec3; 2], joint: Option<JointId>) -> usize {
         let part = self.add(parent, parent.is_none() || self.limbs == Limbs::Loose, ends);
         self.rig.parts[part].drive = joint.map(|joint| Drive {
             joint,

@@ -7,6 +7,7 @@ use okoshi::labels::Anatomy;
 use okoshi::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
 use okoshi::retarget::{Drive, Follow};
 use okoshi::retarget::{Landmarks, Rig, RigPart, retarget};
+use typed_index_collections::ti_vec;
 
 use super::clips::{FILES, clip};
 use super::rigs::{Limbs, biped, part};
@@ -96,7 +97,7 @@ fn nothing_swings_farther_than_sixty_degrees() {
 
 /// A body that turns about z by these degrees, and a part that hangs down from it.
 fn turning(degrees: &[f64]) -> (Clip, Rig) {
-    let joints = vec![Joint {
+    let joints = ti_vec![Joint {
         name: "Hips".to_owned(),
         parent: None,
         offset: DVec3::ZERO,
@@ -109,7 +110,7 @@ fn turning(degrees: &[f64]) -> (Clip, Rig) {
         is_rooted: true,
         tip: dvec3(0.0, 100.0, 0.0),
         drive: Some(Drive {
-            joint: 0,
+            joint: 0.into(),
             tip: None,
             follow: Follow::Change,
         }),

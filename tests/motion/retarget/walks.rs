@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 use okoshi::labels::Facing;
-use okoshi::mocap::{Clip, Transform};
+use okoshi::mocap::{Clip, JointId, Pose, Transform};
 use okoshi::retarget::{Landmarks, RetargetedClip, Rig, retarget};
 
 use super::clips::{FILES, clip};
@@ -66,7 +66,7 @@ fn thighs_face_forward_in_walks() {
 
 /// The feet of a rig: per foot of the clip the parts that stand on it.
 fn feet(rig: &Rig) -> Vec<Vec<usize>> {
-    let mut feet: Vec<(usize, Vec<usize>)> = Vec::new();
+    let mut feet: Vec<(JointId, Vec<usize>)> = Vec::new();
     for (index, part) in rig.parts.iter().enumerate() {
         let Some(drive) = part.drive.filter(|_| part.stands) else {
             continue;
@@ -93,7 +93,7 @@ fn leg(clip: &Clip, landmarks: &Landmarks) -> f64 {
     let [thighs, knees, feet] =
         [landmarks.thighs, landmarks.knees, landmarks.feet].map(|pair| pair.expect("legs"));
     let pose = clip.pose(0);
-    let length = |a: usize, b: usize| pose[a].position.distance(pose[b].position);
+    let length = |a: JointId, b: JointId| pose[a].position.distance(pose[b].position);
     let legs =
         [0, 1].map(|side| length(thighs[side], knees[side]) + length(knees[side], feet[side]));
     (legs[0] + legs[1]) / 2.0
@@ -140,7 +140,7 @@ fn standing(
             level(to - from) / LEG / clip.frame_time
         });
         let actor = (0..2).map(|side| {
-            let ends = |pose: &[Transform]| {
+            let ends = |pose: &Pose| {
                 let ankle = pose[landmarks.feet.expect("feet")[side]].position;
                 [
                     Some(ankle),

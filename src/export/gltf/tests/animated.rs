@@ -21,7 +21,7 @@ fn places(count: usize) -> Values {
 
 fn track(node: usize, timing: &Arc<Timing>, values: Values) -> Track {
     Track {
-        node,
+        node: node.into(),
         timing: timing.clone(),
         values,
     }
@@ -30,11 +30,11 @@ fn track(node: usize, timing: &Arc<Timing>, values: Values) -> Track {
 /// An arm of two nodes that waves, once smoothly and once in held drawings.
 pub(super) fn waving() -> Scene {
     let mut scene = single(strip(5));
-    scene.nodes[0].children = vec![1];
+    scene.nodes.raw[0].children = vec![1.into()];
     scene.nodes.push(Node {
         name: "Hand".to_owned(),
         translation: DVec3::Y,
-        mesh: Some(0),
+        mesh: Some(0.into()),
         ..Node::default()
     });
     let smooth = timing(&[0.0, 0.5, 1.0], Interpolation::Linear);
@@ -73,7 +73,7 @@ fn assert_keys(scene: &Scene, file: &[u8]) {
         assert_eq!(animation.name(), Some(&*wanted.name));
         assert_eq!(animation.channels().count(), wanted.tracks.len());
         for (channel, track) in animation.channels().zip(&wanted.tracks) {
-            assert_eq!(channel.target().node().index(), track.node);
+            assert_eq!(NodeId::from(channel.target().node().index()), track.node);
             let (sampler, timing) = (channel.sampler(), &track.timing);
             let interpolation = match timing.interpolation {
                 Interpolation::Linear => gltf::animation::Interpolation::Linear,
@@ -156,7 +156,7 @@ fn long_and_many_animations_fit() {
     let mut scene = waving();
     scene.nodes = (0..nodes).map(|_| Node::default()).collect();
     scene.meshes.clear();
-    scene.roots = (0..nodes).collect();
+    scene.roots = scene.nodes.keys().collect();
     let times: Vec<f32> = (0..9000).map(|key| key as f32 / 24.0).collect();
     let long = timing(&times, Interpolation::Linear);
     let tracks = |timing: &Arc<Timing>| {
@@ -211,8 +211,8 @@ fn broken_animations_are_refused() {
             }
         }
     };
-    refused(&|a| a.tracks[1].node = 2, "a node out of range");
-    refused(&|a| a.tracks[2].node = 0, "two tracks of one kind");
+    refused(&|a| a.tracks[1].node = 2.into(), "a node out of range");
+    refused(&|a| a.tracks[2].node = 0.into(), "two tracks of one kind");
     for wrong in [
         &[][..],
         &[0.0, 0.5, 0.5],

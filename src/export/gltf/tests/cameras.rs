@@ -5,20 +5,20 @@ use crate::scene::{Animation, Camera, CameraProjection, Interpolation, Timing, T
 /// A waving arm and two cameras, one of which moves in held drawings and turns smoothly.
 fn filmed() -> Scene {
     let mut scene = waving();
-    let camera = scene.nodes.len();
+    let camera = scene.nodes.next_key();
     for (number, name) in ["Camera wave", "Above"].into_iter().enumerate() {
         scene.add(crate::scene::NewNode {
             node: Node {
                 name: name.to_owned(),
                 translation: DVec3::new(0.0, 1.0, 4.0),
-                camera: Some(number),
+                camera: Some(number.into()),
                 ..Node::default()
             },
             mesh: None,
             parent: None,
         });
     }
-    scene.cameras = vec![
+    scene.cameras = ti_vec![
         Camera {
             name: "wave".to_owned(),
             projection: CameraProjection::Perspective {
@@ -100,15 +100,16 @@ fn cameras_are_written_with_their_nodes_and_tracks() {
 fn a_camera_is_no_joint_of_a_skin() {
     let mut scene = filmed();
     // The camera comes before the hand.
-    scene.nodes.swap(1, 2);
-    scene.nodes[0].children = vec![2];
-    scene.roots = vec![0, 1, 3];
+    scene.nodes.swap(1.into(), 2.into());
+    scene.nodes.raw[0].children = vec![2.into()];
+    scene.roots = [0, 1, 3].map(NodeId::from).to_vec();
     scene.animations.clear();
-    let hand = scene.nodes[0].mesh;
-    scene.nodes[2].mesh = hand;
+    let hand = scene.nodes.raw[0].mesh;
+    scene.nodes.raw[2].mesh = hand;
     let skinned = scene.skinned().unwrap();
     let skin = skinned.skin.as_ref().unwrap();
-    assert_eq!((&*skin.joints, skin.rest.len()), (&[0, 2][..], 2));
+    assert_eq!(skin.joints, [0, 2].map(NodeId::from));
+    assert_eq!(skin.rest.len(), 2);
     let file = bytes(&skinned, &GLB);
     let json = json(&file);
     assert_eq!(json["skins"][0]["joints"], json!([0, 2]));
@@ -126,12 +127,12 @@ fn a_camera_is_no_joint_of_a_skin() {
 #[test]
 fn invalid_cameras_are_refused() {
     let break_it: [fn(&mut Scene); 5] = [
-        |scene| scene.nodes[2].camera = Some(2),
-        |scene| scene.nodes[2].mesh = Some(0),
-        |scene| scene.nodes[2].children = vec![3],
-        |scene| scene.roots = vec![0, 3],
+        |scene| scene.nodes.raw[2].camera = Some(2.into()),
+        |scene| scene.nodes.raw[2].mesh = Some(0.into()),
+        |scene| scene.nodes.raw[2].children = vec![3.into()],
+        |scene| scene.roots = [0, 3].map(NodeId::from).to_vec(),
         |scene| {
-            scene.cameras[0].projection = CameraProjection::Perspective {
+            scene.cameras.raw[0].projection = CameraProjection::Perspective {
                 vertical_field_of_view: f64::NAN,
                 near: 0.1,
                 far: None,

@@ -5,13 +5,13 @@ fn chain(joints: usize) -> Scene {
     let node = |index: usize| Node {
         name: format!("N{index}"),
         children: if index + 1 < joints {
-            vec![index + 1]
+            vec![(index + 1).into()]
         } else {
             vec![]
         },
         translation: DVec3::new(0.5, 1.0, -0.25),
         rotation: DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(0.3),
-        mesh: Some(index % 3),
+        mesh: Some((index % 3).into()),
         ..Node::default()
     };
     let mesh = |material: usize| Mesh {
@@ -19,9 +19,9 @@ fn chain(joints: usize) -> Scene {
     };
     Scene {
         nodes: (0..joints).map(node).collect(),
-        roots: vec![0],
+        roots: vec![0.into()],
         meshes: (0..3).map(mesh).collect(),
-        materials: vec![material(1.0), material(0.5)],
+        materials: ti_vec![material(1.0), material(0.5)],
         ..Scene::default()
     }
 }
@@ -92,7 +92,7 @@ fn a_skinned_model_stands_and_moves_like_the_other() {
         let scene = chain(joints);
         let skinned = scene.clone().skinned().unwrap();
         assert_eq!(skinned.meshes.len(), 1);
-        assert_eq!(skinned.meshes[0].primitives.len(), 2);
+        assert_eq!(skinned.meshes.raw[0].primitives.len(), 2);
         for exporter in BOTH {
             let [plain, skin] = [&scene, &skinned].map(|scene| bytes(scene, exporter));
             for turned in [usize::MAX, 1] {

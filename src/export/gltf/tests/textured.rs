@@ -22,7 +22,7 @@ pub(super) fn scene(mut surface: Surface, side: u32) -> Scene {
     let jpeg = image::RgbImage::from_pixel(9, 5, image::Rgb([200, 30, 0]));
     let mut out = io::Cursor::new(vec![]);
     jpeg.write_to(&mut out, image::ImageFormat::Jpeg).unwrap();
-    scene.images = vec![
+    scene.images = ti_vec![
         image("cloth", noise(side, 1)),
         image("cloth again", noise(side, 1)),
         image("metal \"2\"", noise(8, 2)),
@@ -31,12 +31,12 @@ pub(super) fn scene(mut surface: Surface, side: u32) -> Scene {
             ..image("shade", out.into_inner().into())
         },
     ];
-    let texture = |image, wrap, filter| Texture {
-        image,
+    let texture = |image: usize, wrap, filter| Texture {
+        image: image.into(),
         wrap,
         filter,
     };
-    scene.textures = vec![
+    scene.textures = ti_vec![
         texture(0, [Wrap::ClampToEdge; 2], Filter::Linear),
         texture(1, [Wrap::ClampToEdge; 2], Filter::Linear),
         texture(2, [Wrap::Repeat, Wrap::MirroredRepeat], Filter::Nearest),
@@ -44,21 +44,21 @@ pub(super) fn scene(mut surface: Surface, side: u32) -> Scene {
         texture(2, [Wrap::Repeat; 2], Filter::Linear),
     ];
     scene.materials.push(Material {
-        base_color_texture: Some(TextureUse::new(0)),
-        metallic_roughness_texture: Some(TextureUse::new(2)),
+        base_color_texture: Some(TextureUse::new(0.into())),
+        metallic_roughness_texture: Some(TextureUse::new(2.into())),
         normal_texture: Some(TextureUse {
-            texture: 4,
+            texture: 4.into(),
             amount: 0.5,
         }),
         occlusion_texture: Some(TextureUse {
-            texture: 3,
+            texture: 3.into(),
             amount: 0.25,
         }),
-        emissive_texture: Some(TextureUse::new(1)),
+        emissive_texture: Some(TextureUse::new(1.into())),
         alpha_mode: AlphaMode::Mask { cutoff: 0.25 },
         ..material(1.0)
     });
-    scene.meshes[0].primitives[0].material = 1;
+    scene.meshes.raw[0].primitives[0].material = 1.into();
     scene
 }
 
@@ -73,7 +73,7 @@ fn textures_read_back_with_their_images() {
             let sources = document.textures().map(|t| t.source().index());
             assert_eq!(sources.collect::<Vec<_>>(), [0, 0, 1, 2, 1]);
             for (image, stored) in document.images().zip([0, 2, 3]) {
-                let stored = &scene.images[stored];
+                let stored = &scene.images.raw[stored];
                 let gltf::image::Source::View { view, mime_type } = image.source() else {
                     panic!("images lie in the buffer");
                 };

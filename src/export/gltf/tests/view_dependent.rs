@@ -3,11 +3,11 @@ use super::*;
 /// Three nodes in a row, of which the middle one is bent.
 fn bent() -> Scene {
     let mut scene = single(strip(4));
-    let node = scene.nodes[0].clone();
-    scene.nodes = vec![node; 3];
-    scene.nodes[0].children = vec![1];
-    scene.nodes[1].children = vec![2];
-    scene.nodes[1].view_dependent = Some(ViewDependent::Bend);
+    let node = scene.nodes.raw[0].clone();
+    scene.nodes = ti_vec![node; 3];
+    scene.nodes.raw[0].children = vec![1.into()];
+    scene.nodes.raw[1].children = vec![2.into()];
+    scene.nodes.raw[1].view_dependent = Some(ViewDependent::Bend);
     scene
 }
 
@@ -31,9 +31,9 @@ fn a_bent_node_says_so_and_no_reader_must_know_it() {
 fn what_is_bent_is_left_out_of_a_skin() {
     let skinned = bent().skinned().unwrap();
     let meshes: Vec<_> = skinned.nodes.iter().map(|node| node.mesh).collect();
-    assert_eq!(meshes, [None, Some(0), Some(0)]);
+    assert_eq!(meshes, [None, Some(0.into()), Some(0.into())]);
     let skin = skinned.skin.as_ref().unwrap();
-    assert_eq!((skin.mesh, skinned.meshes.len()), (1, 2));
+    assert_eq!((skin.mesh, skinned.meshes.len()), (1.into(), 2));
     let file = json(&bytes(&skinned, &GLB));
     assert_eq!(file["nodes"][1]["mesh"], 0);
     assert_eq!(file["nodes"][4]["mesh"], 1);
@@ -41,13 +41,13 @@ fn what_is_bent_is_left_out_of_a_skin() {
     assert!(joints(0).is_null() && joints(1).is_number());
 
     let mut all = bent();
-    all.nodes[0].view_dependent = Some(ViewDependent::Bend);
+    all.nodes.raw[0].view_dependent = Some(ViewDependent::Bend);
     let skinned = all.clone().skinned().unwrap();
     assert_eq!(skinned, all);
 
     // A skin that would show nothing is left out, although another mesh shows something.
     let mut hollow = bent();
-    hollow.nodes[0].mesh = Some(1);
+    hollow.nodes.raw[0].mesh = Some(1.into());
     hollow.meshes.push(Mesh {
         primitives: vec![primitive(Surface::default(), 0)],
     });
