@@ -88,11 +88,9 @@ fn model(drawing: &str) -> Model {
 
 /// The milliseconds of CPU time of a picture, and the number of pictures.
 fn measure(model: &Model) -> (f64, usize) {
-    let options = render::Options {
-        size: [SIDE; 2],
-        background: Some([255; 3]),
-        ..render::Options::default()
-    };
+    let options = render::Options::default()
+        .with_size([SIDE; 2])
+        .with_background([255; 3]);
     let mut pictures = 0;
     let count = |_| {
         pictures += 1;

@@ -5,7 +5,7 @@ pub mod assemble {
     pub use crate::assemble::world_transform;
 }
 pub mod billboard {
-    pub use crate::billboard::{Character, stages};
+    pub use crate::billboard::{Character, RegionId, ViewId, stages};
 }
 pub mod bind {
     pub use crate::bind::{PartKind, bind, in_layers_of_pixels};
@@ -41,7 +41,7 @@ pub mod import {
     pub use crate::import::{ImportError, read_static_model};
 }
 pub mod labels {
-    pub use crate::labels::{Anatomy, Class, Facing, Limb, Piece, Side, Tip, label_clip};
+    pub use crate::labels::{Anatomy, Class, Facing, Limb, LimbSegment, Side, Tip, label_clip};
 }
 pub mod lang {
     pub use crate::lang::{Container, parse, reference, settings};
@@ -75,10 +75,10 @@ pub mod lsp {
     pub use crate::lsp::{pass_on, serve_client};
 }
 pub mod mark_tracks {
-    pub use crate::mark_tracks::{MarkTracks, Place};
+    pub use crate::mark_tracks::{ErrorLocation, MarkTracks};
 }
 pub mod mocap {
-    pub use crate::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
+    pub use crate::mocap::{Axis, Channel, Clip, Joint, JointId, Pose, Skeleton, Transform};
 
     pub mod bvh {
         pub use crate::mocap::bvh::{Decimals, MAX_MAGNITUDE, Reading, read, read_bytes, write};
@@ -101,7 +101,7 @@ pub mod prepare {
     pub use crate::prepare::{Options, PreparedClip, built_in, find_lead_in, prepare};
 }
 pub mod puppet {
-    pub use crate::puppet::{MarkOrigin, Options, Piece, PuppetError, Sheet, pieces, sheet};
+    pub use crate::puppet::{MarkOrigin, Options, PaperPiece, PuppetError, Sheet, pieces, sheet};
 }
 pub mod report {
     pub use crate::report::{Findings, picture_of_matches};

@@ -23,8 +23,8 @@ use crate::index::index_type;
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use camera::{Camera, CameraProjection};
 pub use deferred::SurfaceSource;
-pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPiece, TooManyJoints};
-pub use turn::{Turn, direction, view_axes};
+pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPatch, TooManyJoints};
+pub use turn::{Turn, ViewId, direction, view_axes};
 pub use typed_index_collections::TiVec;
 pub use world::WorldTransform;
 
@@ -150,7 +150,7 @@ pub enum ViewDependent {
     Turn(Turn),
     /// The node is a region of such a character, a child of the node that turns. It is here in each of the views, in the
     /// character's space, metres.
-    Region(Vec<DVec3>),
+    Region(TiVec<ViewId, DVec3>),
 }
 
 /// The source of a node in the drawing; `extras.okoshi` in glTF.
@@ -172,31 +172,31 @@ pub struct Mesh {
 /// Triangles of one material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Primitive {
-    /// The pieces that they consist of.
-    pub pieces: Vec<Piece>,
+    /// The patches that they consist of.
+    pub patches: Vec<SurfacePatch>,
     /// Their material.
     pub material: MaterialId,
 }
 
-/// A piece of a primitive.
+/// A patch of a primitive.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub enum Piece {
-    /// Triangles; boxed, because a large scene consists of deferred pieces.
+pub enum SurfacePatch {
+    /// Triangles; boxed, because a large scene consists of deferred patches.
     Surface(Box<Surface>),
     /// A surface that is made when it is asked for.
     Deferred(Arc<dyn SurfaceSource>),
-    /// Another piece, bound to a joint of a skin.
-    Skinned(Box<SkinnedPiece>),
+    /// Another patch, bound to a joint of a skin.
+    Skinned(Box<SkinnedPatch>),
 }
 
-impl From<Surface> for Piece {
+impl From<Surface> for SurfacePatch {
     fn from(surface: Surface) -> Self {
         Self::Surface(Box::new(surface))
     }
 }
 
-impl Piece {
+impl SurfacePatch {
     /// Its triangles.
     pub fn surface(&self) -> Cow<'_, Surface> {
         self.surface_by(&mut |source| Cow::Owned(source.surface()))
@@ -214,7 +214,7 @@ impl Piece {
         }
     }
 
-    /// The piece mirrored in the plane z = 0.
+    /// The patch mirrored in the plane z = 0.
     #[must_use]
     pub fn mirrored(&self) -> Self {
         match self {
@@ -225,20 +225,20 @@ impl Piece {
 }
 
 impl Primitive {
-    /// The triangles of all its pieces.
+    /// The triangles of all its patches.
     pub fn surface(&self) -> Cow<'_, Surface> {
         self.surface_by(&mut |source| Cow::Owned(source.surface()))
     }
 
-    /// The triangles of all its pieces, with deferred surfaces made by `make`.
+    /// The triangles of all its patches, with deferred surfaces made by `make`.
     pub fn surface_by<'a>(
         &'a self,
         make: &mut dyn FnMut(&'a Arc<dyn SurfaceSource>) -> Cow<'a, Surface>,
     ) -> Cow<'a, Surface> {
-        match self.pieces.as_slice() {
-            [piece] => piece.surface_by(make),
-            pieces => Cow::Owned(pieces.iter().fold(Surface::default(), |mut all, piece| {
-                all.append(&piece.surface_by(make));
+        match self.patches.as_slice() {
+            [patch] => patch.surface_by(make),
+            patches => Cow::Owned(patches.iter().fold(Surface::default(), |mut all, patch| {
+                all.append(&patch.surface_by(make));
                 all
             })),
         }

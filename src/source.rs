@@ -212,21 +212,21 @@ impl Text {
 
     /// The spans of the drawing that the decoded characters `range` were read from: one, unless tags or comments are
     /// between them.
-    pub fn pieces(&self, range: Range<usize>) -> Vec<Span> {
-        let mut pieces: Vec<Span> = vec![];
+    pub fn spans(&self, range: Range<usize>) -> Vec<Span> {
+        let mut spans: Vec<Span> = vec![];
         let mut at = range.start;
         while at < range.end {
             let next = self.runs.partition_point(|run| run.at <= at);
             let end = self.runs.get(next).map_or(self.text.len(), |run| run.at);
             let end = end.min(range.end);
             let piece = self.span(at..end);
-            match pieces.last_mut() {
+            match spans.last_mut() {
                 Some(last) if last.end == piece.start => last.end = piece.end,
-                _ => pieces.push(piece),
+                _ => spans.push(piece),
             }
             at = end;
         }
-        pieces
+        spans
     }
 
     /// The decoded offset of the character at the drawing's byte `raw`, if it belongs to this text (or is its end).
@@ -363,11 +363,11 @@ mod tests {
     }
 
     #[test]
-    fn pieces_leave_out_what_stands_between() {
+    fn spans_leave_out_what_stands_between() {
         let text = mixed();
-        assert_eq!(text.pieces(1..4), [Span::new(11, 18)]);
-        assert_eq!(text.pieces(1..6), [Span::new(11, 18), Span::new(40, 41)]);
-        assert_eq!(text.pieces(2..2), []);
+        assert_eq!(text.spans(1..4), [Span::new(11, 18)]);
+        assert_eq!(text.spans(1..6), [Span::new(11, 18), Span::new(40, 41)]);
+        assert_eq!(text.spans(2..2), []);
     }
 
     #[test]

@@ -377,11 +377,9 @@ fn picture(view: &DrawnView) -> render::Image {
     let bytes = file.expect("written").bytes;
     let model = render::read(&bytes, &MemoryResolver::default()).expect("a model");
     let posed = PosedModel::new(&model, &model.rest()).expect("triangles");
-    let options = Options {
-        size: view.size,
-        shading: Shading::Unlit,
-        ..Options::default()
-    };
+    let options = Options::default()
+        .with_size(view.size)
+        .with_shading(Shading::Unlit);
     posed.picture_of(&options, &view.sheet).expect("a picture")
 }
 

@@ -13,7 +13,7 @@ use okoshi::compile::Compiled;
 use okoshi::internals::look::DrawnView;
 use okoshi::render::{self, Options, PosedModel, Shading, Sheet};
 use okoshi::resolver::{MemoryResolver, Resolver as _};
-use okoshi::scene::view_axes;
+use okoshi::scene::{ViewId, view_axes};
 use resvg::tiny_skia::{Pixmap, Transform};
 
 /// Pixels a drawing unit.
@@ -191,11 +191,9 @@ fn picture(scene: &okoshi::scene::Scene, sheet: &Sheet, size: [u32; 2]) -> Pictu
     let bytes = file.expect("written").bytes;
     let model = render::read(&bytes, &MemoryResolver::default()).expect("a model");
     let posed = PosedModel::new(&model, &model.rest()).expect("triangles");
-    let options = Options {
-        size,
-        shading: Shading::Unlit,
-        ..Options::default()
-    };
+    let options = Options::default()
+        .with_size(size)
+        .with_shading(Shading::Unlit);
     Picture::of_model(&posed.picture_of(&options, sheet).expect("a picture"))
 }
 
@@ -242,7 +240,7 @@ fn seen(character: &Character) -> Vec<Seen> {
     let root = &compiled.scene.nodes[compiled.scene.roots[0]];
     let meters =
         okoshi::internals::assemble::world_transform(&compiled.bindings, &compiled.layers).scale;
-    let view = |(index, direction): (usize, &[f64; 2])| {
+    let view = |(index, direction): (ViewId, &[f64; 2])| {
         let [right, up, _] = view_axes(*direction);
         let frame = &shown.frames[index];
         let boxes = shown.views[index].regions.iter();
@@ -255,7 +253,7 @@ fn seen(character: &Character) -> Vec<Seen> {
         let size = (end - corner).to_array().map(|side| side as usize);
         let drawn = drawing.part(corner.to_array().map(|at| at as usize), size);
         // Views are as large as the first one.
-        let unit = meters * shown.frames[0].height / frame.height;
+        let unit = meters * shown.frames[ViewId::FIRST].height / frame.height;
         let offset = (page + corner / SCALE - frame.center) * unit;
         let sheet = Sheet {
             corner: root.translation + right * offset.x - up * offset.y,
@@ -271,7 +269,7 @@ fn seen(character: &Character) -> Vec<Seen> {
             direction: *direction,
         }
     };
-    shown.turn.views.iter().enumerate().map(view).collect()
+    shown.turn.views.iter_enumerated().map(view).collect()
 }
 
 #[test]
@@ -341,6 +339,7 @@ fn lines_are_as_wide_as_drawn() {
         let compiled = &character.compiled;
         let page = compiled.drawing.page.0;
         for (view, seen) in drawn_views.iter().enumerate() {
+            let view = ViewId::from(view);
             for region in &compiled.characters[0].regions {
                 let Some(shape) = region.shapes[view] else {
                     continue;
@@ -397,18 +396,16 @@ fn the_clip_ends_at_the_last_view() {
     let view = DrawnView::new(&character.compiled, character.compiled.scene.clone(), SCALE);
     let view = view.expect("a page");
     // The last view as the page shows it, and what the clip shows in the place of the first.
-    let options = Options {
-        size: view.size,
-        shading: Shading::Unlit,
-        bend: false,
-        ..Options::default()
-    };
+    let options = Options::default()
+        .with_size(view.size)
+        .with_shading(Shading::Unlit)
+        .unbent();
     let pose = model.pose_at(clip, clip.seconds);
     let posed = PosedModel::new(&model, &pose).expect("triangles");
     let shown = Picture::of_model(&posed.picture_of(&options, &view.sheet).expect("a picture"));
     let drawing = Picture::of_drawing(&character);
     let frames = &character.compiled.characters[0].frames;
-    let moved = (frames[1].center - frames[0].center) * SCALE;
+    let moved = (frames.raw[1].center - frames.raw[0].center) * SCALE;
     assert!((moved.y).abs() < 1.0, "{moved}");
     let half = drawing.width / 2;
     let height = drawing.pixels.len() / drawing.width;
@@ -437,14 +434,14 @@ fn backing_fills_gaps_and_changes_nothing_else() {
 
         // Half way to the second view.
         let shown = &plain.compiled.characters[0];
-        let [from, to] = [shown.turn.views[0], shown.turn.views[1]];
+        let [from, to] = [0, 1].map(|view| shown.turn.views.raw[view]);
         let [right, up, _] = view_axes([(from[0] + to[0]) / 2.0, (from[1] + to[1]) / 2.0]);
         let meters = okoshi::internals::assemble::world_transform(
             &plain.compiled.bindings,
             &plain.compiled.layers,
         )
         .scale;
-        let size = (shown.frames[0].height * 1.5 * SCALE) as u32;
+        let size = (shown.frames[ViewId::FIRST].height * 1.5 * SCALE) as u32;
         let half = f64::from(size) / 2.0 * meters / SCALE;
         let halfway = |character: &Character| {
             let scene = &character.compiled.scene;
@@ -480,7 +477,7 @@ fn feature_points_tie_places_of_outlines_together() {
         let mut regions = compiled.characters[0].regions.iter();
         let region = regions.find(|region| region.name == "card");
         let region = region.expect("a region");
-        let points = &region.pieces[0].morph.points;
+        let points = &region.meshes[0].morph.points.raw;
         let from = glam::DVec2::from(from);
         let mut corners = points[0].iter();
         let corner = corners.position(|point| point.distance(from) < 0.1);

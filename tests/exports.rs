@@ -11,7 +11,7 @@ use okoshi::resolver::MemoryResolver;
 type Shape = (&'static str, [f64; 2], [f64; 2], f64);
 
 /// Something that is drawn: its name, the name of what carries it, and its shapes. An empty name is none.
-type Piece = (&'static str, &'static str, &'static [Shape]);
+type FigurePart = (&'static str, &'static str, &'static [Shape]);
 
 const SIZE: [f64; 2] = [200.0, 300.0];
 
@@ -19,7 +19,7 @@ const SKIN: &str = "#ffcc99";
 const SHIRT: &str = "#3366cc";
 const TROUSERS: &str = "#333366";
 
-const PERSON: &[Piece] = &[
+const PERSON: &[FigurePart] = &[
     (
         "Left arm",
         "Body",
@@ -83,7 +83,7 @@ const PERSON: &[Piece] = &[
     ),
 ];
 
-const DOG: &[Piece] = &[
+const DOG: &[FigurePart] = &[
     (
         "Tail",
         "Body",
@@ -136,7 +136,7 @@ const DOG: &[Piece] = &[
     ),
 ];
 
-const BIRD: &[Piece] = &[
+const BIRD: &[FigurePart] = &[
     (
         "Tail",
         "Body",
@@ -184,7 +184,7 @@ const BIRD: &[Piece] = &[
     ),
 ];
 
-const ROBOT_JA: &[Piece] = &[
+const ROBOT_JA: &[FigurePart] = &[
     ("胴", "", &[("#888899", [100.0, 140.0], [40.0, 45.0], 0.0)]),
     ("頭", "胴", &[("#aaaabb", [100.0, 75.0], [26.0, 24.0], 0.0)]),
     ("目", "頭", &[("#000000", [100.0, 75.0], [15.0, 4.0], 0.0)]),
@@ -221,7 +221,7 @@ const ROBOT_JA: &[Piece] = &[
 ];
 
 /// Nothing of it is in the vocabulary: the largest part is the root.
-const LAMP: &[Piece] = &[
+const LAMP: &[FigurePart] = &[
     (
         "stand",
         "cone",
@@ -241,7 +241,7 @@ const LAMP: &[Piece] = &[
 ];
 
 /// Two of its parts have one name, one has none.
-const SNAKE: &[Piece] = &[
+const SNAKE: &[FigurePart] = &[
     (
         "segment",
         "",
@@ -415,7 +415,7 @@ const CLASSES: &[&str] = &[
 ];
 
 /// The pieces of a figure, those of several shapes as groups.
-fn pieces(figure: &[Piece], attributes: Attributes, form: Form) -> String {
+fn pieces(figure: &[FigurePart], attributes: Attributes, form: Form) -> String {
     let mut counter = 0;
     let mut out = String::new();
     for (name, _, shapes) in figure {
@@ -586,7 +586,7 @@ fn hierarchy(drawing: &str) -> Vec<(String, String)> {
 
 #[test]
 fn exported_drawings_have_the_names_of_their_layers() {
-    let figures: [(&str, &[Piece]); 6] = [
+    let figures: [(&str, &[FigurePart]); 6] = [
         ("person", PERSON),
         ("dog", DOG),
         ("bird", BIRD),

@@ -9,11 +9,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use glam::{DAffine3, DVec2, DVec3};
-use okoshi::diagnostic::{Code, Diagnostic};
 use okoshi::FolderResolver;
+use okoshi::diagnostic::{Code, Diagnostic};
 use okoshi::internals::geometry::{FillRule, area, intersect, resolve_overlaps};
-use okoshi::scene::{NodeId, Piece, Scene, TiVec};
 use okoshi::internals::solid::{Sides, Solid};
+use okoshi::scene::{NodeId, Scene, SurfacePatch, TiVec};
 
 /// The distance below which planes coincide, as a share of the model's extent.
 const NEAR: f64 = 1e-6;
@@ -46,16 +46,16 @@ fn faces(scene: &Scene) -> Vec<Face> {
             .mesh
             .iter()
             .flat_map(|mesh| &scene.meshes[*mesh].primitives);
-        for piece in primitives.flat_map(|primitive| &primitive.pieces) {
+        for patch in primitives.flat_map(|primitive| &primitive.patches) {
             owner += 1;
             // A solid and its copy count as two.
-            let copies = match piece {
-                Piece::Deferred(source) => (&**source as &dyn Any)
+            let copies = match patch {
+                SurfacePatch::Deferred(source) => (&**source as &dyn Any)
                     .downcast_ref::<Solid>()
                     .is_some_and(|solid| solid.sides == Sides::Both),
                 _ => false,
             };
-            let surface = piece.surface();
+            let surface = patch.surface();
             let half = surface.triangles.len() / 2;
             for (number, triangle) in surface.triangles.iter().enumerate() {
                 let corners = triangle.map(|i| {

@@ -12,10 +12,11 @@ use glam::DVec2;
 use image::RgbaImage;
 use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
-use okoshi::internals::billboard::Character;
+use okoshi::internals::billboard::{Character, RegionId, ViewId};
 use okoshi::internals::geometry::{bounds, contains};
 use okoshi::internals::report::picture_of_matches;
 use okoshi::resolver::MemoryResolver;
+use typed_index_collections::TiVec;
 
 const EXAMPLES: [&str; 4] = ["bird", "boy", "cat", "robot"];
 /// The layout of the picture, pixels: the height of a view, and the room around it and for its angles below.
@@ -36,17 +37,17 @@ fn example(name: &str) -> Compiled {
 /// visible are missing. Also the width of the cell.
 fn colors(
     character: &Character,
-    view: usize,
+    view: ViewId,
     picture: &RgbaImage,
     left: u32,
-) -> (BTreeMap<usize, [u8; 3]>, u32) {
+) -> (BTreeMap<RegionId, [u8; 3]>, u32) {
     let shown = &character.views[view];
     let (low, high) = shown.bounds().expect("regions");
     let scale = HEIGHT / (high.y - low.y);
     let width = ((high.x - low.x) * scale + 2.0 * MARGIN).ceil();
     let slack = width - (high.x - low.x) * scale;
     let corner = DVec2::new(f64::from(left) + slack / 2.0, MARGIN);
-    let boxes: Vec<_> = shown
+    let boxes: TiVec<RegionId, _> = shown
         .regions
         .iter()
         .map(|region| bounds(&region.outline))
@@ -54,23 +55,23 @@ fn colors(
     let visible = |column: usize, row: usize| {
         let pixel = DVec2::new(f64::from(left), 0.0) + DVec2::new(column as f64, row as f64) * STEP;
         let at = (pixel + 0.5 - corner) / scale + low;
-        let is_at = |index: &usize| {
+        let is_at = |index: &RegionId| {
             let is_near = boxes[*index]
                 .is_some_and(|(low, high)| at.cmpge(low).all() && at.cmple(high).all());
             is_near && contains(&shown.regions[*index].outline, at)
         };
-        (0..boxes.len()).rev().find(is_at)
+        boxes.keys().rev().find(is_at)
     };
     let [columns, rows] = [width, HEIGHT + 2.0 * MARGIN].map(|side| (side / STEP) as usize);
-    let owners: Vec<Option<usize>> = (0..rows * columns)
+    let owners: Vec<Option<RegionId>> = (0..rows * columns)
         .map(|at| visible(at % columns, at / columns))
         .collect();
-    let mut counts: BTreeMap<usize, BTreeMap<[u8; 3], usize>> = BTreeMap::new();
+    let mut counts: BTreeMap<RegionId, BTreeMap<[u8; 3], usize>> = BTreeMap::new();
     for row in 1..rows - 1 {
         for column in 1..columns - 1 {
             let around =
                 (row - 1..=row + 1).flat_map(|row| &owners[row * columns + column - 1..][..3]);
-            let around: Vec<Option<usize>> = around.copied().collect();
+            let around: Vec<Option<RegionId>> = around.copied().collect();
             let Some(region) = around[0].filter(|_| around.iter().all(|own| *own == around[0]))
             else {
                 continue;
@@ -104,7 +105,7 @@ fn check(compiled: &Compiled, what: &str) -> [usize; 2] {
     assert_eq!(f64::from(picture.height()), HEIGHT + 2.0 * MARGIN + CAPTION);
     let mut left = 0;
     let mut shown = Vec::new();
-    for view in 0..character.views.len() {
+    for view in character.views.keys() {
         let (colors, width) = colors(character, view, &picture, left);
         shown.push(colors);
         left += width;

@@ -41,7 +41,7 @@ fn pillar() -> Vec<u8> {
         },
     };
     let primitive = |surface: Surface, material: usize| Primitive {
-        pieces: vec![surface.into()],
+        patches: vec![surface.into()],
         material: material.into(),
     };
     let scene = Scene {

@@ -28,11 +28,9 @@ fn folder(name: &str) -> PathBuf {
 fn picture(glb: &[u8]) -> RgbaImage {
     let model = read(glb, &MemoryResolver::default()).expect("a model");
     let posed = PosedModel::new(&model, &model.rest()).expect("triangles");
-    let options = Options {
-        size: [SIDE, SIDE],
-        background: Some([255, 255, 255]),
-        ..Options::default()
-    };
+    let options = Options::default()
+        .with_size([SIDE, SIDE])
+        .with_background([255, 255, 255]);
     posed.picture(&options).expect("a picture")
 }
 

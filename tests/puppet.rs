@@ -15,7 +15,9 @@ use okoshi::compile::Compiled;
 use okoshi::internals::geometry::{
     FillRule, Outline, area, border_distance_squared, bounds, contains, intersect, resolve_overlaps,
 };
-use okoshi::internals::puppet::{MarkOrigin, Options, Piece, PuppetError, Sheet, pieces, sheet};
+use okoshi::internals::puppet::{
+    MarkOrigin, Options, PaperPiece, PuppetError, Sheet, pieces, sheet,
+};
 use okoshi::internals::svg::{LeftOut, raster};
 use okoshi::resolver::{MemoryResolver, Resolver};
 use proptest::prelude::*;
@@ -238,7 +240,7 @@ fn picture(sheet: &Sheet) -> Pixmap {
 }
 
 /// What an element that is not on a piece shows.
-fn all_but(compiled: &Compiled, piece: &Piece) -> FxHashMap<usize, LeftOut> {
+fn all_but(compiled: &Compiled, piece: &PaperPiece) -> FxHashMap<usize, LeftOut> {
     let mut left_out = FxHashMap::default();
     for shape in &compiled.drawing.shapes {
         if !piece.leaves.contains(&shape.leaf) {
@@ -357,7 +359,7 @@ fn details_stay_on_their_piece() {
     let resolver = MemoryResolver::default();
     let compiled = common::compiled(GOOD, &resolver);
     let made = pieces(&compiled.drawing, &compiled.bindings);
-    let names = |piece: &Piece| {
+    let names = |piece: &PaperPiece| {
         let parts = [&[piece.part][..], &piece.details].concat();
         let names = parts
             .iter()

@@ -333,7 +333,7 @@ fn upright_scene(node: Node, animations: Vec<Animation>) -> Scene {
         node,
         mesh: Some(Mesh {
             primitives: vec![Primitive {
-                pieces: vec![square.into()],
+                patches: vec![square.into()],
                 material,
             }],
         }),
@@ -356,7 +356,7 @@ fn bent() -> Vec<u8> {
 fn turning(name: &str, times: &[f32], interpolation: Interpolation) -> Animation {
     let drawings = match interpolation {
         Interpolation::Step => times.len() - 1,
-        Interpolation::Linear => times.len(),
+        _ => times.len(),
     };
     let turn = |key: usize| DQuat::from_rotation_z(key.min(drawings - 1) as f64 * 0.4);
     Animation {

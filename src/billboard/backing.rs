@@ -7,8 +7,9 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::drawn::DrawnView;
 use super::matching::{Track, TrackId};
-use super::place::{Frame, Placed};
+use super::place::{Frame, TrackPosition};
 use crate::geometry::{Outline, area, bounds, intersect, offset, union};
+use crate::scene::ViewId;
 
 /// How far a region goes on under those in front of it, heights.
 const GROWTH: f64 = 0.03;
@@ -22,23 +23,25 @@ const LEAST_GROWTH: f64 = 1e-3;
 /// For each track its backing in each view, drawing units: the region and what it would be under its neighbours in front, without
 /// anything that shows at that view. `None` where nothing lies in front, and for what is not opaque.
 pub(super) fn backings(
-    views: &[DrawnView],
-    frames: &[Frame],
+    views: &TiSlice<ViewId, DrawnView>,
+    frames: &TiSlice<ViewId, Frame>,
     tracks: &TiSlice<TrackId, Track>,
-    placed: &TiSlice<TrackId, Placed>,
-) -> TiVec<TrackId, Option<Vec<Arc<Outline>>>> {
-    let covers = |view: usize, track: TrackId| {
+    placed: &TiSlice<TrackId, TrackPosition>,
+) -> TiVec<TrackId, Option<TiVec<ViewId, Arc<Outline>>>> {
+    let covers = |view: ViewId, track: TrackId| {
         let region = &views[view].view.regions[tracks[track].regions[view]?];
         (region.color[3] >= OPAQUE).then_some(&region.outline)
     };
     let backing = |track: TrackId| {
-        let mut shown = (0..views.len()).filter(|view| tracks[track].regions[*view].is_some());
+        let mut shown = views
+            .keys()
+            .filter(|view| tracks[track].regions[*view].is_some());
         if shown.any(|view| covers(view, track).is_none()) {
             // It would show through itself.
             return None;
         }
         let mut grows = false;
-        let of_view = |view: usize| {
+        let of_view = |view: ViewId| {
             let Some(region) = tracks[track].regions[view] else {
                 return Arc::default();
             };
@@ -61,7 +64,7 @@ pub(super) fn backings(
             grows |= area(&backing) - area(&inner) > LEAST_GROWTH * area(own);
             Arc::new(backing)
         };
-        let outlines: Vec<Arc<Outline>> = (0..views.len()).map(of_view).collect();
+        let outlines: TiVec<ViewId, Arc<Outline>> = views.keys().map(of_view).collect();
         grows.then_some(outlines)
     };
     let all = (0..tracks.len()).into_par_iter();

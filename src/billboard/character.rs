@@ -12,9 +12,9 @@ use super::diagnostics;
 use super::drawn::{self, DrawnLine, DrawnView};
 use super::features::{self, OfRegion};
 use super::keys;
-use super::matching::{Matching, Track, TrackId};
-use super::place::{Frame, Placed, frames, place};
-use super::region::{Direction, View};
+use super::matching::{Matching, RegionInView, Track, TrackId};
+use super::place::{Frame, TrackPosition, frames, place};
+use super::region::{Direction, RegionId, View};
 use super::shape::{Ends, Morph, line_mesh, match_lines};
 use super::turn::between;
 use crate::bind::Bindings;
@@ -22,7 +22,7 @@ use crate::diagnostic::Diagnostic;
 use crate::geometry::Outline;
 use crate::lang::keyword::Keyword;
 use crate::memo::Memo;
-use crate::scene::{Turn, view_axes};
+use crate::scene::{Turn, ViewId, view_axes};
 use crate::svg::Drawing;
 
 /// How far the line along a border lies in front of its region, heights. Less than regions are apart.
@@ -36,15 +36,15 @@ pub struct Character {
     /// Its name.
     pub name: String,
     /// Per view the index of its layer.
-    pub layers: Vec<usize>,
+    pub layers: TiVec<ViewId, usize>,
     /// Its views, and what lies between them.
     pub turn: Turn,
     /// Per view its centre and scale.
-    pub frames: Vec<Frame>,
+    pub frames: TiVec<ViewId, Frame>,
     /// Its regions, in the order of the first view that shows each.
     pub regions: TiVec<TrackId, RegionModel>,
     /// The regions of each view, as they are drawn.
-    pub views: Vec<View>,
+    pub views: TiVec<ViewId, View>,
     /// Which regions of the views are the same; its tracks are in the order of `regions`.
     pub matching: Matching,
 }
@@ -57,24 +57,24 @@ pub struct RegionModel {
     /// Its colour, the mean one of a gradient: sRGB with straight alpha, each 0 to 1.
     pub color: [f64; 4],
     /// Its place in each view, in the character's space, heights.
-    pub places: Vec<DVec3>,
+    pub positions: TiVec<ViewId, DVec3>,
     /// The area, the line along its border in front of it, and its backing behind the whole character.
-    pub pieces: Vec<Piece>,
+    pub meshes: Vec<RegionMesh>,
     /// Index of the shape that it is in the first view that shows it, or of the picture that it is in.
     pub shape: usize,
     /// Index of its part there, if it has one: regions of pictures have none.
     pub part: Option<usize>,
     /// The first view that shows it.
-    pub first_view: usize,
+    pub first_view: ViewId,
     /// Per view whether it is hidden there (`Hidden`).
-    pub is_hidden: Vec<bool>,
+    pub is_hidden: TiVec<ViewId, bool>,
     /// Per view the shape or picture, where the view shows it.
-    pub shapes: Vec<Option<usize>>,
+    pub shapes: TiVec<ViewId, Option<usize>>,
 }
 
 /// A mesh in one colour.
 #[derive(Debug)]
-pub struct Piece {
+pub struct RegionMesh {
     /// Its shape in each view, drawing units.
     pub morph: Morph,
     /// What it is filled with.
@@ -122,8 +122,8 @@ fn views(
     (name, layers): (&str, &[usize]),
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Option<Vec<DrawnView>> {
-    let mut views: Vec<DrawnView> = Vec::new();
+) -> Option<TiVec<ViewId, DrawnView>> {
+    let mut views: TiVec<ViewId, DrawnView> = TiVec::new();
     // What is wrong with a view was reported; then it is not missing.
     let mut has_broken = false;
     for layer in layers {
@@ -144,7 +144,7 @@ fn views(
         }
         views.push(view);
     }
-    if let [only] = &views[..]
+    if let [only] = &views.raw[..]
         && !has_broken
     {
         diagnostics.push(diagnostics::alone(bindings, name, only));
@@ -156,20 +156,20 @@ fn views(
 fn character(
     drawing: &Drawing,
     bindings: &Bindings,
-    (name, drawn): (&str, Vec<DrawnView>),
+    (name, drawn): (&str, TiVec<ViewId, DrawnView>),
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Character {
-    let views: Vec<View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
+    let views: TiVec<ViewId, View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
     let frames = frames(&views);
     let matching = keys::matched(&views, memo);
     diagnostics::report(drawing, bindings, name, &drawn, &matching, diagnostics);
-    let depths: Vec<Vec<Option<f64>>> = drawn
+    let depths: TiVec<ViewId, TiVec<RegionId, Option<f64>>> = drawn
         .iter()
         .map(|view| view.drawn.iter().map(|drawn| drawn.depth).collect())
         .collect();
     let placed = place(&views, &frames, &matching.tracks, &depths);
-    let directions: Vec<Direction> = views.iter().map(|view| view.direction).collect();
+    let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
     let turn = between(&directions);
     let tracks = &matching.tracks;
     let features = features::assign(bindings, &drawn, &frames, tracks, diagnostics);
@@ -211,20 +211,20 @@ fn character(
 
 /// What the model of a region is made from.
 struct Sources<'a> {
-    drawn: &'a [DrawnView],
-    frames: &'a [Frame],
+    drawn: &'a TiSlice<ViewId, DrawnView>,
+    frames: &'a TiSlice<ViewId, Frame>,
     track: &'a Track,
-    placed: &'a Placed,
+    placed: &'a TrackPosition,
     memo: &'a Memo,
     features: &'a OfRegion,
     /// The outlines of its backing.
-    backing: Option<&'a [Arc<Outline>]>,
+    backing: Option<&'a TiSlice<ViewId, Arc<Outline>>>,
     /// How far back the backings of the character are, heights.
     behind: f64,
 }
 
 /// A distance, heights, by which something has to be moved back to lie behind all of a character at every view.
-fn behind_all(placed: &TiSlice<TrackId, Placed>) -> f64 {
+fn behind_all(placed: &TiSlice<TrackId, TrackPosition>) -> f64 {
     let depths = || {
         placed
             .iter()
@@ -239,48 +239,52 @@ fn behind_all(placed: &TiSlice<TrackId, Placed>) -> f64 {
 
 impl Sources<'_> {
     fn model(&self, drawing: &Drawing, index: TrackId) -> RegionModel {
-        let shown = || self.track.regions.iter().enumerate();
-        let shown: Vec<(usize, usize)> = shown()
-            .filter_map(|(view, r)| Some((view, (*r)?)))
+        let shown = self.track.regions.iter_enumerated();
+        let shown: Vec<RegionInView> = shown
+            .filter_map(|(view, id)| Some(RegionInView { view, id: (*id)? }))
             .collect();
-        let region = |(view, region): &(usize, usize)| &self.drawn[*view].view.regions[*region];
-        let drawn = |(view, region): &(usize, usize)| &self.drawn[*view].drawn[*region];
-        let outlines: Vec<Arc<Outline>> = (0..self.drawn.len())
-            .map(|view| {
-                let found = shown.iter().find(|(v, _)| *v == view);
-                found.map_or_else(Arc::default, |found| Arc::clone(&region(found).outline))
+        let region = |at: &RegionInView| &self.drawn[at.view].view.regions[at.id];
+        let drawn = |at: &RegionInView| &self.drawn[at.view].drawn[at.id];
+        let outlines = self.drawn.iter().zip(&self.track.regions);
+        let outlines: TiVec<ViewId, Arc<Outline>> = outlines
+            .map(|(drawn, id)| {
+                id.map_or_else(Arc::default, |id| {
+                    Arc::clone(&drawn.view.regions[id].outline)
+                })
             })
             .collect();
         let mut area = match self.open_line(&shown) {
             Some(line) => line,
-            None => keys::morphed(outlines, self.features, self.memo),
+            None => keys::morphed(outlines.raw, self.features, self.memo),
         };
-        let lines = shown.iter().filter_map(|at| Some((at.0, drawn(at).line?)));
-        let lines: Vec<(usize, DrawnLine)> = lines.collect();
+        let lines = shown
+            .iter()
+            .filter_map(|at| Some((at.view, drawn(at).line?)));
+        let lines: Vec<(ViewId, DrawnLine)> = lines.collect();
         let line = self.line(&area, &lines);
         self.shrink(&mut area);
         let first = shown.first();
         let backing = self.backing.map(|outlines| {
-            let mut morph = keys::morphed(outlines.to_vec(), self.features, self.memo);
+            let mut morph = keys::morphed(outlines.raw.to_vec(), self.features, self.memo);
             self.shrink(&mut morph);
-            Piece {
+            RegionMesh {
                 morph,
                 fill: Fill::Region,
                 lift: -self.behind,
             }
         });
-        let area = Piece {
+        let area = RegionMesh {
             morph: area,
             fill: Fill::Region,
             lift: 0.0,
         };
-        let pieces = [Some(area), line, backing].into_iter().flatten().collect();
+        let meshes = [Some(area), line, backing].into_iter().flatten().collect();
         let named = shown.iter().find_map(|at| region(at).name.clone());
-        let mut shapes = vec![None; self.drawn.len()];
-        let mut is_hidden = vec![false; self.drawn.len()];
+        let mut shapes = TiVec::from(vec![None; self.drawn.len()]);
+        let mut is_hidden = TiVec::from(vec![false; self.drawn.len()]);
         for at in &shown {
-            shapes[at.0] = Some(drawn(at).shape);
-            is_hidden[at.0] = drawn(at).is_hidden;
+            shapes[at.view] = Some(drawn(at).shape);
+            is_hidden[at.view] = drawn(at).is_hidden;
         }
         RegionModel {
             name: named.unwrap_or_else(|| {
@@ -292,18 +296,18 @@ impl Sources<'_> {
                 }
             }),
             color: first.map_or([0.0; 4], |first| region(first).color),
-            places: self.places(),
-            pieces,
+            positions: self.positions(),
+            meshes,
             shape: first.map_or(0, |first| drawn(first).shape),
             part: first.and_then(|first| drawn(first).part),
-            first_view: first.map_or(0, |first| first.0),
+            first_view: first.map_or(ViewId::FIRST, |first| first.view),
             is_hidden,
             shapes,
         }
     }
 
     /// The places in the views, as deep as the order of painting needs.
-    fn places(&self) -> Vec<DVec3> {
+    fn positions(&self) -> TiVec<ViewId, DVec3> {
         let views = self
             .drawn
             .iter()
@@ -317,18 +321,18 @@ impl Sources<'_> {
     }
 
     /// The line along the border, as wide as it is drawn in each view.
-    fn line(&self, area: &Morph, lines: &[(usize, DrawnLine)]) -> Option<Piece> {
+    fn line(&self, area: &Morph, lines: &[(ViewId, DrawnLine)]) -> Option<RegionMesh> {
         let (_, DrawnLine { color, .. }) = *lines.first()?;
         // A view that does not show the region has the width of another one.
-        let width = |view: usize| {
+        let width = |view: ViewId| {
             let own = lines.iter().find(|(v, _)| *v == view);
             let (from, line) = own.or(lines.first())?;
             Some(line.width * self.frames[view].height / self.frames[*from].height)
         };
-        let widths: Option<Vec<f64>> = (0..self.drawn.len()).map(width).collect();
+        let widths: Option<TiVec<ViewId, f64>> = self.drawn.keys().map(width).collect();
         let widths = widths?;
         let mut morph = Morph {
-            points: vec![Vec::new(); self.drawn.len()],
+            points: vec![Vec::new(); self.drawn.len()].into(),
             ..Morph::default()
         };
         for ring in &area.rings {
@@ -337,8 +341,8 @@ impl Sources<'_> {
                 .iter()
                 .map(|points| ring.iter().map(|index| points[*index as usize]).collect());
             let along: Vec<Vec<DVec2>> = along.collect();
-            let part = line_mesh(&along, &widths, Ends::Joined);
-            let base = morph.points[0].len() as u32;
+            let part = line_mesh(&along, &widths.raw, Ends::Joined);
+            let base = morph.points[ViewId::FIRST].len() as u32;
             for (all, points) in morph.points.iter_mut().zip(part.points) {
                 all.extend(points);
             }
@@ -348,7 +352,7 @@ impl Sources<'_> {
                 .extend(triangles.map(|t| t.map(|corner| corner + base)));
         }
         self.shrink(&mut morph);
-        Some(Piece {
+        Some(RegionMesh {
             morph,
             fill: Fill::Color(color),
             lift: LINE_STEP,
@@ -356,21 +360,21 @@ impl Sources<'_> {
     }
 
     /// A line that is no border, as wide as it is drawn in each view; `None` if a view shows something else.
-    fn open_line(&self, shown: &[(usize, usize)]) -> Option<Morph> {
-        let mut points = vec![Vec::new(); self.drawn.len()];
-        let mut widths = vec![0.0; self.drawn.len()];
-        for (view, region) in shown {
-            let line = self.drawn[*view].drawn[*region].open_line.as_ref()?;
+    fn open_line(&self, shown: &[RegionInView]) -> Option<Morph> {
+        let mut points = TiVec::from(vec![Vec::new(); self.drawn.len()]);
+        let mut widths = TiVec::from(vec![0.0; self.drawn.len()]);
+        for RegionInView { view, id } in shown {
+            let line = self.drawn[*view].drawn[*id].open_line.as_ref()?;
             points[*view].clone_from(&line.points);
             widths[*view] = line.width;
         }
-        let points = match_lines(&points);
-        Some(line_mesh(&points, &widths, Ends::Free))
+        let points = match_lines(&points.raw);
+        Some(line_mesh(&points, &widths.raw, Ends::Free))
     }
 
     /// Where a view does not show the region, it is a point at its place.
     fn shrink(&self, morph: &mut Morph) {
-        for (view, points) in morph.points.iter_mut().enumerate() {
+        for (view, points) in morph.points.iter_mut_enumerated() {
             if self.track.regions[view].is_none() {
                 let Direction { theta, phi } = self.drawn[view].view.direction;
                 let [right, up, _] = view_axes([theta, phi]);

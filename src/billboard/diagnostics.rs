@@ -1,12 +1,15 @@
 //! What is reported about characters.
 
+use typed_index_collections::TiSlice;
+
 use super::drawn::{DrawnView, MOST_REGIONS};
-use super::matching::{Candidate, Matching, Place, Reason, Unmatched, Warning};
+use super::matching::{Candidate, Matching, Reason, RegionInView, Unmatched, Warning};
 use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::bounds;
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::Keyword;
+use crate::scene::ViewId;
 use crate::source::Span;
 use crate::svg::Drawing;
 
@@ -57,7 +60,7 @@ pub(super) fn report(
     drawing: &Drawing,
     bindings: &Bindings,
     name: &str,
-    views: &[DrawnView],
+    views: &TiSlice<ViewId, DrawnView>,
     matching: &Matching,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
@@ -92,17 +95,17 @@ pub(super) fn report(
         }
         diagnostics.push(finding);
     }
-    let describe = |place: Place| describe(drawing, views, place);
+    let describe = |region: RegionInView| describe(drawing, views, region);
     let finding = |unmatched: &Unmatched| {
-        let Place { view, region } = unmatched.place;
-        let what = describe(unmatched.place);
+        let RegionInView { view, id } = unmatched.region;
+        let what = describe(unmatched.region);
         let mut message = format!(
             "{what} has no partner in another view of `{name}`, and shrinks to nothing on the way there"
         );
         if let Some(candidate) = unmatched.candidates.first() {
             message.push_str(&format!("; {}", why_not(candidate, &describe)));
         }
-        let shape = views[view].drawn[region].shape;
+        let shape = views[view].drawn[id].shape;
         Diagnostic::new(Code::NoPartner, drawing.shapes[shape].element.span, message).help(
             "if it is hidden there, draw it and mark it with `Hidden`; if it is another region, write the same name beside both",
         )
@@ -113,7 +116,7 @@ pub(super) fn report(
             matching
                 .unmatched
                 .iter()
-                .map(|unmatched| describe(unmatched.place)),
+                .map(|unmatched| describe(unmatched.region)),
         )
     };
     few_or_one(
@@ -136,7 +139,7 @@ enum Angle {
 }
 
 /// The angle by which two views differ; if by both, the one around.
-fn angle_between(views: &[DrawnView], of: [usize; 2]) -> Angle {
+fn angle_between(views: &TiSlice<ViewId, DrawnView>, of: [ViewId; 2]) -> Angle {
     let [a, b] = of.map(|view| views[view].view.direction.theta);
     if a == b { Angle::Up } else { Angle::Around }
 }
@@ -167,8 +170,8 @@ fn with_other_sign(
     Some((number.to_owned(), span, new))
 }
 
-fn why_not(candidate: &Candidate, describe: &dyn Fn(Place) -> String) -> String {
-    let other = describe(candidate.place);
+fn why_not(candidate: &Candidate, describe: &dyn Fn(RegionInView) -> String) -> String {
+    let other = describe(candidate.region);
     match candidate.reason {
         Reason::Color => format!("the colour of {other}, the nearest, differs"),
         Reason::Names => format!("{other}, the nearest, has another name"),
@@ -178,12 +181,13 @@ fn why_not(candidate: &Candidate, describe: &dyn Fn(Place) -> String) -> String 
 }
 
 /// A region for people.
-pub(super) fn describe(drawing: &Drawing, views: &[DrawnView], place: Place) -> String {
-    let Place { view, region } = place;
-    let (drawn, found) = (
-        &views[view].drawn[region],
-        &views[view].view.regions[region],
-    );
+pub(super) fn describe(
+    drawing: &Drawing,
+    views: &TiSlice<ViewId, DrawnView>,
+    region: RegionInView,
+) -> String {
+    let RegionInView { view, id } = region;
+    let (drawn, found) = (&views[view].drawn[id], &views[view].view.regions[id]);
     let shape = &drawing.shapes[drawn.shape];
     if let Some(name) = &found.name {
         return format!("`{name}`");
@@ -193,15 +197,15 @@ pub(super) fn describe(drawing: &Drawing, views: &[DrawnView], place: Place) -> 
     }
     // Regions of a picture have no element of their own.
     let [r, g, b] = [0, 1, 2].map(|i| (found.color[i] * 255.0).round() as u8);
-    let place = bounds(&found.outline).zip(views[view].view.bounds());
-    let place = place.map(|((low, high), (least, greatest))| {
+    let position = bounds(&found.outline).zip(views[view].view.bounds());
+    let position = position.map(|((low, high), (least, greatest))| {
         let at = ((low + high) / 2.0 - least) / (greatest - least);
         let (x, y) = (at.x * 100.0, at.y * 100.0);
         format!(", {x:.0} % from the left and {y:.0} % from the top,")
     });
-    let place = place.unwrap_or_default();
+    let position = position.unwrap_or_default();
     format!(
-        "the region in #{r:02x}{g:02x}{b:02x}{place} of {}",
+        "the region in #{r:02x}{g:02x}{b:02x}{position} of {}",
         drawing.describe(drawn.shape)
     )
 }

@@ -6,19 +6,21 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use image::DynamicImage;
 use rayon::prelude::*;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::diagnostics::too_many;
 use super::features::{self, FeaturePoint};
 use super::keys;
-use super::matching::Place;
+use super::matching::RegionInView;
 use super::raster::{self, RasterView};
-use super::region::{Direction, Region, View};
+use super::region::{Direction, Region, RegionId, View};
 use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Outline, area, bounds, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
 use crate::memo::Memo;
+use crate::scene::ViewId;
 use crate::svg::{Drawing, LARGE};
 
 /// Pixels along the longer side of an SVG picture in a view.
@@ -36,8 +38,8 @@ pub(super) struct DrawnView {
     /// Index of its layer.
     pub(super) layer: usize,
     pub(super) view: View,
-    /// Per region of the view, what else the drawing says of it.
-    pub(super) drawn: Vec<Drawn>,
+    /// What else the drawing says of each region.
+    pub(super) drawn: TiVec<RegionId, Drawn>,
     /// Its feature points.
     pub(super) features: Vec<FeaturePoint>,
 }
@@ -117,14 +119,8 @@ pub(super) fn read(
             continue;
         }
         if shape.picture.is_some() {
-            match of_picture(drawing, index, memo) {
-                Ok(found) => {
-                    let first = regions.len();
-                    regions.extend(found.into_iter().map(|(mut region, drawn)| {
-                        region.container = region.container.map(|outer| first + outer);
-                        (region, drawn)
-                    }));
-                }
+            match of_picture(drawing, index, regions.len(), memo) {
+                Ok(found) => regions.extend(found),
                 Err((code, message)) => {
                     let finding = Diagnostic::new(code, shape.element.span, message);
                     diagnostics.push(finding.help(LARGE));
@@ -141,10 +137,11 @@ pub(super) fn read(
         }
     }
     for (region, _) in &mut regions {
-        region.container = region.container.map(|outer| hidden.len() + outer);
+        let moved = |outer| RegionId::from(hidden.len() + usize::from(outer));
+        region.container = region.container.map(moved);
     }
     let regions = hidden.into_iter().chain(regions);
-    let (mut all, drawn): (Vec<Region>, Vec<Drawn>) = regions.unzip();
+    let (mut all, drawn): (TiVec<RegionId, Region>, TiVec<RegionId, Drawn>) = regions.unzip();
     if all.len() > MOST_REGIONS {
         diagnostics.push(too_many(bindings, layer, all.len()));
         return None;
@@ -238,10 +235,11 @@ pub(super) fn segmented(pixels: Result<DynamicImage, (Code, String)>) -> Segment
     Ok((size, raster::regions(&pixels)))
 }
 
-/// The regions of a picture.
+/// The regions of a picture; the first one will have this number among those of its view.
 fn of_picture(
     drawing: &Drawing,
     index: usize,
+    first: usize,
     memo: &Memo,
 ) -> Result<Vec<(Region, Drawn)>, (Code, String)> {
     let Some(picture) = &drawing.shapes[index].picture else {
@@ -255,11 +253,11 @@ fn of_picture(
         let point = |p: &DVec2| place.transform_point2(*p);
         outline.map_rings(|ring| ring.iter().map(point).collect())
     };
-    let region = |outline: &Outline, color, container| Region {
+    let region = |outline: &Outline, color, container: Option<usize>| Region {
         name: None,
         outline: Arc::new(moved(outline)),
         color,
-        container,
+        container: container.map(|outer| RegionId::from(first + outer)),
     };
     let regions = found.regions.iter().map(|found| {
         let line = found.line.map(|line| DrawnLine {
@@ -282,18 +280,22 @@ fn of_picture(
 }
 
 /// The container of each region; of those that have none yet, the smallest one drawn before it that covers nearly all of it.
-pub(super) fn containers(regions: &[(Arc<Outline>, Option<usize>)]) -> Vec<Option<usize>> {
-    let outline = |region: usize| &*regions[region].0;
-    let areas: Vec<f64> = regions.iter().map(|(outline, _)| area(outline)).collect();
-    let boxes: Vec<_> = regions.iter().map(|(outline, _)| bounds(outline)).collect();
-    (0..regions.len())
+pub(super) fn containers(
+    regions: &TiSlice<RegionId, (Arc<Outline>, Option<RegionId>)>,
+) -> TiVec<RegionId, Option<RegionId>> {
+    let outline = |region: RegionId| &*regions[region].0;
+    let areas: TiVec<RegionId, f64> = regions.iter().map(|(outline, _)| area(outline)).collect();
+    let boxes: TiVec<RegionId, _> = regions.iter().map(|(outline, _)| bounds(outline)).collect();
+    let found: Vec<_> = (0..regions.len())
         .into_par_iter()
         .map(|inner| {
+            let inner = RegionId::from(inner);
             if let Some(container) = regions[inner].1 {
                 return Some(container);
             }
             let (low, high) = boxes[inner]?;
-            let mut outer: Vec<usize> = (0..inner)
+            let earlier = areas.keys().take_while(|outer| *outer < inner);
+            let mut outer: Vec<RegionId> = earlier
                 .filter(|outer| areas[*outer] > areas[inner])
                 .filter(|outer| {
                     boxes[*outer].is_some_and(|(l, h)| l.cmple(high).all() && h.cmpge(low).all())
@@ -305,29 +307,30 @@ pub(super) fn containers(regions: &[(Arc<Outline>, Option<usize>)]) -> Vec<Optio
                 area(&common) >= CONTAINED * areas[inner]
             })
         })
-        .collect()
+        .collect();
+    found.into()
 }
 
 /// Names regions by their labels, as far as these are unique in a view and occur in several: copies of a layer keep them.
-pub(super) fn name_by_labels(views: &mut [DrawnView]) {
-    let mut uses: BTreeMap<String, Vec<Place>> = BTreeMap::new();
-    for (view, drawn) in views.iter().enumerate() {
-        let named = drawn.view.regions.iter().zip(&drawn.drawn).enumerate();
-        for (region, (found, said)) in named {
+pub(super) fn name_by_labels(views: &mut TiSlice<ViewId, DrawnView>) {
+    let mut uses: BTreeMap<String, Vec<RegionInView>> = BTreeMap::new();
+    for (view, drawn) in views.iter_enumerated() {
+        let named = drawn.view.regions.iter_enumerated().zip(&drawn.drawn);
+        for ((id, found), said) in named {
             if let Some(label) = said.label.as_ref().filter(|_| found.name.is_none()) {
                 uses.entry(label.clone())
                     .or_default()
-                    .push(Place { view, region });
+                    .push(RegionInView { view, id });
             }
         }
     }
-    for (label, places) in uses {
-        let in_order = places.windows(2).all(|pair| pair[0].view < pair[1].view);
-        if !in_order || places.len() < 2 {
+    for (label, regions) in uses {
+        let in_order = regions.windows(2).all(|pair| pair[0].view < pair[1].view);
+        if !in_order || regions.len() < 2 {
             continue;
         }
-        for Place { view, region } in places {
-            views[view].view.regions[region].name = Some(label.clone());
+        for RegionInView { view, id } in regions {
+            views[view].view.regions[id].name = Some(label.clone());
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::bind::{Bindings, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::border_distance_squared;
 use crate::lang::ast::Annotation;
+use crate::scene::ViewId;
 use crate::svg::Drawing;
 
 /// A feature point of a view.
@@ -22,7 +23,7 @@ pub(super) struct FeaturePoint {
 }
 
 /// The feature points of one region: per view their names and places, drawing units.
-pub(super) type OfRegion = Vec<Vec<(String, DVec2)>>;
+pub(super) type OfRegion = TiVec<ViewId, Vec<(String, DVec2)>>;
 
 /// The feature points in the view that a layer is. Of points with the same name the first counts.
 pub(super) fn of_view(
@@ -89,20 +90,20 @@ fn strings(bindings: &Bindings) -> impl Iterator<Item = (&str, StringId)> {
 /// Gives each feature point to the region of all views whose outlines are nearest to it. Returns those of each track.
 pub(super) fn assign(
     bindings: &Bindings,
-    views: &[DrawnView],
-    frames: &[Frame],
+    views: &TiSlice<ViewId, DrawnView>,
+    frames: &TiSlice<ViewId, Frame>,
     tracks: &TiSlice<TrackId, Track>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> TiVec<TrackId, OfRegion> {
     let mut assigned: TiVec<TrackId, OfRegion> =
-        vec![vec![Vec::new(); views.len()]; tracks.len()].into();
-    for (view, drawn) in views.iter().enumerate() {
+        vec![vec![Vec::new(); views.len()].into(); tracks.len()].into();
+    for (view, drawn) in views.iter_enumerated() {
         for feature in &drawn.features {
             let namesakes = views.iter().map(|view| {
                 let mut features = view.features.iter();
                 features.find(|other| other.name == feature.name)
             });
-            let each: Vec<Option<&FeaturePoint>> = namesakes.collect();
+            let each: TiVec<ViewId, Option<&FeaturePoint>> = namesakes.collect();
             if each[..view].iter().any(Option::is_some) {
                 continue;
             }
@@ -140,16 +141,16 @@ pub(super) fn assign(
 
 /// The track whose outlines are nearest to a point that several views name, and that point in each of its views.
 fn nearest(
-    feature: &[Option<&FeaturePoint>],
-    views: &[DrawnView],
-    frames: &[Frame],
+    feature: &TiSlice<ViewId, Option<&FeaturePoint>>,
+    views: &TiSlice<ViewId, DrawnView>,
+    frames: &TiSlice<ViewId, Frame>,
     tracks: &TiSlice<TrackId, Track>,
-) -> Option<(TrackId, Vec<Option<DVec2>>)> {
-    let mut best: Option<(f64, TrackId, Vec<Option<DVec2>>)> = None;
+) -> Option<(TrackId, TiVec<ViewId, Option<DVec2>>)> {
+    let mut best: Option<(f64, TrackId, TiVec<ViewId, Option<DVec2>>)> = None;
     for (index, track) in tracks.iter_enumerated() {
-        let mut points = vec![None; views.len()];
+        let mut points = TiVec::from(vec![None; views.len()]);
         let mut distances = Vec::new();
-        for (view, feature) in feature.iter().enumerate() {
+        for (view, feature) in feature.iter_enumerated() {
             let (Some(feature), Some(region)) = (feature, track.regions[view]) else {
                 continue;
             };

@@ -4,16 +4,20 @@
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
+use typed_index_collections::{TiSlice, TiVec};
+
 use super::drawn::{self, SVG_SIDE, Segmented};
 use super::features::OfRegion;
 use super::matching::{Matching, match_regions};
 use super::place::frames;
-use super::region::{Direction, Region, View};
+use super::region::{Direction, Region, RegionId, View};
 use super::shape::{Morph, morph};
 use crate::geometry::{Outline, Polygon};
 use crate::memo::{Exactly, Memo, exact};
+use crate::scene::ViewId;
 use crate::svg::{PictureSource, pixels_of};
 
+exact!(RegionId);
 exact! {
     View { direction, regions }
     Direction { theta, phi }
@@ -37,7 +41,7 @@ impl Hash for PictureFile {
 type Shape = Exactly<(Vec<Arc<Outline>>, OfRegion)>;
 
 /// [`match_regions`].
-pub(super) fn matched(views: &[View], memo: &Memo) -> Matching {
+pub(super) fn matched(views: &TiSlice<ViewId, View>, memo: &Memo) -> Matching {
     let found = memo.get(Exactly(views.to_vec()), |Exactly(views)| {
         Arc::new(match_regions(views, &frames(views)))
     });
@@ -45,9 +49,12 @@ pub(super) fn matched(views: &[View], memo: &Memo) -> Matching {
 }
 
 /// The container of each region; see [`drawn::containers`]. A region's name and colour do not matter to it.
-pub(super) fn contained(regions: &[Region], memo: &Memo) -> Vec<Option<usize>> {
+pub(super) fn contained(
+    regions: &TiSlice<RegionId, Region>,
+    memo: &Memo,
+) -> TiVec<RegionId, Option<RegionId>> {
     let area = |region: &Region| (Arc::clone(&region.outline), region.container);
-    let areas: Vec<_> = regions.iter().map(area).collect();
+    let areas: TiVec<RegionId, _> = regions.iter().map(area).collect();
     memo.get(Exactly(areas), |Exactly(areas)| drawn::containers(areas))
 }
 
@@ -55,7 +62,7 @@ pub(super) fn contained(regions: &[Region], memo: &Memo) -> Vec<Option<usize>> {
 pub(super) fn morphed(outlines: Vec<Arc<Outline>>, features: &OfRegion, memo: &Memo) -> Morph {
     let shape: Shape = Exactly((outlines, features.clone()));
     let found = memo.get(shape, |Exactly((outlines, features))| {
-        Arc::new(morph(outlines, features))
+        Arc::new(morph(outlines, &features.raw))
     });
     Morph::clone(&found)
 }
@@ -91,21 +98,30 @@ mod tests {
 
     fn view(theta: f64, regions: Vec<Region>) -> View {
         let direction = Direction { theta, phi: 0.0 };
-        View { direction, regions }
+        View {
+            direction,
+            regions: regions.into(),
+        }
     }
 
     #[test]
     fn only_what_changed_is_computed_again() {
         let mut memo = Memo::default();
-        let mut views = [view(0.0, vec![square(0.0)]), view(45.0, vec![square(5.0)])];
-        let mut misses = |views: &[View]| {
+        let mut views = TiVec::from(vec![
+            view(0.0, vec![square(0.0)]),
+            view(45.0, vec![square(5.0)]),
+        ]);
+        let mut misses = |views: &TiSlice<ViewId, View>| {
             let found = matched(views, &memo);
             assert_eq!(found, match_regions(views, &frames(views)));
-            let outlines: Vec<_> = views.iter().map(|v| v.regions[0].outline.clone()).collect();
-            let features = vec![Vec::new(); views.len()];
+            let outlines: Vec<_> = views
+                .iter()
+                .map(|v| v.regions[RegionId::FIRST].outline.clone())
+                .collect();
+            let features = TiVec::from(vec![Vec::new(); views.len()]);
             assert_eq!(
                 morphed(outlines.clone(), &features, &memo).points,
-                morph(&outlines, &features).points
+                morph(&outlines, &features.raw).points
             );
             memo.next_generation();
             memo.last_misses()
@@ -113,11 +129,11 @@ mod tests {
         assert_eq!(misses(&views), 2);
         assert_eq!(misses(&views), 0);
         // A name matters to the matching, and not to the shape.
-        views[0].regions[0].name = Some("Nose".to_owned());
+        views[ViewId::FIRST].regions[RegionId::FIRST].name = Some("Nose".to_owned());
         assert_eq!(misses(&views), 1);
-        views[1].regions[0] = square(6.0);
+        views[ViewId::SECOND].regions[RegionId::FIRST] = square(6.0);
         assert_eq!(misses(&views), 2);
-        views[1].direction.theta = 30.0;
+        views[ViewId::SECOND].direction.theta = 30.0;
         assert_eq!(misses(&views), 1);
     }
 }

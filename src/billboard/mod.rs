@@ -24,6 +24,8 @@ mod tests;
 mod turn;
 
 pub use character::{Character, RegionModel, read};
-pub use matching::{Candidate, Pair, Place, Reason, Track, TrackId, Unmatched};
+pub use matching::{Candidate, Pair, Reason, RegionInView, Track, TrackId, Unmatched};
 pub use nodes::{RegionMaterials, add};
-pub use region::View;
+pub use region::{RegionId, View};
+
+pub use crate::scene::ViewId;

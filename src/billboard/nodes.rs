@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
 
-use super::character::{Character, Fill, Piece, RegionModel};
+use super::character::{Character, Fill, RegionMesh, RegionModel};
 use crate::bind::Bindings;
 use crate::scene::{
     AlphaMode, Animation, Interpolation, Material, MaterialId, Mesh, NewNode, Node, NodeId,
     PartMaterial, Primitive, Provenance, Scene, Surface, Timing, Track, Values, ViewDependent,
-    WorldTransform, linear, view_axes,
+    ViewId, WorldTransform, linear, view_axes,
 };
 use crate::svg::Drawing;
 
@@ -85,8 +86,8 @@ fn add_one(
     materials: &mut RegionMaterials<'_>,
     scene: &mut Scene,
 ) {
-    let middle = character.frames[0].center;
-    let first = character.layers[0];
+    let middle = character.frames[ViewId::FIRST].center;
+    let first = character.layers[ViewId::FIRST];
     let root = scene.add(NewNode {
         node: Node {
             name: character.name.clone(),
@@ -110,11 +111,15 @@ fn add_one(
         mesh: None,
         parent: None,
     });
-    let scale = character.frames[0].height * world.scale;
-    let at_first = character.turn.weights(character.turn.views[0]);
+    let scale = character.frames[ViewId::FIRST].height * world.scale;
+    let at_first = character.turn.weights(character.turn.views[ViewId::FIRST]);
     let node_of = |region: &RegionModel| {
-        let places: Vec<DVec3> = region.places.iter().map(|place| *place * scale).collect();
-        let translation = character.turn.place(&at_first, &places);
+        let places: TiVec<ViewId, DVec3> = region
+            .positions
+            .iter()
+            .map(|place| *place * scale)
+            .collect();
+        let translation = character.turn.position(&at_first, &places);
         let string = region
             .part
             .and_then(|part| bindings.parts[part].string)
@@ -151,12 +156,12 @@ fn mesh(
 ) -> Mesh {
     let textured = region.part.and_then(|part| materials.textured[part]);
     let mut primitives: Vec<Primitive> = Vec::new();
-    for piece in &region.pieces {
-        let Piece { morph, fill, lift } = piece;
+    for part in &region.meshes {
+        let RegionMesh { morph, fill, lift } = part;
         let height = lift * scale;
-        let placed = |view: usize| {
+        let placed = |view: ViewId| {
             let [right, up, _] = view_axes(character.turn.views[view]);
-            let place = region.places[view];
+            let place = region.positions[view];
             let middle = DVec2::new(place.dot(right), place.dot(up));
             let frame = &character.frames[view];
             morph.points[view].iter().map(move |point| {
@@ -164,14 +169,14 @@ fn mesh(
                 point.extend(height).as_vec3()
             })
         };
-        let base: Vec<_> = placed(0).collect();
-        let target = |view: usize| {
+        let base: Vec<_> = placed(ViewId::FIRST).collect();
+        let target = |view: ViewId| {
             let offsets = placed(view).zip(&base).map(|(point, base)| point - *base);
             offsets.map(|offset| offset.to_array()).collect()
         };
         let mut surface = Surface {
             normals: vec![[0.0, 0.0, 1.0]; base.len()],
-            targets: (1..character.frames.len()).map(target).collect(),
+            targets: character.frames.keys().skip(1).map(target).collect(),
             triangles: morph.triangles.clone(),
             positions: base.into_iter().map(|point| point.to_array()).collect(),
             ..Surface::default()
@@ -186,7 +191,7 @@ fn mesh(
             surface.uvs = morph.points[region.first_view].iter().map(uv).collect();
         }
         primitives.push(Primitive {
-            pieces: vec![surface.into()],
+            patches: vec![surface.into()],
             material,
         });
     }
@@ -197,9 +202,9 @@ fn mesh(
 /// regions.
 fn clip(character: &Character, nodes: &[NodeId], scale: f64) -> Animation {
     let views = &character.turn.views;
-    let mut directions = vec![views[0]];
+    let mut directions = vec![views[ViewId::FIRST]];
     let mut times = vec![0.0];
-    for pair in views.windows(2) {
+    for pair in views.raw.windows(2) {
         let [from, to] = [pair[0], pair[1]].map(DVec2::from);
         let degrees = (to - from).length();
         let keys = (degrees / 45.0 * KEYS).ceil().max(1.0);
@@ -214,20 +219,23 @@ fn clip(character: &Character, nodes: &[NodeId], scale: f64) -> Animation {
         times: times.into_iter().map(|time| time as f32).collect(),
         interpolation: Interpolation::Linear,
     });
-    let weights: Vec<Vec<f64>> = directions
+    let weights: Vec<TiVec<ViewId, f64>> = directions
         .iter()
         .map(|d| character.turn.weights(*d))
         .collect();
     let mut tracks = Vec::new();
     for (region, node) in character.regions.iter().zip(nodes) {
         let node = *node;
-        let place = |weights: &Vec<f64>| character.turn.place(weights, &region.places) * scale;
+        let place = |weights: &TiVec<ViewId, f64>| {
+            character.turn.position(weights, &region.positions) * scale
+        };
         tracks.push(Track {
             node,
             timing: Arc::clone(&timing),
             values: Values::Translations(weights.iter().map(place).collect()),
         });
-        let targets = |weights: &Vec<f64>| weights[1..].iter().map(|w| *w as f32).collect();
+        let targets =
+            |weights: &TiVec<ViewId, f64>| weights.iter().skip(1).map(|w| *w as f32).collect();
         tracks.push(Track {
             node,
             timing: Arc::clone(&timing),

@@ -3,9 +3,22 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use typed_index_collections::TiVec;
 
 use crate::geometry::{Outline, bounds};
+use crate::index::index_type;
 use crate::scene::view_axes;
+
+index_type!(
+    /// Counts the regions of one view.
+    pub RegionId
+);
+
+#[cfg(test)]
+impl RegionId {
+    /// The region that is painted first.
+    pub(super) const FIRST: Self = Self(0);
+}
 
 /// A direction from which a character is drawn, degrees. (0, 0) is the front, where the viewer looks along −z; `theta` takes the
 /// viewer towards the character's left (+x), `phi` above it.
@@ -33,8 +46,8 @@ pub struct Region {
     pub outline: Arc<Outline>,
     /// Its mean colour, sRGB with straight alpha, each from 0 to 1.
     pub color: [f64; 4],
-    /// The index of the smallest region of the view in which it lies.
-    pub container: Option<usize>,
+    /// The smallest region of the view in which it lies.
+    pub container: Option<RegionId>,
 }
 
 /// A drawing of the character from one direction.
@@ -43,7 +56,7 @@ pub struct View {
     /// Where from.
     pub direction: Direction,
     /// Back-most first.
-    pub regions: Vec<Region>,
+    pub regions: TiVec<RegionId, Region>,
 }
 
 impl View {

@@ -2,11 +2,13 @@
 
 use image::RgbaImage;
 use rayon::prelude::*;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::matching::{self, Matching};
 use super::place::{self, Frame};
-use super::region::{Direction, Region, View};
+use super::region::{Direction, Region, RegionId, View};
 use super::{raster, shape};
+use crate::scene::ViewId;
 
 /// The angle between the two pictures, degrees.
 const TURN: f64 = 45.0;
@@ -14,8 +16,8 @@ const TURN: f64 = 45.0;
 /// Two pictures with their regions.
 #[derive(Debug)]
 pub struct Segmented {
-    views: Vec<View>,
-    frames: Vec<Frame>,
+    views: TiVec<ViewId, View>,
+    frames: TiVec<ViewId, Frame>,
 }
 
 /// What belongs together in them.
@@ -30,14 +32,14 @@ pub fn segment(pictures: &[RgbaImage; 2]) -> Segmented {
             name: None,
             outline: region.outline.into(),
             color: region.color,
-            container: region.container,
+            container: region.container.map(RegionId::from),
         };
         View {
             direction: Direction { theta, phi: 0.0 },
             regions: found.regions.into_iter().map(region).collect(),
         }
     });
-    let views: Vec<View> = views.collect();
+    let views: TiVec<ViewId, View> = views.collect();
     let frames = place::frames(&views);
     Segmented { views, frames }
 }
@@ -49,7 +51,12 @@ pub fn match_regions(found: &Segmented) -> Matched {
 
 /// Finds where in space each region is.
 pub fn place(found: &Segmented, matched: &Matched) {
-    let placed = place::place(&found.views, &found.frames, &matched.0.tracks, &[]);
+    let placed = place::place(
+        &found.views,
+        &found.frames,
+        &matched.0.tracks,
+        TiSlice::from_ref(&[]),
+    );
     assert_eq!(placed.len(), matched.0.tracks.len());
 }
 
@@ -57,7 +64,7 @@ pub fn place(found: &Segmented, matched: &Matched) {
 pub fn shape(found: &Segmented, matched: &Matched) {
     let outlines = |track: &matching::Track| -> Vec<_> {
         let regions = track.regions.iter().zip(&found.views);
-        let outline = |(region, view): (&Option<usize>, &View)| {
+        let outline = |(region, view): (&Option<RegionId>, &View)| {
             region.map_or_else(Default::default, |region| {
                 view.regions[region].outline.clone()
             })

@@ -1,17 +1,19 @@
 //! What lies between the views of a character.
 
 use glam::DVec2;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::region::Direction;
-use crate::scene::Turn;
+use crate::scene::{Turn, ViewId};
 
 /// More views than this are joined in their order only.
 const MOST_TRIANGULATED: usize = 32;
 
 /// The views, and the sets between which their weights are linear: the Delaunay triangles of (theta, phi), or the neighbours
 /// along a line.
-pub(super) fn between(views: &[Direction]) -> Turn {
-    let directions: Vec<[f64; 2]> = views.iter().map(|view| [view.theta, view.phi]).collect();
+pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
+    let directions: TiVec<ViewId, [f64; 2]> =
+        views.iter().map(|view| [view.theta, view.phi]).collect();
     let places: Vec<DVec2> = directions.iter().copied().map(DVec2::from).collect();
     let count = places.len();
     let mut between = Vec::new();
@@ -20,7 +22,7 @@ pub(super) fn between(views: &[Direction]) -> Turn {
             for j in i + 1..count {
                 for k in j + 1..count {
                     if is_delaunay(&places, [i, j, k]) {
-                        between.push(vec![i, j, k]);
+                        between.push([i, j, k].map(ViewId::from).to_vec());
                     }
                 }
             }
@@ -37,7 +39,8 @@ pub(super) fn between(views: &[Direction]) -> Turn {
                     .unwrap_or(std::cmp::Ordering::Equal)
             });
         }
-        between.extend(order.windows(2).map(<[usize]>::to_vec));
+        let neighbors = order.windows(2);
+        between.extend(neighbors.map(|pair| pair.iter().copied().map(ViewId::from).collect()));
     }
     Turn {
         views: directions,
@@ -81,7 +84,9 @@ mod tests {
             theta: *theta,
             phi: *phi,
         });
-        between(&views.collect::<Vec<_>>()).between
+        let sets = between(&views.collect::<TiVec<_, _>>()).between.into_iter();
+        sets.map(|set| set.into_iter().map(usize::from).collect())
+            .collect()
     }
 
     #[test]

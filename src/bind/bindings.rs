@@ -49,7 +49,7 @@ pub struct Bindings {
 
 /// What holds a string.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum StringHolder {
     /// A text: index into [`Drawing::labels`].
     Label(usize),
     /// The description of a shape.
@@ -127,7 +127,7 @@ pub struct Binding {
 #[derive(Debug)]
 pub struct DrawingString {
     /// What holds it.
-    pub place: Place,
+    pub holder: StringHolder,
     /// Its characters, shared with the drawing.
     pub text: Arc<Text>,
     /// The parsed string.

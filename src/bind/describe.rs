@@ -50,6 +50,15 @@ impl Bindings {
         let part = &self.parts[part];
         describe(drawing, &part.name, part.shape)
     }
+
+    /// A part for people who know the drawing only: an automatic name tells them nothing.
+    pub fn describe_as_drawn(&self, drawing: &Drawing, part: usize) -> String {
+        if self.parts[part].is_automatic() {
+            drawing.describe(self.parts[part].shape)
+        } else {
+            self.describe(drawing, part)
+        }
+    }
 }
 
 /// A part with this name and shape for people.

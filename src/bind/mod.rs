@@ -19,7 +19,9 @@ pub use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
     MotionSource, PartMark, PerformanceRequest, SetBy, SignedAxis,
 };
-pub use bindings::{Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place, StringId};
+pub use bindings::{
+    Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, StringHolder, StringId,
+};
 pub use matching::{BindRule, DistanceMode, LayerKind, in_layers_of_pixels};
 pub use names::written_by_a_person;
 pub use reports::locate;

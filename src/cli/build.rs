@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::args::{Build, Common};
-use super::loading::{Detail, Loaded, describe, load, resolver};
+use super::loading::{Loaded, load, resolver};
 use super::parallel::each;
 use super::progress::spinning;
-use super::{Outcome, counted, fail, style};
+use super::{Outcome, counted, fail};
 use crate::disk::{Inputs, Naming, is_drawing, is_standard_stream};
 use crate::export::{self, Exporter, GLB, Written};
 use crate::report::part_count;
@@ -117,12 +117,7 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
         Err(outcome) => return (outcome, String::new()),
     };
     let compiled = start.elapsed();
-    let mut text = describe(
-        loaded.findings(),
-        common,
-        Detail::Aside,
-        style(common, &std::io::stderr()),
-    );
+    let mut text = loaded.findings_aside(common);
     // An old model is worth more than the empty one that an unreadable drawing gives.
     let empty = loaded.compiled.scene.nodes.is_empty();
     if loaded.compiled.has_errors() && (empty || !arguments.keep_going) {

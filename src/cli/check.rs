@@ -57,10 +57,11 @@ pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
         .drawings
         .iter()
         .any(|path| is_standard_stream(path));
-    match arguments.fix && fixes_stdin {
+    if arguments.fix && fixes_stdin {
         // The fixed drawing is on stdout.
-        true => eprint!("{text}"),
-        false => worst = worst.max(print_out(&text)),
+        eprint!("{text}");
+    } else {
+        worst = worst.max(print_out(&text));
     }
     worst
 }

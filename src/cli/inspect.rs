@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::args::{Common, Inspect};
-use super::loading::{Detail, Loaded, describe, load};
+use super::loading::{Loaded, load};
 use super::progress::spinning;
-use super::{Outcome, fail, print_out, style};
+use super::{Outcome, fail, print_out};
 use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{self, NamedBy, PartKind, SetBy};
 use crate::disk::is_standard_stream;
@@ -34,15 +34,7 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
         Ok(loaded) => loaded,
         Err(outcome) => return outcome,
     };
-    eprint!(
-        "{}",
-        describe(
-            loaded.findings(),
-            common,
-            Detail::Aside,
-            style(common, &std::io::stderr())
-        )
-    );
+    eprint!("{}", loaded.findings_aside(common));
     let drawn = match picture {
         Some(path) => matches::draw(&loaded, path, arguments, common),
         None => Outcome::Done,
@@ -194,7 +186,7 @@ fn regions(loaded: &Loaded, character: &Character, numbers: Numbers) -> Vec<[Str
         let members: Vec<String> = members
             .map(|(shape, number)| match (shape, number) {
                 (Some(shape), Some(number)) => match drawing.shapes[*shape].picture {
-                    Some(_) => format!("region {}", number + 1),
+                    Some(_) => format!("region {}", usize::from(*number) + 1),
                     None => drawing.shapes[*shape].element.describe(),
                 },
                 _ => "not drawn".to_owned(),

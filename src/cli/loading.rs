@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Common, Reading};
 use super::report::{self, Style};
-use super::{Outcome, fail};
+use super::{Outcome, fail, style};
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::disk::{FolderResolver, decode, read_drawing};
@@ -38,6 +38,12 @@ impl Loaded {
                 pixels: look.pixels,
             }),
         }
+    }
+
+    /// Its findings as text for people, beside what a command does with it.
+    pub(super) fn findings_aside(&self, common: Common) -> String {
+        let stderr = style(common, &std::io::stderr());
+        describe(self.findings(), common, Detail::Aside, stderr)
     }
 
     /// The files that it links to, including missing ones.

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{Common, Puppet};
-use super::loading::{Detail, Loaded, describe, load, resolver};
+use super::loading::{Loaded, load, resolver};
 use super::progress::spinning;
-use super::{Outcome, counted, fail, style};
+use super::{Outcome, counted, fail};
 use crate::disk::{Inputs, Naming, is_standard_stream};
 use crate::puppet::{self, MarkOrigin, Options, Sheet};
 
@@ -19,11 +19,7 @@ pub(super) fn run(arguments: &Puppet, common: Common) -> Outcome {
         Ok(loaded) => loaded,
         Err(outcome) => return outcome,
     };
-    let stderr = style(common, &std::io::stderr());
-    eprint!(
-        "{}",
-        describe(loaded.findings(), common, Detail::Aside, stderr)
-    );
+    eprint!("{}", loaded.findings_aside(common));
     if loaded.compiled.has_errors() {
         if !common.quiet {
             eprintln!("`{}` was not written", output.display());

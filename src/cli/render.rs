@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use self::movie::{Movie, MovieForm};
 use super::args::{Background, Bend, Common, Projection, Render, Shading};
-use super::loading::{Detail, describe, load, resolver};
+use super::loading::{load, resolver};
 use super::progress::{counting, spinning};
-use super::{Outcome, fail, style};
+use super::{Outcome, fail};
 use crate::disk::{Inputs, Naming, Target, WriteError, read_file};
 use crate::export::{self, GLB};
 use crate::look::{DrawnView, LookError};
@@ -298,15 +298,7 @@ fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
         });
     }
     let mut loaded = spinning("building", || load(drawing, &arguments.reading))?;
-    eprint!(
-        "{}",
-        describe(
-            loaded.findings(),
-            common,
-            Detail::Aside,
-            style(common, &io::stderr())
-        )
-    );
+    eprint!("{}", loaded.findings_aside(common));
     let empty = loaded.compiled.scene.nodes.is_empty();
     if loaded.compiled.has_errors() && (empty || !arguments.keep_going) {
         if !common.quiet {

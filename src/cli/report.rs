@@ -52,7 +52,7 @@ pub fn human(findings: Findings, style: Style) -> String {
     for diagnostic in findings.diagnostics {
         let (groups, shown) = page.report(diagnostic);
         let rendered = renderer.render(&groups);
-        out.push_str(&page.with_places(rendered, &shown, diagnostic.place));
+        out.push_str(&page.with_places(rendered, &shown, diagnostic.on_page));
         out.push_str("\n\n");
     }
     out

@@ -197,14 +197,13 @@ fn dance(body: &Body, frame: f64) -> Pose {
     let is_biped = body.legs.len() == 2;
     for (leg, foot) in body.legs.iter().zip(&mut pose.feet) {
         let free = (-leg.sign() * side).max(0.0);
-        *foot = Some(match is_biped {
-            true => on_ball(leg, 34.0 * ease(free)),
+        *foot = Some(if is_biped {
+            on_ball(leg, 34.0 * ease(free))
+        } else {
             // On more legs every second one marches on the spot.
-            false => {
-                let turn = leg.sign() * if leg.pair % 2 == 0 { 1.0 } else { -1.0 };
-                let free = (-turn * side).max(0.0);
-                Foot::flat(leg.ankle + DVec3::Y * 0.2 * leg.length() * ease(free))
-            }
+            let turn = leg.sign() * if leg.pair % 2 == 0 { 1.0 } else { -1.0 };
+            let free = (-turn * side).max(0.0);
+            Foot::flat(leg.ankle + DVec3::Y * 0.2 * leg.length() * ease(free))
         });
     }
     for joint in &body.anatomy.tail {

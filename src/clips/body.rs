@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::Legs;
-use crate::labels::{Anatomy, Class, Label, Limb, Piece, Side, Tip};
+use crate::labels::{Anatomy, Class, Label, Limb, LimbSegment, Side, Tip};
 use crate::mocap::{Axis, Channel, Joint, JointId, Skeleton};
 
 /// A skeleton, and what its joints are.
@@ -221,14 +221,14 @@ impl Body {
         parent: Option<JointId>,
         offset: DVec3,
         class: Class,
-        limb: Option<(Side, usize, Piece)>,
+        limb: Option<(Side, usize, LimbSegment)>,
     ) -> JointId {
         let side = limb.map(|(side, ..)| side);
         let why = format!("`{name}` is a joint of okoshi's own clip");
         self.anatomy.labels.push(Some(Label {
             class,
             side,
-            piece: limb.map_or(Piece::Whole, |(.., piece)| piece),
+            segment: limb.map_or(LimbSegment::Whole, |(.., segment)| segment),
             pair: limb.map_or(0, |(_, pair, _)| pair),
             why,
         }));
@@ -268,21 +268,25 @@ impl Body {
 
     fn arm(&mut self, chest: JointId, side: Side) {
         let x = sign(side);
-        let pieces = [
-            ("Shoulder", DVec3::new(3.0 * x, 22.0, 0.0), Piece::Collar),
-            ("Arm", DVec3::new(15.0 * x, 0.0, 0.0), Piece::Upper),
-            ("ForeArm", DVec3::new(0.0, -28.0, 0.0), Piece::Lower),
-            ("Hand", DVec3::new(0.0, -25.0, 0.0), Piece::End),
+        let segments = [
+            (
+                "Shoulder",
+                DVec3::new(3.0 * x, 22.0, 0.0),
+                LimbSegment::Collar,
+            ),
+            ("Arm", DVec3::new(15.0 * x, 0.0, 0.0), LimbSegment::Upper),
+            ("ForeArm", DVec3::new(0.0, -28.0, 0.0), LimbSegment::Lower),
+            ("Hand", DVec3::new(0.0, -25.0, 0.0), LimbSegment::End),
         ];
         let mut parent = chest;
-        let joints = pieces.map(|(name, offset, piece)| {
+        let joints = segments.map(|(name, offset, segment)| {
             let name = sided(side, name, 0);
             parent = self.joint(
                 name,
                 Some(parent),
                 offset,
                 Class::Arm,
-                Some((side, 0, piece)),
+                Some((side, 0, segment)),
             );
             parent
         });
@@ -312,26 +316,26 @@ impl Body {
         let hip = above + plan.hip;
         let (side, pair) = (plan.side, plan.pair);
         let mut parent = plan.parent;
-        let pieces = [
-            ("UpLeg", plan.hip, Piece::Upper),
-            ("Leg", plan.knee - hip, Piece::Lower),
-            ("Foot", plan.ankle - plan.knee, Piece::End),
+        let segments = [
+            ("UpLeg", plan.hip, LimbSegment::Upper),
+            ("Leg", plan.knee - hip, LimbSegment::Lower),
+            ("Foot", plan.ankle - plan.knee, LimbSegment::End),
         ];
-        let joints = pieces.map(|(name, offset, piece)| {
+        let joints = segments.map(|(name, offset, segment)| {
             let name = sided(side, name, pair);
             parent = self.joint(
                 name,
                 Some(parent),
                 offset,
                 Class::Leg,
-                Some((side, pair, piece)),
+                Some((side, pair, segment)),
             );
             parent
         });
         let foot = joints[2];
         let toe = plan.ball.map(|ball| {
             let name = sided(side, "Toe", pair);
-            let limb = Some((side, pair, Piece::Beyond));
+            let limb = Some((side, pair, LimbSegment::Beyond));
             let toe = self.joint(name, Some(foot), ball, Class::Leg, limb);
             self.skeleton.joints[toe]
                 .ends

@@ -27,9 +27,18 @@ pub const TOLERANCE: f64 = 0.001;
 
 /// Options of a compile.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// See [`TOLERANCE`].
     pub tolerance: f64,
+}
+
+impl Options {
+    /// These options with another tolerance, a share of each part's larger extent, above 0.
+    #[must_use]
+    pub fn with_tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance }
+    }
 }
 
 impl Default for Options {

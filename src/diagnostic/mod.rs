@@ -66,7 +66,7 @@ impl Edit {
             return None;
         }
         let escaped = text.escape_at(range.start, new);
-        let pieces = text.pieces(range).into_iter().enumerate();
+        let pieces = text.spans(range).into_iter().enumerate();
         let edits = pieces.map(|(index, span)| Self {
             span,
             text: match index {
@@ -102,7 +102,7 @@ pub struct Diagnostic {
     pub span: Span,
     /// Where on the page the text or the shape is: `at the top left of the page`. Set when a drawing has been compiled, unless
     /// the message says so.
-    pub place: Option<&'static str>,
+    pub on_page: Option<&'static str>,
     /// A few words below the marked characters.
     pub label: Option<Cow<'static, str>>,
     /// Related places.
@@ -120,7 +120,7 @@ impl Diagnostic {
             code,
             message: message.into(),
             span,
-            place: None,
+            on_page: None,
             label: None,
             related: vec![],
             help: None,

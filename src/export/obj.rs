@@ -199,7 +199,7 @@ fn word(name: &str) -> String {
 mod tests {
     use super::*;
     use crate::export::{by_extension, to_memory};
-    use crate::scene::{Material, Mesh, Node, Piece};
+    use crate::scene::{Material, Mesh, Node, SurfacePatch};
     use std::path::Path;
 
     fn triangle(uvs: Vec<[f32; 2]>) -> Mesh {
@@ -213,7 +213,7 @@ mod tests {
         };
         Mesh {
             primitives: vec![Primitive {
-                pieces: vec![Piece::Surface(Box::new(surface))],
+                patches: vec![SurfacePatch::Surface(Box::new(surface))],
                 material: 0.into(),
             }],
         }

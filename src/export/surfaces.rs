@@ -5,7 +5,7 @@ use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use crate::memo::Memo;
-use crate::scene::{Piece, Primitive, Surface, SurfaceSource};
+use crate::scene::{Primitive, Surface, SurfacePatch, SurfaceSource};
 
 /// A deferred surface as the key of a result.
 struct Source(Arc<dyn SurfaceSource>);
@@ -33,9 +33,9 @@ pub(super) fn with_surface<R>(
     let made = |source: &Arc<dyn SurfaceSource>| {
         memo.get(Source(Arc::clone(source)), |key| Arc::new(key.0.surface()))
     };
-    match primitive.pieces.as_slice() {
+    match primitive.patches.as_slice() {
         // The usual case, in which a surface from the memo is not copied.
-        [Piece::Deferred(source)] => work(&made(source)),
+        [SurfacePatch::Deferred(source)] => work(&made(source)),
         _ => work(
             &primitive.surface_by(&mut |source| Cow::Owned(Arc::unwrap_or_clone(made(source)))),
         ),

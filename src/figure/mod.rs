@@ -23,7 +23,7 @@ use crate::geometry::{Frame, Thickness};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::scene::{
-    MaterialId, Mesh, NodeId, PartMaterial, Piece, Primitive, Scene, WorldTransform,
+    MaterialId, Mesh, NodeId, PartMaterial, Primitive, Scene, SurfacePatch, WorldTransform,
 };
 use crate::solid::{self, LaidSolid, Placement, Profile, Sides, Solid};
 use crate::svg::Drawing;
@@ -165,12 +165,12 @@ impl<'a> Figures<'a> {
         world: &WorldTransform,
     ) -> Option<Mesh> {
         let mut primitives: Vec<Primitive> = Vec::new();
-        let mut add = |material: MaterialId, piece: Piece| {
+        let mut add = |material: MaterialId, patch: SurfacePatch| {
             let mut same = primitives.iter_mut().filter(|p| p.material == material);
             match same.next() {
-                Some(primitive) => primitive.pieces.push(piece),
+                Some(primitive) => primitive.patches.push(patch),
                 None => primitives.push(Primitive {
-                    pieces: vec![piece],
+                    patches: vec![patch],
                     material,
                 }),
             }
@@ -187,26 +187,26 @@ impl<'a> Figures<'a> {
                     add(material, surface.into());
                 }
             } else if let Some((material, texture)) = materials[part]
-                && let Some(piece) = self.piece(main, part, texture, world)
+                && let Some(patch) = self.patch(main, part, texture, world)
             {
-                add(material, piece);
+                add(material, patch);
             }
         }
         (!primitives.is_empty()).then_some(Mesh { primitives })
     }
 
     /// The solid of a part in the frame of its node.
-    fn piece(
+    fn patch(
         &self,
         main: usize,
         part: usize,
         texture: Option<DAffine2>,
         world: &WorldTransform,
-    ) -> Option<Piece> {
+    ) -> Option<SurfacePatch> {
         let (_, both) = self.context.stand(main, part);
         let sides = if both { Sides::Both } else { Sides::Front };
         if let Some((pile, body)) = self.layers.in_pile(part) {
-            return Some(Piece::Deferred(Arc::new(LaidSolid {
+            return Some(SurfacePatch::Deferred(Arc::new(LaidSolid {
                 pile: Arc::clone(pile),
                 body,
                 sides,
@@ -219,7 +219,7 @@ impl<'a> Figures<'a> {
             .context
             .natural(&self.frames, world, [main, part], profile);
         solid.options.placement.translation.z = self.layers.offset(part);
-        Some(Piece::Deferred(Arc::new(Solid {
+        Some(SurfacePatch::Deferred(Arc::new(Solid {
             sides,
             texture,
             ..solid

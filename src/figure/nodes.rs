@@ -7,7 +7,7 @@ use typed_index_collections::TiVec;
 use super::FigureContext;
 use super::tree::FigureNode;
 use crate::scene::{
-    Mesh, MeshId, Node, NodeId, Piece, Primitive, Provenance, Scene, WorldTransform,
+    Mesh, MeshId, Node, NodeId, Primitive, Provenance, Scene, SurfacePatch, WorldTransform,
 };
 use crate::threads::GRAIN;
 
@@ -115,7 +115,11 @@ impl Meshes {
 /// A mesh mirrored in the drawing plane.
 fn mirrored(mesh: &Mesh) -> Mesh {
     let primitive = |primitive: &Primitive| Primitive {
-        pieces: primitive.pieces.iter().map(Piece::mirrored).collect(),
+        patches: primitive
+            .patches
+            .iter()
+            .map(SurfacePatch::mirrored)
+            .collect(),
         material: primitive.material,
     };
     Mesh {

@@ -15,7 +15,7 @@ use std::ops::Range;
 use super::Analysis;
 use super::at::attributes;
 use super::typed::{Typed, typed_at};
-use crate::bind::{Place, StringId};
+use crate::bind::{StringHolder, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::colors::COLORS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
@@ -114,7 +114,7 @@ pub fn completion(context: &Context<'_>, offset: usize) -> Option<Completion> {
             context,
             text: &found.text,
             head: found.text.as_str().get(..at)?,
-            in_desc: !matches!(found.place, Place::Label(_)),
+            in_desc: !matches!(found.holder, StringHolder::Label(_)),
             string: Some(string),
         };
         return cursor.completion();

@@ -1,7 +1,7 @@
 //! Folding ranges: the elements of strings.
 
 use super::Analysis;
-use crate::bind::Place;
+use crate::bind::StringHolder;
 use crate::source::Span;
 
 impl Analysis {
@@ -10,9 +10,9 @@ impl Analysis {
         let strings = self.bindings().strings.iter();
         let mut folds: Vec<Span> = strings
             .filter(|string| !string.text.as_str().is_empty())
-            .map(|string| match string.place {
-                Place::Label(label) => self.drawing().labels[label].0.element,
-                Place::Shape(_) | Place::Group(_) => string.text.whole(),
+            .map(|string| match string.holder {
+                StringHolder::Label(label) => self.drawing().labels[label].0.element,
+                StringHolder::Shape(_) | StringHolder::Group(_) => string.text.whole(),
             })
             .collect();
         folds.sort_unstable();

@@ -168,7 +168,7 @@ fn gap(
             text: usual.to_owned(),
         }];
     }
-    match text.pieces(range.clone()).as_slice() {
+    match text.spans(range.clone()).as_slice() {
         [_] => Edit::replacing(text, range, usual).unwrap_or_default(),
         // There are tags between the tokens.
         _ => vec![],

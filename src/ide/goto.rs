@@ -34,7 +34,7 @@ impl Analysis {
                     part.and_then(|part| parts[part].string.or(parts[parts[part].main].string));
                 let from = self.drawing().shapes[shape].element.span;
                 let to = match string {
-                    Some(string) => vec![self.place_of_string(string)],
+                    Some(string) => vec![self.span_of_string(string)],
                     None => self.partners_of_shape(shape),
                 };
                 let to: Vec<Target> = to.into_iter().map(Target::Here).collect();
@@ -83,7 +83,7 @@ impl Analysis {
     pub fn place_of(&self, name: &str) -> Option<Span> {
         let mut parts = self.bindings().parts.iter().enumerate();
         if let Some((part, _)) = parts.find(|(_, part)| own_name(&self.compiled, part) == name) {
-            return Some(self.place_of_part(part));
+            return Some(self.span_of_part(part));
         }
         let mut layers = self.compiled.layers.iter();
         let layer = layers.find(|layer| layer.name == name)?;
@@ -101,7 +101,7 @@ impl Analysis {
             .map(|other| Target::Here(self.span_of(other)))
             .collect();
         if let (Symbol::Part(name), true) = (&symbol, to.is_empty()) {
-            to.push(Target::Here(self.place_of_part(self.part_named(name)?)));
+            to.push(Target::Here(self.span_of_part(self.part_named(name)?)));
         }
         (!to.is_empty()).then_some((from, to))
     }
@@ -159,7 +159,7 @@ impl Analysis {
         let part_name = match self.at(offset) {
             Some(At::Tag { shape, .. }) if !self.regions_of_shape(shape).is_empty() => {
                 let own = match self.part_of_shape(shape) {
-                    Some(part) => self.place_of_part(part),
+                    Some(part) => self.span_of_part(part),
                     None => self.drawing().shapes[shape].element.span,
                 };
                 let own = Some(own).filter(|_| with_definition);
@@ -204,7 +204,7 @@ impl Analysis {
         let parts = 0..self.bindings().parts.len();
         parts
             .filter(goes_by)
-            .map(|part| self.place_of_part(part))
+            .map(|part| self.span_of_part(part))
             .collect()
     }
 

@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use super::uses::own_name;
-use crate::bind::{NamedBy, PartKind, Place, SetBy, StringId};
+use crate::bind::{NamedBy, PartKind, SetBy, StringHolder, StringId};
 use crate::lang::looks_like_string;
 use crate::source::Span;
 
@@ -84,7 +84,7 @@ impl Analysis {
         if let Some(parent) = part.parent {
             pieces.push(InlayPiece {
                 text: format!("@{}", bindings.parts[parent].name),
-                from: Some(self.place_of_part(parent)),
+                from: Some(self.span_of_part(parent)),
                 about: if contact {
                     "It is attached to a part that it touches".to_owned()
                 } else {
@@ -101,7 +101,7 @@ impl Analysis {
         let found = &bindings.strings[string];
         let text = found.text.as_str();
         let nameless = own_name(found).is_none() && looks_like_string(text);
-        if matches!(found.place, Place::Label(_))
+        if matches!(found.holder, StringHolder::Label(_))
             || !nameless
             || bindings.parts[index].name.is_empty()
         {

@@ -111,12 +111,12 @@ impl Analysis {
     }
 
     /// The span that names a part: in its string, or the tag of its shape or group.
-    fn place_of_part(&self, part: usize) -> Span {
+    fn span_of_part(&self, part: usize) -> Span {
         let bindings = self.bindings();
         let naming = bindings.naming_element(self.drawing(), part);
         let part = &bindings.parts[part];
         match part.string {
-            Some(string) => self.place_of_string(string),
+            Some(string) => self.span_of_string(string),
             None => naming.map_or(self.drawing().shapes[part.shape].element.span, |element| {
                 element.span
             }),
@@ -124,7 +124,7 @@ impl Analysis {
     }
 
     /// The span that names a string's part: the name, or the whole string.
-    fn place_of_string(&self, string: StringId) -> Span {
+    fn span_of_string(&self, string: StringId) -> Span {
         let string = &self.bindings().strings[string];
         let name = at::tokens(string)
             .into_iter()

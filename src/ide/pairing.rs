@@ -5,8 +5,8 @@ use super::regions::Region;
 use super::rename::label_edit;
 use super::uses::own_name;
 use super::{Analysis, Symbol};
-use crate::billboard::{Candidate, Place, Reason};
-use crate::bind::{PartKind, Place as StringPlace, written_by_a_person};
+use crate::billboard::{Candidate, Reason, RegionInView};
+use crate::bind::{PartKind, StringHolder, written_by_a_person};
 use crate::diagnostic::{Code, Edit};
 use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
@@ -42,33 +42,33 @@ impl Analysis {
         let Some(unmatched) = region.unmatched() else {
             return vec![];
         };
-        let at = |place| Region { place, ..region };
+        let of = |at| Region { at, ..region };
         let can_be_named = |choice: &Region<'_>| self.shape_to_name(*choice).is_some();
         let candidates = || unmatched.candidates.iter();
-        let is_alone = |candidate: &&Candidate| at(candidate.place).unmatched().is_some();
+        let is_alone = |candidate: &&Candidate| of(candidate.region).unmatched().is_some();
         let free = candidates()
-            .find(|candidate| is_alone(candidate) && can_be_named(&at(candidate.place)));
+            .find(|candidate| is_alone(candidate) && can_be_named(&of(candidate.region)));
         let free = match free {
-            Some(candidate) => Some(at(candidate.place)),
+            Some(candidate) => Some(of(candidate.region)),
             None => self.nearest_alone(region),
         };
         let mut choices = Vec::new();
         let best = candidates().next();
         choices.extend(free.map(|region| Choice {
             region,
-            is_best: best.is_none_or(|best| best.place == region.place),
+            is_best: best.is_none_or(|best| best.region == region.at),
             from: None,
         }));
         let best = best.filter(|best| !is_alone(best));
         if let Some(best) = best {
             let taken = match best.reason {
-                Reason::Taken(by) => Some(at(by)),
-                _ => at(best.place)
+                Reason::Taken(by) => Some(of(by)),
+                _ => of(best.region)
                     .partners()
-                    .find(|partner| partner.place.view == region.place.view),
+                    .find(|partner| partner.at.view == region.at.view),
             };
             let choice = Choice {
-                region: at(best.place),
+                region: of(best.region),
                 is_best: true,
                 from: taken,
             };
@@ -83,19 +83,16 @@ impl Analysis {
     /// The region without a partner in another view that lies nearest to where a region is in its own view.
     fn nearest_alone<'a>(&self, region: Region<'a>) -> Option<Region<'a>> {
         let middle = |region: &Region<'_>| {
-            let Place {
-                view,
-                region: index,
-            } = region.place;
-            let outline = &region.character.views[view].regions[index].outline;
+            let RegionInView { view, id } = region.at;
+            let outline = &region.character.views[view].regions[id].outline;
             let (low, high) = bounds(outline)?;
             Some(region.character.frames[view].on_screen(low.midpoint(high)))
         };
         let own = middle(&region)?;
         let unmatched = region.character.matching.unmatched.iter();
-        let others = unmatched.filter(|other| other.place.view != region.place.view);
+        let others = unmatched.filter(|other| other.region.view != region.at.view);
         let others = others.map(|other| Region {
-            place: other.place,
+            at: other.region,
             ..region
         });
         let near = others
@@ -198,7 +195,7 @@ impl Analysis {
             return Edit::replacing(&string.text, old.range.clone(), &new);
         }
         // A description without a name has that of its element.
-        let is_described = !matches!(string.place, StringPlace::Label(_));
+        let is_described = !matches!(string.holder, StringHolder::Label(_));
         let head = string.text.as_str();
         let start = head.len() - head.trim_start().len();
         (is_described && own_name(string).is_none()).then(|| {

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use super::hover::escaped;
 use super::{Analysis, Target};
-use crate::billboard::{Candidate, Character, Pair, Place, Reason, TrackId, Unmatched};
+use crate::billboard::{
+    Candidate, Character, Pair, Reason, RegionInView, TrackId, Unmatched, ViewId,
+};
 use crate::bind::{LayerKind, StringId};
 use crate::source::Span;
 
@@ -19,20 +21,20 @@ const SCORES: &str = "*Two equal regions have similarity 1 and cost 0. Pairs are
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Region<'a> {
     pub(super) character: &'a Character,
-    pub(super) place: Place,
+    pub(super) at: RegionInView,
 }
 
 impl<'a> Region<'a> {
     /// Index of its shape, or of the picture that shows it.
     pub(super) fn shape(self) -> Option<usize> {
-        self.character.regions[self.track()?].shapes[self.place.view]
+        self.character.regions[self.track()?].shapes[self.at.view]
     }
 
     /// Its track in the character's matching.
     fn track(self) -> Option<TrackId> {
-        let Place { view, region } = self.place;
+        let RegionInView { view, id } = self.at;
         let tracks = &self.character.matching.tracks;
-        tracks.position(|track| track.regions[view] == Some(region))
+        tracks.position(|track| track.regions[view] == Some(id))
     }
 
     /// What shows the same thing, in the order of the views.
@@ -42,44 +44,41 @@ impl<'a> Region<'a> {
             .map(|track| &self.character.matching.tracks[track]);
         let regions = track
             .into_iter()
-            .flat_map(|track| track.regions.iter().enumerate());
-        regions.filter_map(move |(view, region)| {
-            let place = Place {
-                view,
-                region: (*region)?,
-            };
-            (view != self.place.view).then_some(Self { place, ..self })
+            .flat_map(|track| track.regions.iter_enumerated());
+        regions.filter_map(move |(view, id)| {
+            let at = RegionInView { view, id: (*id)? };
+            (view != self.at.view).then_some(Self { at, ..self })
         })
     }
 
     /// Why it has no partner; `None` if it has one.
     pub(super) fn unmatched(self) -> Option<&'a Unmatched> {
         let mut unmatched = self.character.matching.unmatched.iter();
-        unmatched.find(|unmatched| unmatched.place == self.place)
+        unmatched.find(|unmatched| unmatched.region == self.at)
     }
 
     /// The name that a string or a label gives it.
     pub(super) fn name(self) -> Option<&'a str> {
-        let Place { view, region } = self.place;
-        self.character.views[view].regions[region].name.as_deref()
+        let RegionInView { view, id } = self.at;
+        self.character.views[view].regions[id].name.as_deref()
     }
 
     /// The comparison with a region that it was matched with directly.
-    fn pair_with(self, other: Place) -> Option<&'a Pair> {
+    fn pair_with(self, other: RegionInView) -> Option<&'a Pair> {
         let mut pairs = self.character.matching.pairs.iter();
         pairs.find(|pair| {
-            [pair.first, pair.second] == [self.place, other]
-                || [pair.second, pair.first] == [self.place, other]
+            [pair.first, pair.second] == [self.at, other]
+                || [pair.second, pair.first] == [self.at, other]
         })
     }
 
     /// `45 0`: the angles of its view as a string gives them.
     fn angles(self) -> String {
-        angles(self.character, self.place.view)
+        angles(self.character, self.at.view)
     }
 }
 
-fn angles(character: &Character, view: usize) -> String {
+fn angles(character: &Character, view: ViewId) -> String {
     let [theta, phi] = character.turn.views[view];
     format!("`{theta} {phi}`")
 }
@@ -91,15 +90,15 @@ impl Analysis {
         for character in &self.compiled.characters {
             let tracks = character.regions.iter().zip(&character.matching.tracks);
             for (model, track) in tracks {
-                for (view, own) in model.shapes.iter().enumerate() {
-                    if let Some(region) = track.regions[view].filter(|_| *own == Some(shape)) {
-                        let place = Place { view, region };
-                        found.push(Region { character, place });
+                for (view, own) in model.shapes.iter_enumerated() {
+                    if let Some(id) = track.regions[view].filter(|_| *own == Some(shape)) {
+                        let at = RegionInView { view, id };
+                        found.push(Region { character, at });
                     }
                 }
             }
         }
-        found.sort_by_key(|found| found.place.region);
+        found.sort_by_key(|found| found.at.id);
         found
     }
 
@@ -132,8 +131,8 @@ impl Analysis {
         }
         out.push_str(" What fits it best:\n\n");
         for candidate in &unmatched.candidates {
-            let place = candidate.place;
-            let other = Region { place, ..region };
+            let at = candidate.region;
+            let other = Region { at, ..region };
             let _ = writeln!(
                 out,
                 "- in {}: {}, {}; {}",
@@ -153,8 +152,8 @@ impl Analysis {
             Reason::Color => "its colour differs too much".to_owned(),
             Reason::Names => "it has another name".to_owned(),
             Reason::Cost => "it is too far away, or too different in size".to_owned(),
-            Reason::Taken(place) => {
-                let by = self.describe_region(Region { place, ..region });
+            Reason::Taken(at) => {
+                let by = self.describe_region(Region { at, ..region });
                 format!("it belongs to {by}")
             }
         }
@@ -163,7 +162,7 @@ impl Analysis {
     /// A partner of a region, and how well it fits.
     fn partner(&self, region: Region<'_>, partner: Region<'_>) -> String {
         let mut out = self.describe_region(partner);
-        match region.pair_with(partner.place) {
+        match region.pair_with(partner.at) {
             Some(pair) => {
                 let _ = write!(out, ", {}", scores(pair.similarity, pair.cost));
             }
@@ -194,10 +193,7 @@ impl Analysis {
     }
 
     fn element_of_region(&self, region: Region<'_>) -> String {
-        let Place {
-            view,
-            region: index,
-        } = region.place;
+        let RegionInView { view, id } = region.at;
         let shape = region
             .shape()
             .map(|shape| (shape, &self.drawing().shapes[shape]));
@@ -211,9 +207,9 @@ impl Analysis {
                 }
             }
             _ => {
-                let color = region.character.views[view].regions[index].color;
+                let color = region.character.views[view].regions[id].color;
                 let [r, g, b] = [0, 1, 2].map(|i| (color[i] * 255.0).round() as u8);
-                format!("region {} in `#{r:02x}{g:02x}{b:02x}`", index + 1)
+                format!("region {} in `#{r:02x}{g:02x}{b:02x}`", usize::from(id) + 1)
             }
         }
     }
@@ -230,18 +226,18 @@ impl Analysis {
         let name = escaped(&layer.name);
         let group = self.drawing().describe_group(layer.group);
         let found = self.compiled.characters.iter().find_map(|character| {
-            let mut layers = character.layers.iter();
-            Some((character, layers.position(|layer| *layer == index)?))
+            let view = character.layers.position(|layer| *layer == index)?;
+            Some((character, view))
         });
         let Some((character, view)) = found else {
             return Some(format!(
                 "**{name}**, {group}\n\nThis view is not built: a character needs two views from different sides, with shapes in both."
             ));
         };
-        let regions = 0..character.views[view].regions.len();
-        let regions = regions.map(|region| Region {
+        let regions = character.views[view].regions.keys();
+        let regions = regions.map(|id| Region {
             character,
-            place: Place { view, region },
+            at: RegionInView { view, id },
         });
         let angles = angles(character, view);
         let head = format!("**{name}**, seen from {angles}: {group}");
@@ -301,7 +297,7 @@ impl Analysis {
         let regions = self.regions_of_shape(shape).into_iter();
         let partners = regions.flat_map(Region::partners);
         let mut found: Vec<Span> = Vec::new();
-        for span in partners.filter_map(|partner| self.place_of_region(partner)) {
+        for span in partners.filter_map(|partner| self.span_of_region(partner)) {
             // All regions of a picture are in one place.
             if !found.contains(&span) {
                 found.push(span);
@@ -311,10 +307,10 @@ impl Analysis {
     }
 
     /// The span that names a region, or the tag of its shape.
-    fn place_of_region(&self, region: Region<'_>) -> Option<Span> {
+    fn span_of_region(&self, region: Region<'_>) -> Option<Span> {
         let shape = region.shape()?;
         Some(match self.part_of_shape(shape) {
-            Some(part) => self.place_of_part(part),
+            Some(part) => self.span_of_part(part),
             None => self.drawing().shapes[shape].element.span,
         })
     }
@@ -339,7 +335,7 @@ impl Analysis {
         let mut characters = self.compiled.characters.iter().map(strings);
         let found = characters.find(|strings| strings.contains(&string));
         let others = found.into_iter().flatten().filter(|other| *other != string);
-        others.map(|other| self.place_of_string(other)).collect()
+        others.map(|other| self.span_of_string(other)).collect()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use super::at::{Item, attributes, token_at};
-use crate::bind::Place;
+use crate::bind::StringHolder;
 use crate::source::Span;
 
 impl Analysis {
@@ -33,7 +33,7 @@ impl Analysis {
             .map(|range| string.text.span(range))
             .collect();
         spans.push(string.text.whole());
-        if let Place::Label(label) = string.place {
+        if let StringHolder::Label(label) = string.holder {
             spans.push(self.drawing().labels[label].0.element);
         }
         let mut nested: Vec<Span> = vec![];

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Analysis;
 use super::at::attributes;
 use super::typed::typed_at;
-use crate::bind::Place;
+use crate::bind::StringHolder;
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::signature::Form;
 use crate::lang::keyword::{Keyword, kinds};
@@ -40,9 +40,9 @@ pub fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<Sig
     let (head, place) = match is_current.then(|| analysis.string_at(offset)).flatten() {
         Some((string, at)) => {
             let string = &analysis.bindings().strings[string];
-            let place = match string.place {
-                Place::Label(_) => lang::Container::Text,
-                Place::Shape(_) | Place::Group(_) => lang::Container::Desc,
+            let place = match string.holder {
+                StringHolder::Label(_) => lang::Container::Text,
+                StringHolder::Shape(_) | StringHolder::Group(_) => lang::Container::Desc,
             };
             (string.text.as_str().get(..at)?.to_owned(), place)
         }

@@ -36,7 +36,7 @@ impl Analysis {
         let mut order: Vec<usize> = (0..bindings.parts.len())
             .filter(|part| bindings.parts[*part].kind == PartKind::Main)
             .collect();
-        order.sort_by_cached_key(|part| self.place_of_part(*part));
+        order.sort_by_cached_key(|part| self.span_of_part(*part));
         for part in order {
             match bindings.parts[part].parent {
                 Some(parent) => children[parent].push(part),
@@ -64,7 +64,7 @@ impl Analysis {
 
     fn outline_entry(&self, part: usize) -> Outline {
         let bindings = self.bindings();
-        let selection = self.place_of_part(part);
+        let selection = self.span_of_part(part);
         let shape = bindings.setting(part, crate::lang::keyword::Keyword::Shape);
         let span = match bindings.parts[part].string {
             Some(string) => bindings.strings[string].text.whole(),

@@ -73,7 +73,7 @@ impl Analysis {
     fn semantic_tokens_of(&self, index: StringId, out: &mut Vec<SemanticToken>) {
         let string = &self.bindings().strings[index];
         let mut push = |range: Range<usize>, class, defines| {
-            for piece in string.text.pieces(range) {
+            for piece in string.text.spans(range) {
                 for span in self.lines_of(piece) {
                     out.push(SemanticToken {
                         span,

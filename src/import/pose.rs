@@ -6,12 +6,15 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 use super::view_dependent::{bend_matrix, facing};
 use super::{ImportError, MAX_REPEATED, MAX_TRIANGLES};
 use crate::index::index_type;
-use crate::scene::{MeshId, NodeId, Turn, ViewDependent};
+use crate::scene::{MeshId, NodeId, Turn, ViewDependent, ViewId};
 
 index_type!(
     /// Counts the skins of a file.
     pub(super) SkinId
 );
+
+/// A character that turns, and the weights of its views.
+type Seen<'a> = (&'a Turn, TiVec<ViewId, f64>);
 
 /// The geometry of a file, not yet posed.
 #[derive(Debug)]
@@ -115,8 +118,7 @@ impl Geometry {
         let mut pose = pose.clone();
         let mut globals: TiVec<NodeId, DMat4> = ti_vec![DMat4::IDENTITY; self.nodes.len()];
         // Per node the character that it is a part of, and the weights of the views.
-        let mut characters: TiVec<NodeId, Option<(&Turn, Vec<f64>)>> =
-            ti_vec![None; self.nodes.len()];
+        let mut characters: TiVec<NodeId, Option<Seen<'_>>> = ti_vec![None; self.nodes.len()];
         for id in &self.order {
             let node = &self.nodes[*id];
             let above = node.parent.and_then(|parent| characters[parent].clone());
@@ -131,9 +133,9 @@ impl Geometry {
                     characters[*id] = Some((turn, turn.weights(seen.direction)));
                 }
                 (Some(ViewDependent::Region(places)), Some((turn, weights))) => {
-                    let place = turn.place(&weights, places);
+                    let place = turn.position(&weights, places);
                     pose.locals[*id] = DMat4::from_translation(place);
-                    pose.weights[*id] = weights[1..].iter().map(|w| *w as f32).collect();
+                    pose.weights[*id] = weights.iter().skip(1).map(|w| *w as f32).collect();
                     characters[*id] = Some((turn, weights));
                 }
                 (_, above) => characters[*id] = above,

@@ -23,12 +23,12 @@ pub struct StaticModel {
     pub images: TiVec<ImageId, Image>,
     /// The lower and the upper corner of its bounding box, in the file's axes: +Y up, front towards +Z.
     pub bounds: [DVec3; 2],
-    pieces: Vec<Piece>,
+    meshes: Vec<MaterialMesh>,
 }
 
 /// The triangles of one material.
 #[derive(Debug)]
-struct Piece {
+struct MaterialMesh {
     material: MaterialId,
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
@@ -60,8 +60,8 @@ pub fn read_static_model(
         roughness: 1.0,
         ..Material::default()
     });
-    let pieces = pieces(&soup, &materials, default);
-    let points = || pieces.iter().flat_map(|piece| &piece.positions).copied();
+    let meshes = meshes(&soup, &materials, default);
+    let points = || meshes.iter().flat_map(|mesh| &mesh.positions).copied();
     let first = points().next().ok_or(ImportError::Empty)?;
     let bounds = points().fold([first; 2], |[low, high], p| [low.min(p), high.max(p)]);
     let mut asset = StaticModel {
@@ -69,7 +69,7 @@ pub fn read_static_model(
         images: images(&document, &buffers, resolver)?,
         materials,
         bounds,
-        pieces,
+        meshes,
     };
     asset.remove_unused();
     Ok(asset)
@@ -78,7 +78,7 @@ pub fn read_static_model(
 impl StaticModel {
     /// The number of triangles.
     pub fn triangles(&self) -> usize {
-        self.pieces.iter().map(|piece| piece.triangles.len()).sum()
+        self.meshes.iter().map(|mesh| mesh.triangles.len()).sum()
     }
 
     /// One surface for each material, with its material. Every point is moved to `turn · point + translation`;
@@ -88,23 +88,23 @@ impl StaticModel {
         turn: DMat3,
         translation: DVec3,
     ) -> impl Iterator<Item = (MaterialId, Surface)> {
-        self.pieces.iter().map(move |piece| {
+        self.meshes.iter().map(move |mesh| {
             let place = |point: &DVec3| (turn * *point + translation).as_vec3().to_array();
             let lean = |normal: &DVec3| (turn * *normal).normalize_or_zero().as_vec3().to_array();
             let surface = Surface {
-                positions: piece.positions.iter().map(place).collect(),
-                normals: piece.normals.iter().map(lean).collect(),
-                uvs: piece.uvs.clone(),
-                triangles: piece.triangles.clone(),
+                positions: mesh.positions.iter().map(place).collect(),
+                normals: mesh.normals.iter().map(lean).collect(),
+                uvs: mesh.uvs.clone(),
+                triangles: mesh.triangles.clone(),
                 ..Surface::default()
             };
-            (piece.material, surface)
+            (mesh.material, surface)
         })
     }
 
     /// Removes unused materials, textures and images.
     fn remove_unused(&mut self) {
-        let of_pieces = self.pieces.iter_mut().map(|piece| &mut piece.material);
+        let of_pieces = self.meshes.iter_mut().map(|mesh| &mut mesh.material);
         retain_used(&mut self.materials, of_pieces.collect());
         let of_materials = self.materials.iter_mut().flat_map(Material::textures_mut);
         retain_used(
@@ -136,14 +136,14 @@ where
 }
 
 /// The triangles that have an area, grouped by material; those without one have the default.
-fn pieces(
+fn meshes(
     soup: &TriangleSoup,
     materials: &TiSlice<MaterialId, Material>,
     default: MaterialId,
-) -> Vec<Piece> {
-    let mut pieces: Vec<Piece> = Vec::new();
+) -> Vec<MaterialMesh> {
+    let mut meshes: Vec<MaterialMesh> = Vec::new();
     let mut piece_of: TiVec<MaterialId, Option<usize>> = ti_vec![None; materials.len()];
-    // For each corner: the piece that it was copied to, and its index there.
+    // For each corner: the mesh that it was copied to, and its index there.
     let mut copies: Vec<Option<(usize, u32)>> = vec![None; soup.positions.len()];
     for (triangle, material) in soup.triangles.iter().zip(&soup.materials) {
         let corners = triangle.map(|corner| soup.positions[corner as usize]);
@@ -154,29 +154,29 @@ fn pieces(
         }
         let material = material.map_or(default, |material| MaterialId::from(material as usize));
         let slot = *piece_of[material].get_or_insert_with(|| {
-            pieces.push(Piece {
+            meshes.push(MaterialMesh {
                 material,
                 positions: Vec::new(),
                 normals: Vec::new(),
                 uvs: Vec::new(),
                 triangles: Vec::new(),
             });
-            pieces.len() - 1
+            meshes.len() - 1
         });
         let textured = materials[material].textures().next().is_some();
-        let piece = &mut pieces[slot];
+        let mesh = &mut meshes[slot];
         let mut push = |corner: usize, normal: DVec3| {
-            piece.positions.push(soup.positions[corner]);
-            piece.normals.push(normal);
+            mesh.positions.push(soup.positions[corner]);
+            mesh.normals.push(normal);
             if textured {
                 let uv = soup.uvs[corner].to_array();
-                piece.uvs.push(if uv.iter().all(|n| n.is_finite()) {
+                mesh.uvs.push(if uv.iter().all(|n| n.is_finite()) {
                     uv
                 } else {
                     [0.0; 2]
                 });
             }
-            piece.positions.len() as u32 - 1
+            mesh.positions.len() as u32 - 1
         };
         // Triangles without normals are shaded flat (glTF 2.0, 3.7.2.1), so they cannot share corners.
         let flat = triangle
@@ -196,9 +196,9 @@ fn pieces(
                 }
             }
         });
-        piece.triangles.push(numbers);
+        mesh.triangles.push(numbers);
     }
-    pieces
+    meshes
 }
 
 fn material(source: &::gltf::Material<'_>) -> Material {

@@ -5,7 +5,7 @@ use glam::{DMat3, DMat4, DVec3};
 use serde::Deserialize;
 
 use super::{ImportError, malformed};
-use crate::scene::{Turn, ViewDependent, direction, view_axes};
+use crate::scene::{Turn, ViewDependent, ViewId, direction, view_axes};
 
 const EXTENSION: &str = "OKOSHI_view_dependent";
 /// The elevation with the largest stretch, in degrees above the ground.
@@ -52,8 +52,12 @@ pub(super) fn read(node: &Node<'_>) -> Result<Option<ViewDependent>, ImportError
             return Err(wrong(form));
         }
         return Ok(Some(ViewDependent::Turn(Turn {
-            views: turn.views,
-            between: turn.between,
+            views: turn.views.into(),
+            between: turn
+                .between
+                .into_iter()
+                .map(|set| set.into_iter().map(ViewId::from).collect())
+                .collect(),
         })));
     }
     if let Some(region) = ways.get("region") {

@@ -22,7 +22,7 @@ const LEVEL: f64 = 1.2;
 const EARS: f64 = 0.25;
 /// A part that is drawn after the trunk and of whose bounding box at least this share lies within the trunk's is on the trunk.
 const OVER: f64 = 0.7;
-/// A part of the trunk of which at least this share lies within another piece of it is on that piece.
+/// A part of the trunk of which at least this share lies within another segment of it is on that segment.
 const INSIDE: f64 = 0.9;
 /// A part that carries a head and is narrower than this share of it is a neck.
 const NECK: f64 = 0.6;
@@ -111,7 +111,7 @@ fn carrier(
     (long.count() >= MANY_CHAINS).then_some((Class::Body, "many limbs"))
 }
 
-/// Pieces of the trunk that lie on another piece, such as the white belly of a penguin, go along with it.
+/// Segments of the trunk that lie on another segment, such as the white belly of a penguin, go along with it.
 pub(super) fn patches(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
     for part in tree.order.iter().copied() {
         let Some(above) = tree.parents[part] else {
@@ -217,7 +217,7 @@ fn trunk_parts(tree: &PartTree<'_>, drafts: &[PartDraft]) -> impl Iterator<Item 
     order.filter(|part| is_trunk(drafts[*part].class))
 }
 
-/// Labels what hangs on the trunk, and the next pieces of limbs.
+/// Labels what hangs on the trunk, and the next segments of limbs.
 pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
     let facing = Front::of(tree, drafts);
     let trunk = tree.around(trunk_parts(tree, drafts));
@@ -345,7 +345,7 @@ fn many_legs(tree: &PartTree<'_>, drafts: &mut [PartDraft], trunk: [DVec2; 2]) {
     }
 }
 
-/// A piece of the trunk that carries legs but neither head nor arms is the hips. A skirt or trousers are only if they carry legs.
+/// A segment of the trunk that carries legs but neither head nor arms is the hips. A skirt or trousers are only if they carry legs.
 pub(super) fn hips(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
     let carries = |drafts: &[PartDraft], part: usize, classes: &[Class]| {
         let mut carried = tree.children[part]

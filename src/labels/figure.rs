@@ -2,7 +2,7 @@
 
 use super::part_tree::PartTree;
 use super::placement::{self, Front};
-use super::{Class, Facing, Label, Piece, Side, by_shape, pieces};
+use super::{Class, Facing, Label, LimbSegment, Side, by_shape, segments};
 use crate::anatomy::{self, Term};
 use crate::labels::Figure;
 
@@ -17,7 +17,7 @@ pub(super) struct PartDraft {
     pub(super) named: bool,
     /// Worn, held or part of a face: it follows its parent.
     pub(super) detail: bool,
-    pub(super) piece: Option<Piece>,
+    pub(super) segment: Option<LimbSegment>,
     pub(super) pair: usize,
     /// The reasons for its class and for its side.
     pub(super) why: [String; 2],
@@ -36,7 +36,7 @@ impl PartDraft {
 
 /// Labels the parts of a figure; `None` for a part that follows its parent.
 ///
-/// Class by word. Otherwise a child of a limb is its next piece, what stands on the ground is a leg, the topmost part is the
+/// Class by word. Otherwise a child of a limb is its next segment, what stands on the ground is a leg, the topmost part is the
 /// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, since it
 /// faces the viewer. If the head lies more beside the body than above it, the figure is seen in profile, and limbs drawn later
 /// are on its near side.
@@ -67,18 +67,18 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     by_shape::limbs(&tree, &mut drafts);
     by_shape::hips(&tree, &mut drafts);
     let facing = Front::of(&tree, &drafts);
-    let limbs = pieces::limbs(&tree, &drafts);
+    let limbs = segments::limbs(&tree, &drafts);
     placement::sides(&tree, &facing, &limbs, &mut drafts);
     placement::pairs(&tree, &facing, &limbs, &mut drafts);
-    pieces::name(&tree, &limbs, &mut drafts);
-    let splayed = pieces::splayed(&tree, &limbs, &drafts);
+    segments::name(&tree, &limbs, &mut drafts);
+    let splayed = segments::splayed(&tree, &limbs, &drafts);
     let label = |draft: PartDraft| {
         let class = draft.class?;
         let [class_why, side_why] = draft.why;
         Some(Label {
             class,
             side: draft.side.filter(|_| class.is_limb()),
-            piece: draft.piece.unwrap_or(Piece::Whole),
+            segment: draft.segment.unwrap_or(LimbSegment::Whole),
             pair: draft.pair,
             why: class_why + &side_why,
         })

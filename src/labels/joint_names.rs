@@ -4,7 +4,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::joint_tree::JointTree;
 use super::skeleton::plain_names;
-use super::{Class, Piece, Side};
+use super::{Class, LimbSegment, Side};
 use crate::anatomy::{self, Term, name_words};
 use crate::mocap::{JointId, Skeleton};
 
@@ -24,7 +24,7 @@ pub(super) enum JointName {
     Limb(LimbWord, Side),
 }
 
-/// The word for a limb's piece in the name of a joint that has a side.
+/// The word for a limb's segment in the name of a joint that has a side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LimbWord {
     Collar,
@@ -134,13 +134,13 @@ pub(super) fn limb(
     class: Class,
     side: Side,
 ) -> Option<LimbJoints> {
-    let pieces = pieces(tree, named, class, side);
+    let segments = segments(tree, named, class, side);
     let start = tree
         .joints()
-        .filter(|joint| matches!(pieces[*joint], Some(Piece::Upper)))
+        .filter(|joint| matches!(segments[*joint], Some(LimbSegment::Upper)))
         .filter(|joint| !continues(tree, names, *joint))
         .take(MAX_STARTS)
-        .map(|joint| (joint, limb_joints(tree, &pieces, joint)))
+        .map(|joint| (joint, limb_joints(tree, &segments, joint)))
         // Of equal ones the first, nearest to the root.
         .reduce(|best, other| {
             let bones = |found: &LimbJoints| {
@@ -168,12 +168,12 @@ fn continues(tree: &JointTree, names: &TiSlice<JointId, &str>, joint: JointId) -
 }
 
 /// Which bones of a limb begin at each joint.
-fn pieces(
+fn segments(
     tree: &JointTree,
     named: &TiSlice<JointId, Option<JointName>>,
     class: Class,
     side: Side,
-) -> TiVec<JointId, Option<Piece>> {
+) -> TiVec<JointId, Option<LimbSegment>> {
     let word = |joint: JointId| match named[joint] {
         Some(JointName::Limb(word, its)) if its == side => Some(word),
         _ => None,
@@ -203,20 +203,20 @@ fn pieces(
         .map(|joint| {
             let word = word(joint)?;
             Some(match (class, word) {
-                (Class::Arm, LimbWord::Collar) => Piece::Collar,
-                (Class::Arm, LimbWord::Shoulder) if arm_follows[joint] => Piece::Collar,
-                (Class::Arm, LimbWord::Shoulder | LimbWord::UpperArm) => Piece::Upper,
-                (Class::Arm, LimbWord::Arm) if upper_arm => Piece::Lower,
-                (Class::Arm, LimbWord::Arm) => Piece::Upper,
-                (Class::Arm, LimbWord::LowerArm) => Piece::Lower,
-                (Class::Arm, LimbWord::Hand) => Piece::End,
-                (Class::Leg, LimbWord::Hip) if !hip_is_thigh(joint) => Piece::Collar,
-                (Class::Leg, LimbWord::Hip | LimbWord::Thigh) => Piece::Upper,
-                (Class::Leg, LimbWord::Leg) if thigh => Piece::Lower,
-                (Class::Leg, LimbWord::Leg) => Piece::Upper,
-                (Class::Leg, LimbWord::Shin) => Piece::Lower,
-                (Class::Leg, LimbWord::Foot) => Piece::End,
-                (Class::Leg, LimbWord::Toe) => Piece::Beyond,
+                (Class::Arm, LimbWord::Collar) => LimbSegment::Collar,
+                (Class::Arm, LimbWord::Shoulder) if arm_follows[joint] => LimbSegment::Collar,
+                (Class::Arm, LimbWord::Shoulder | LimbWord::UpperArm) => LimbSegment::Upper,
+                (Class::Arm, LimbWord::Arm) if upper_arm => LimbSegment::Lower,
+                (Class::Arm, LimbWord::Arm) => LimbSegment::Upper,
+                (Class::Arm, LimbWord::LowerArm) => LimbSegment::Lower,
+                (Class::Arm, LimbWord::Hand) => LimbSegment::End,
+                (Class::Leg, LimbWord::Hip) if !hip_is_thigh(joint) => LimbSegment::Collar,
+                (Class::Leg, LimbWord::Hip | LimbWord::Thigh) => LimbSegment::Upper,
+                (Class::Leg, LimbWord::Leg) if thigh => LimbSegment::Lower,
+                (Class::Leg, LimbWord::Leg) => LimbSegment::Upper,
+                (Class::Leg, LimbWord::Shin) => LimbSegment::Lower,
+                (Class::Leg, LimbWord::Foot) => LimbSegment::End,
+                (Class::Leg, LimbWord::Toe) => LimbSegment::Beyond,
                 _ => return None,
             })
         })
@@ -226,25 +226,25 @@ fn pieces(
 /// The joints of the limb whose upper bone begins at `upper`.
 fn limb_joints(
     tree: &JointTree,
-    pieces: &TiSlice<JointId, Option<Piece>>,
+    segments: &TiSlice<JointId, Option<LimbSegment>>,
     upper: JointId,
 ) -> LimbJoints {
-    let first_below = |above: JointId, piece: Piece| {
+    let first_below = |above: JointId, segment: LimbSegment| {
         let inside = tree.branch(above);
         tree.joints()
-            .filter(|joint| *joint > above && inside[*joint] && pieces[*joint] == Some(piece))
+            .filter(|joint| *joint > above && inside[*joint] && segments[*joint] == Some(segment))
             .min_by_key(|joint| (tree.depths[*joint], *joint))
     };
-    let lower = first_below(upper, Piece::Lower);
-    let end = first_below(lower.unwrap_or(upper), Piece::End);
+    let lower = first_below(upper, LimbSegment::Lower);
+    let end = first_below(lower.unwrap_or(upper), LimbSegment::End);
     LimbJoints {
         collar: tree
             .upward(upper)
             .skip(1)
-            .find(|joint| pieces[*joint] == Some(Piece::Collar)),
+            .find(|joint| segments[*joint] == Some(LimbSegment::Collar)),
         upper: Some(upper),
         lower,
         end,
-        toe: first_below(end.or(lower).unwrap_or(upper), Piece::Beyond),
+        toe: first_below(end.or(lower).unwrap_or(upper), LimbSegment::Beyond),
     }
 }

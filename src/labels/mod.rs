@@ -1,4 +1,4 @@
-//! Labels for the joints of a skeleton and the parts of a figure: head, arm or leg, which side, which piece of it.
+//! Labels for the joints of a skeleton and the parts of a figure: head, arm or leg, which side, which segment of it.
 //!
 //! Both are labelled by name first, and by shape where names say nothing: [`label_clip`] and [`label_figure`]. A label
 //! keeps the reason for it. All tables of words are in `anatomy`.
@@ -9,8 +9,8 @@ mod figure;
 mod joint_names;
 mod joint_tree;
 mod part_tree;
-mod pieces;
 mod placement;
+mod segments;
 mod sides;
 mod skeleton;
 mod topology;
@@ -125,10 +125,10 @@ impl Facing {
     }
 }
 
-/// A piece of a limb.
+/// A segment of a limb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Piece {
-    /// The whole limb, without a hand or foot that is a piece of its own.
+pub enum LimbSegment {
+    /// The whole limb, without a hand or foot that is a segment of its own.
     Whole,
     /// The collar bone; only in skeletons.
     Collar,
@@ -142,7 +142,7 @@ pub enum Piece {
     Beyond,
 }
 
-impl Piece {
+impl LimbSegment {
     /// Its name in messages, for a limb of this class.
     pub fn name(self, class: Class) -> &'static str {
         match (self, class) {
@@ -168,9 +168,9 @@ pub struct Label {
     pub class: Class,
     /// The side of a limb.
     pub side: Option<Side>,
-    /// Which piece of a limb; [`Piece::Whole`] for everything else.
-    pub piece: Piece,
-    /// Which limb of its class and side: 0 is the rearmost or lowest. In a figure also which piece of the trunk, counted from
+    /// Which segment of a limb; [`LimbSegment::Whole`] for everything else.
+    pub segment: LimbSegment,
+    /// Which limb of its class and side: 0 is the rearmost or lowest. In a figure also which segment of the trunk, counted from
     /// the hips, and of neck and tail, counted from the trunk.
     pub pair: usize,
     /// The reason, for people to read: "`Rarm` is a right arm by its name".
@@ -182,15 +182,15 @@ impl Label {
     pub fn describe(&self) -> String {
         let side = self.side.map_or("", Side::name);
         let space = if side.is_empty() { "" } else { " " };
-        let piece = match self.piece {
-            Piece::Whole => "",
-            Piece::Collar => ", collar",
-            Piece::Upper => ", upper",
-            Piece::Lower => ", lower",
-            Piece::End => ", end",
-            Piece::Beyond => ", beyond",
+        let segment = match self.segment {
+            LimbSegment::Whole => "",
+            LimbSegment::Collar => ", collar",
+            LimbSegment::Upper => ", upper",
+            LimbSegment::Lower => ", lower",
+            LimbSegment::End => ", end",
+            LimbSegment::Beyond => ", beyond",
         };
-        format!("{side}{space}{}{piece}", self.class.name())
+        format!("{side}{space}{}{segment}", self.class.name())
     }
 }
 

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::figure::{PartDraft, is_trunk};
 use super::part_tree::PartTree;
-use super::pieces::Limb;
+use super::segments::Limb;
 use super::{Class, Facing, Side};
 use crate::anatomy::Term;
 
@@ -239,10 +239,10 @@ fn from_side(
     }
 }
 
-/// Numbers the limbs of each class and side from the hind end, the pieces of the trunk from the hips, those of neck and tail
+/// Numbers the limbs of each class and side from the hind end, the segments of the trunk from the hips, those of neck and tail
 /// from the trunk.
 pub(super) fn pairs(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts: &mut [PartDraft]) {
-    let mut pieces: Vec<usize> = tree.order.clone();
+    let mut segments: Vec<usize> = tree.order.clone();
     let height = |draft: &PartDraft| match draft.class {
         Some(Class::Body) if draft.says(&[Term::Belly]) => 0,
         Some(Class::Body) if draft.says(&[Term::Chest]) => 2,
@@ -254,12 +254,12 @@ pub(super) fn pairs(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts:
         // What is attached to the trunk is already sorted, parents first.
         _ => 0.0,
     };
-    pieces.sort_by(|a, b| {
+    segments.sort_by(|a, b| {
         let heights = height(&drafts[*a]).cmp(&height(&drafts[*b]));
         heights.then(middle(*a).total_cmp(&middle(*b)))
     });
     for class in [Class::Body, Class::Neck, Class::Tail] {
-        let of_class = pieces
+        let of_class = segments
             .iter()
             .filter(|part| drafts[**part].class == Some(class));
         let found: Vec<usize> = of_class.copied().collect();

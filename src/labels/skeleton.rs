@@ -7,7 +7,7 @@ use super::joint_tree::JointTree;
 use super::sides::Sides;
 use super::topology;
 use super::trunk;
-use super::{Class, Label, Piece, Side, Tip};
+use super::{Class, Label, LimbSegment, Side, Tip};
 use crate::anatomy::{self, Term, name_words};
 use crate::mocap::{Clip, JointId, Pose, Skeleton};
 
@@ -83,7 +83,7 @@ pub struct Limb {
     pub end: Option<JointId>,
     /// The joint of the toes.
     pub toe: Option<JointId>,
-    /// The far end of its last bone: the hand or foot, or the last piece that exists.
+    /// The far end of its last bone: the hand or foot, or the last segment that exists.
     pub tip: Option<Tip>,
 }
 
@@ -212,7 +212,7 @@ fn sides_of_pairs(
     poses: &[Pose],
 ) -> [Option<[LimbJoints; 2]>; 2] {
     let found =
-        pairs.map(|pair| pair.map(|pair| pair.map(|start| topology::pieces(tree, start, poses))));
+        pairs.map(|pair| pair.map(|pair| pair.map(|start| topology::segments(tree, start, poses))));
     let [arms, legs] = found.map(|pair| pair.map_or(Vec::new(), Vec::from));
     let branch = |limbs: Option<[JointId; 2]>| limbs.and_then(|[start, _]| tree.parents[start]);
     let low = branch(pairs[1]).unwrap_or_default();
@@ -260,10 +260,10 @@ fn completed(
                     .last();
             }
             None => {
-                let pieces = topology::pieces(tree, upper, &[]);
-                if pieces.upper == Some(upper) {
-                    lower = pieces.lower.filter(useful);
-                    end = pieces.end.filter(|end| useful(end) && lower.is_some());
+                let segments = topology::segments(tree, upper, &[]);
+                if segments.upper == Some(upper) {
+                    lower = segments.lower.filter(useful);
+                    end = segments.end.filter(|end| useful(end) && lower.is_some());
                 }
             }
         }
@@ -307,51 +307,52 @@ fn write_labels(
     anatomy: &mut Anatomy,
 ) {
     let mut labels: TiVec<JointId, Option<Label>> = ti_vec![None; skeleton.joints.len()];
-    let mut put = |joint: JointId, class: Class, side: Option<Side>, piece: Piece, why: &str| {
-        let name = &skeleton.joints[joint].name;
-        let side_name = side.map_or(String::new(), |side| format!("{} ", side.name()));
-        labels[joint] = Some(Label {
-            class,
-            side,
-            piece,
-            pair: 0,
-            why: format!("`{name}` is the {side_name}{} {why}", piece.name(class)),
-        });
-    };
+    let mut put =
+        |joint: JointId, class: Class, side: Option<Side>, segment: LimbSegment, why: &str| {
+            let name = &skeleton.joints[joint].name;
+            let side_name = side.map_or(String::new(), |side| format!("{} ", side.name()));
+            labels[joint] = Some(Label {
+                class,
+                side,
+                segment,
+                pair: 0,
+                why: format!("`{name}` is the {side_name}{} {why}", segment.name(class)),
+            });
+        };
     let by = |joint: JointId| match named[joint] {
         Some(JointName::Helper | JointName::Limb(..)) | None => "by its place in the skeleton",
         Some(_) => "by its name",
     };
     for joint in &anatomy.tail {
-        put(*joint, Class::Tail, None, Piece::Whole, by(*joint));
+        put(*joint, Class::Tail, None, LimbSegment::Whole, by(*joint));
     }
     for joint in &anatomy.spine {
-        put(*joint, Class::Body, None, Piece::Whole, by(*joint));
+        put(*joint, Class::Body, None, LimbSegment::Whole, by(*joint));
     }
     for joint in &anatomy.neck {
-        put(*joint, Class::Neck, None, Piece::Whole, by(*joint));
+        put(*joint, Class::Neck, None, LimbSegment::Whole, by(*joint));
     }
     for (joint, class) in [(anatomy.head, Class::Head), (anatomy.hips, Class::Hips)] {
         if let Some(joint) = joint {
-            put(joint, class, None, Piece::Whole, by(joint));
+            put(joint, class, None, LimbSegment::Whole, by(joint));
         }
     }
     for (limb, source) in limbs {
-        let pieces = [
-            (limb.collar, Piece::Collar),
-            (Some(limb.upper), Piece::Upper),
-            (limb.lower, Piece::Lower),
-            (limb.end, Piece::End),
-            (limb.toe, Piece::Beyond),
+        let segments = [
+            (limb.collar, LimbSegment::Collar),
+            (Some(limb.upper), LimbSegment::Upper),
+            (limb.lower, LimbSegment::Lower),
+            (limb.end, LimbSegment::End),
+            (limb.toe, LimbSegment::Beyond),
         ];
-        for (joint, piece) in pieces {
+        for (joint, segment) in segments {
             if let Some(joint) = joint {
                 let why = match (source, named[joint]) {
                     (Source::Name, Some(JointName::Limb(..))) => "by its name",
                     (Source::Name, _) => "by its place in the skeleton",
                     (Source::Shape, _) => "by the skeleton's shape: its names do not tell",
                 };
-                put(joint, limb.class, Some(limb.side), piece, why);
+                put(joint, limb.class, Some(limb.side), segment, why);
             }
         }
     }

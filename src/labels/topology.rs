@@ -212,7 +212,7 @@ fn bend(pose: &TiSlice<JointId, Transform>, joints: [JointId; 3]) -> f64 {
 /// Assigns the bones of the chain that begins at a joint: upper and lower are the two neighbours with the greatest total
 /// length. A bone before them is a collar bone. Bones between which no pose bends count as one, so elbows and knees are where
 /// the motion bends, whatever joints for twists there are.
-pub(super) fn pieces(tree: &JointTree, start: JointId, poses: &[Pose]) -> LimbJoints {
+pub(super) fn segments(tree: &JointTree, start: JointId, poses: &[Pose]) -> LimbJoints {
     let Some(bones) = bones(tree, start) else {
         return LimbJoints::default();
     };

@@ -2,10 +2,11 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::billboard::Character;
+use crate::billboard::{Character, ViewId};
 use crate::compile::Compiled;
 use crate::scene::{
-    Mesh, NewNode, Node, NodeId, Piece, Primitive, Scene, Surface, ViewDependent, WorldTransform,
+    Mesh, NewNode, Node, NodeId, Primitive, Scene, Surface, SurfacePatch, ViewDependent,
+    WorldTransform,
 };
 
 /// Replaces each character that turns by its views, side by side as on the page.
@@ -19,7 +20,7 @@ pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mu
     let turning: Vec<NodeId> = scene.nodes.keys().filter(turns).collect();
     for (root, character) in turning.into_iter().zip(&compiled.characters) {
         let regions = std::mem::take(&mut scene.nodes[root].children);
-        for view in 0..character.frames.len() {
+        for view in character.frames.keys() {
             add_view(character, view, &regions, world, scene);
         }
         for region in regions {
@@ -31,7 +32,7 @@ pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mu
 /// Adds a view of a character whose regions have these nodes.
 fn add_view(
     character: &Character,
-    view: usize,
+    view: ViewId,
     regions: &[NodeId],
     world: &WorldTransform,
     scene: &mut Scene,
@@ -41,7 +42,7 @@ fn add_view(
     let center = DVec3::new(frame.center.x, -frame.center.y, 0.0);
     let root = scene.add(NewNode {
         node: Node {
-            name: format!("{} {}", character.name, view + 1),
+            name: format!("{} {}", character.name, usize::from(view) + 1),
             translation: world.point(center),
             rotation: world.rotation,
             ..Node::default()
@@ -49,13 +50,13 @@ fn add_view(
         ..NewNode::default()
     });
     // Meshes are as large as in the first view.
-    let larger = frame.height / character.frames[0].height;
+    let larger = frame.height / character.frames[ViewId::FIRST].height;
     for (region, node) in character.regions.iter().zip(regions) {
         let Some(mesh) = scene.nodes[*node].mesh else {
             continue;
         };
         let mesh = still(&scene.meshes[mesh], view, larger);
-        let place = character.turn.place(&weights, &region.places);
+        let place = character.turn.position(&weights, &region.positions);
         scene.add(NewNode {
             node: Node {
                 name: region.name.clone(),
@@ -70,24 +71,24 @@ fn add_view(
 }
 
 /// A mesh as it is in a view, without morph targets.
-fn still(mesh: &Mesh, view: usize, larger: f64) -> Mesh {
-    let piece = |piece: &Piece| {
-        let surface = piece.surface();
-        let target = view
+fn still(mesh: &Mesh, view: ViewId, larger: f64) -> Mesh {
+    let patch = |patch: &SurfacePatch| {
+        let surface = patch.surface();
+        let target = usize::from(view)
             .checked_sub(1)
             .and_then(|target| surface.targets.get(target));
         let place = |(corner, at): (usize, &[f32; 3])| {
             let offset = target.map_or([0.0; 3], |target| target[corner]);
             [0, 1, 2].map(|axis| ((f64::from(at[axis]) + f64::from(offset[axis])) * larger) as f32)
         };
-        Piece::from(Surface {
+        SurfacePatch::from(Surface {
             positions: surface.positions.iter().enumerate().map(place).collect(),
             targets: Vec::new(),
             ..surface.into_owned()
         })
     };
     let primitives = mesh.primitives.iter().map(|primitive| Primitive {
-        pieces: primitive.pieces.iter().map(piece).collect(),
+        patches: primitive.patches.iter().map(patch).collect(),
         material: primitive.material,
     });
     Mesh {

@@ -22,11 +22,7 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
     let Compiled {
         bindings, drawing, ..
     } = compiled;
-    let name = |part: usize| match bindings.parts[part].is_automatic() {
-        // Nobody knows an automatic name.
-        true => drawing.describe(bindings.parts[part].shape),
-        false => bindings.describe(drawing, part),
-    };
+    let name = |part: usize| bindings.describe_as_drawn(drawing, part);
     let who = name(look.part);
     let span = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
     let (why, help) = match instead {

@@ -61,7 +61,7 @@ impl Previews {
             let found = texts.last(uri).and_then(|last| {
                 let span = match picked {
                     Picked::Part(part) => last.analysis.place_of(part)?,
-                    Picked::Place { line, column } => {
+                    Picked::Position { line, column } => {
                         Span::at(offset(last.document.text(), line, column))
                     }
                 };
@@ -327,7 +327,7 @@ pub(super) struct ModelAnswer {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct PlaceParams {
+pub(super) struct PartParams {
     text_document: TextDocumentIdentifier,
     part: String,
 }
@@ -364,7 +364,7 @@ impl Backend {
     }
 
     /// The location of a part's string.
-    pub(super) async fn preview_place(&self, params: PlaceParams) -> Result<Option<Location>> {
+    pub(super) async fn preview_place(&self, params: PartParams) -> Result<Option<Location>> {
         let Some(view) = self.view(&params.text_document.uri).await? else {
             return Ok(None);
         };

@@ -6,7 +6,7 @@ use super::check::{
     MAX_FRAMES, MAX_MARKS, coordinate_problem, name_problem, repeated_name, size_problem,
     time_problem,
 };
-use super::{Error, MarkTrack, MarkTracks, Place, bridge, named_color, parse_hex};
+use super::{Error, ErrorLocation, MarkTrack, MarkTracks, bridge, named_color, parse_hex};
 
 /// The colour of a mark whose name says none.
 const GRAY: [u8; 3] = [128; 3];
@@ -21,11 +21,11 @@ struct Cell<'a> {
 
 impl Cell<'_> {
     fn error(&self, message: impl Into<String>, help: impl Into<String>) -> Error {
-        let place = Place::Position {
+        let location = ErrorLocation::Position {
             line: self.line,
             column: self.column,
         };
-        Error::new(place, message, help)
+        Error::new(location, message, help)
     }
 }
 
@@ -75,7 +75,7 @@ pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
     };
     let Some(size) = comment.size else {
         return Err(Error::new(
-            Place::Position { line: 1, column: 1 },
+            ErrorLocation::Position { line: 1, column: 1 },
             "the size of the clip's pictures is missing",
             "begin the file with the line `# 320x240`, with the pictures' width and height in pixels",
         ));
@@ -133,9 +133,9 @@ impl<'a> Comment<'a> {
                 && let (Ok(width), Ok(height)) = (width.parse(), height.parse())
             {
                 if let Some(message) = size_problem([width, height]) {
-                    let place = Place::Position { line, column: 1 };
+                    let location = ErrorLocation::Position { line, column: 1 };
                     let help = "give the width and the height of the clip's pictures";
-                    return Err(Error::new(place, message, help));
+                    return Err(Error::new(location, message, help));
                 }
                 self.size = Some([width, height]);
             }

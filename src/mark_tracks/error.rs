@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Where in a file something is wrong.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Place {
+pub enum ErrorLocation {
     /// The file as a whole.
     File,
     /// A line and a column in characters, both counted from 1.
@@ -22,7 +22,7 @@ pub enum Place {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Error {
     /// Where it is.
-    pub place: Place,
+    pub location: ErrorLocation,
     /// What is wrong.
     pub message: String,
     /// How to fix it.
@@ -32,13 +32,17 @@ pub struct Error {
 impl Error {
     /// An error of the file as a whole.
     pub(super) fn whole(message: impl Into<String>, help: impl Into<String>) -> Self {
-        Self::new(Place::File, message, help)
+        Self::new(ErrorLocation::File, message, help)
     }
 
-    /// An error at a place.
-    pub(super) fn new(place: Place, message: impl Into<String>, help: impl Into<String>) -> Self {
+    /// An error at a location.
+    pub(super) fn new(
+        location: ErrorLocation,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Self {
         Self {
-            place,
+            location,
             message: message.into(),
             help: help.into(),
         }
@@ -47,10 +51,12 @@ impl Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.place {
-            Place::File => {}
-            Place::Position { line, column } => write!(f, "line {line}, column {column}: ")?,
-            Place::Field(field) => write!(f, "`{field}`: ")?,
+        match &self.location {
+            ErrorLocation::File => {}
+            ErrorLocation::Position { line, column } => {
+                write!(f, "line {line}, column {column}: ")?
+            }
+            ErrorLocation::Field(field) => write!(f, "`{field}`: ")?,
         }
         f.write_str(&self.message)
     }

@@ -7,7 +7,7 @@ use super::check::{
     MAX_FRAMES, MAX_MARKS, coordinate_problem, name_problem, repeated_name, size_problem,
     time_problem,
 };
-use super::{Error, MarkTrack, MarkTracks, Place, bridge, parse_hex};
+use super::{Error, ErrorLocation, MarkTrack, MarkTracks, bridge, parse_hex};
 
 /// What tells a track from other JSON.
 #[derive(Deserialize)]
@@ -36,7 +36,7 @@ struct Mark {
     name: String,
     #[serde(rename = "colour")]
     color: String,
-    /// `null` where the mark was lost and nobody knows a place.
+    /// `null` where the mark was lost and nobody knows a position.
     points: Vec<Option<[f64; 2]>>,
     /// Ranges of frames: the first and the last.
     #[serde(default)]
@@ -47,14 +47,14 @@ pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
     let header: Header = serde_json::from_str(text).map_err(|error| invalid(&error))?;
     if header.format.as_deref() != Some("okoshi track") {
         return Err(Error::new(
-            Place::Field("format".to_owned()),
+            ErrorLocation::Field("format".to_owned()),
             "this JSON is no track: it does not say `\"format\": \"okoshi track\"`",
             "`okoshi track` makes a track of a clip",
         ));
     }
     if header.version != Some(1) {
         return Err(Error::new(
-            Place::Field("version".to_owned()),
+            ErrorLocation::Field("version".to_owned()),
             "only version 1 can be read",
             "make the track again with this version of okoshi",
         ));
@@ -62,7 +62,11 @@ pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
     let file: File = serde_json::from_str(text).map_err(|error| invalid(&error))?;
     if let Some(message) = size_problem(file.size) {
         let help = "give the width and the height of the clip's pictures";
-        return Err(Error::new(Place::Field("size".to_owned()), message, help));
+        return Err(Error::new(
+            ErrorLocation::Field("size".to_owned()),
+            message,
+            help,
+        ));
     }
     check_times(&file.times)?;
     check_marks(&file.marks)?;
@@ -84,12 +88,12 @@ fn invalid(error: &serde_json::Error) -> Error {
         Some(at) => message[..at].to_owned(),
         None => message,
     };
-    let place = Place::Position {
+    let location = ErrorLocation::Position {
         line: error.line().max(1),
         column: error.column().max(1),
     };
     Error::new(
-        place,
+        location,
         message,
         "compare it with a track that `okoshi track` writes, or make it again",
     )
@@ -98,7 +102,7 @@ fn invalid(error: &serde_json::Error) -> Error {
 fn check_times(times: &[f64]) -> Result<(), Error> {
     if times.is_empty() || times.len() > MAX_FRAMES {
         return Err(Error::new(
-            Place::Field("times".to_owned()),
+            ErrorLocation::Field("times".to_owned()),
             format!(
                 "a track has from 1 to {MAX_FRAMES} frames, this one {}",
                 times.len()
@@ -109,8 +113,8 @@ fn check_times(times: &[f64]) -> Result<(), Error> {
     for (frame, time) in times.iter().enumerate() {
         let before = frame.checked_sub(1).map(|before| times[before]);
         if let Some((message, help)) = time_problem(before, *time) {
-            let place = Place::Field(format!("times[{frame}]"));
-            return Err(Error::new(place, message, help));
+            let location = ErrorLocation::Field(format!("times[{frame}]"));
+            return Err(Error::new(location, message, help));
         }
     }
     Ok(())
@@ -119,7 +123,7 @@ fn check_times(times: &[f64]) -> Result<(), Error> {
 fn check_marks(marks: &[Mark]) -> Result<(), Error> {
     if marks.is_empty() || marks.len() > MAX_MARKS {
         return Err(Error::new(
-            Place::Field("marks".to_owned()),
+            ErrorLocation::Field("marks".to_owned()),
             format!(
                 "a track has from 1 to {MAX_MARKS} marks, this one {}",
                 marks.len()
@@ -129,13 +133,13 @@ fn check_marks(marks: &[Mark]) -> Result<(), Error> {
     }
     for (index, mark) in marks.iter().enumerate() {
         if let Some((message, help)) = name_problem(&mark.name) {
-            let place = Place::Field(format!("marks[{index}].name"));
-            return Err(Error::new(place, message, help));
+            let location = ErrorLocation::Field(format!("marks[{index}].name"));
+            return Err(Error::new(location, message, help));
         }
     }
     match repeated_name(marks.iter().map(|mark| mark.name.as_str())) {
         Some(index) => Err(Error::new(
-            Place::Field(format!("marks[{index}].name")),
+            ErrorLocation::Field(format!("marks[{index}].name")),
             format!("there is a mark `{}` already", marks[index].name),
             "give each mark a name of its own",
         )),
@@ -144,7 +148,7 @@ fn check_marks(marks: &[Mark]) -> Result<(), Error> {
 }
 
 fn read_mark(index: usize, mark: &Mark, times: &[f64], middle: DVec2) -> Result<MarkTrack, Error> {
-    let field = |field: String| Place::Field(format!("marks[{index}].{field}"));
+    let field = |field: String| ErrorLocation::Field(format!("marks[{index}].{field}"));
     let color = parse_hex(&mark.color).ok_or_else(|| {
         let message = "this is no colour";
         Error::new(field("colour".into()), message, "write it as `#d03020`")
@@ -160,8 +164,8 @@ fn read_mark(index: usize, mark: &Mark, times: &[f64], middle: DVec2) -> Result<
     for (frame, point) in mark.points.iter().enumerate() {
         for (axis, coordinate) in point.iter().flatten().enumerate() {
             if let Some((message, help)) = coordinate_problem(*coordinate) {
-                let place = field(format!("points[{frame}][{axis}]"));
-                return Err(Error::new(place, message, help));
+                let location = field(format!("points[{frame}][{axis}]"));
+                return Err(Error::new(location, message, help));
             }
         }
     }

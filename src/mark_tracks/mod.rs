@@ -25,7 +25,7 @@ use write::TICKS;
 pub use bridge::bridge;
 pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, is_name, repeated_name};
 pub use color::{Hsv, hex, hue_difference, named_color, parse_hex};
-pub use error::{Error, Place};
+pub use error::{Error, ErrorLocation};
 
 /// The largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 256 << 20;

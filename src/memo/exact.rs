@@ -4,6 +4,7 @@ use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
+use typed_index_collections::TiVec;
 
 /// What can be compared exactly, without copying it: numbers by their bits.
 pub(crate) trait Exact {
@@ -107,6 +108,16 @@ impl<T: Exact> Exact for Vec<T> {
         for item in [self.first(), self.last()].into_iter().flatten() {
             item.hash_some(state);
         }
+    }
+}
+
+impl<K, T: Exact> Exact for TiVec<K, T> {
+    fn is_exactly(&self, other: &Self) -> bool {
+        self.raw.is_exactly(&other.raw)
+    }
+
+    fn hash_some(&self, state: &mut impl Hasher) {
+        self.raw.hash_some(state);
     }
 }
 

@@ -12,4 +12,4 @@ mod up;
 
 pub(crate) use skeleton::height;
 pub use skeleton::{Axis, Channel, Clip, Joint, JointId, Pose, Skeleton, Transform};
-pub use up::{NoAxis, UpAxis};
+pub use up::UpAxis;

@@ -52,7 +52,7 @@ pub fn skeleton_model(
             .collect();
         let mesh = scene.meshes.push_and_get_key(Mesh {
             primitives: vec![Primitive {
-                pieces: vec![bones(&ways).into()],
+                patches: vec![bones(&ways).into()],
                 material,
             }],
         });

@@ -48,7 +48,7 @@ pub enum Picked<'a> {
     /// A part, by its name.
     Part(&'a str),
     /// A position in the drawing's text. Lines and columns count from 1, columns in characters.
-    Place {
+    Position {
         /// The line.
         line: usize,
         /// The column.

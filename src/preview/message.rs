@@ -150,7 +150,7 @@ pub(super) fn findings<'a>(diagnostics: &'a [Diagnostic], text: &str) -> Vec<Fin
             code: diagnostic.code.id(),
             message: &diagnostic.message,
             label: diagnostic.label.as_deref(),
-            place: diagnostic.place,
+            place: diagnostic.on_page,
             help: diagnostic.help.as_deref().into_iter().collect(),
             line,
             column,

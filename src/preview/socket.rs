@@ -87,7 +87,7 @@ fn handle(message: &Message, hub: &Hub) {
             drawing,
             line,
             column,
-        }) => hub.picked(&drawing, Picked::Place { line, column }),
+        }) => hub.picked(&drawing, Picked::Position { line, column }),
         Ok(FromPage::Want {} | FromPage::Other) | Err(_) => {}
     }
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::marks::PieceMark;
 use super::paper::{Marked, Paper, cut_out};
-use super::pieces::Piece;
+use super::pieces::PaperPiece;
 
 /// What a page leaves free at its edges: many printers cannot print there.
 pub(super) const EDGE: f64 = 10.0;
@@ -22,7 +22,7 @@ const SMALLEST: f64 = 1e-3;
 
 /// A piece on the sheet.
 #[derive(Debug, Clone)]
-pub(super) struct Placed {
+pub(super) struct PlacedPiece {
     pub(super) paper: Paper,
     /// The page that it is on.
     pub(super) page: usize,
@@ -35,13 +35,13 @@ pub(super) struct Placed {
 pub(super) struct Layout {
     /// Millimetres in a drawing unit.
     pub(super) scale: f64,
-    pub(super) placed: Vec<Placed>,
+    pub(super) placed: Vec<PlacedPiece>,
     pub(super) pages: usize,
 }
 
 /// What is laid out.
 pub(super) struct Task<'a> {
-    pub(super) pieces: &'a [Piece],
+    pub(super) pieces: &'a [PaperPiece],
     pub(super) marks: &'a [Option<PieceMark>],
     /// Per piece its holes: its own joint, then those of what it carries; drawing units.
     pub(super) holes: Vec<Vec<DVec2>>,
@@ -123,7 +123,7 @@ impl Task<'_> {
             let (low, high) = boxes[index];
             let slack = (self.names[index] - (high.x - low.x)).max(0.0) / 2.0;
             let inset = DVec2::new(EDGE + GAP / 2.0 + slack, EDGE + GAP / 2.0);
-            Placed {
+            PlacedPiece {
                 shift: corner + inset - low,
                 paper,
                 page,

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::pieces::Piece;
+use super::pieces::PaperPiece;
 use crate::anatomy::{self, Role};
 use crate::bind::Bindings;
 use crate::geometry::bounds;
@@ -48,7 +48,11 @@ pub enum MarkOrigin {
 
 /// Per piece its mark. If no string gives one, the ends of the arms get marks; if these are fewer than two, also those of the
 /// legs, and else what is farthest from the piece that carries the others.
-pub fn marks(drawing: &Drawing, bindings: &Bindings, pieces: &[Piece]) -> Vec<Option<PieceMark>> {
+pub fn marks(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    pieces: &[PaperPiece],
+) -> Vec<Option<PieceMark>> {
     let given: Vec<Option<PieceMark>> = pieces.iter().map(|piece| given(bindings, piece)).collect();
     if given.iter().any(Option::is_some) {
         return given;
@@ -66,7 +70,7 @@ pub fn marks(drawing: &Drawing, bindings: &Bindings, pieces: &[Piece]) -> Vec<Op
     marks
 }
 
-fn given(bindings: &Bindings, piece: &Piece) -> Option<PieceMark> {
+fn given(bindings: &Bindings, piece: &PaperPiece) -> Option<PieceMark> {
     let mut parts = std::iter::once(&piece.part).chain(&piece.details);
     parts.find_map(|part| {
         let mark = bindings.mark(*part)?;
@@ -80,12 +84,12 @@ fn given(bindings: &Bindings, piece: &Piece) -> Option<PieceMark> {
 }
 
 /// The pieces that show a movement best.
-fn ends(bindings: &Bindings, pieces: &[Piece]) -> Vec<usize> {
+fn ends(bindings: &Bindings, pieces: &[PaperPiece]) -> Vec<usize> {
     use Role::{Foot, Hand, LowerArm, Shin, Thigh, Toe, UpperArm};
-    let role = |piece: &Piece| Role::of(&anatomy::terms(&bindings.parts[piece.part].name));
+    let role = |piece: &PaperPiece| Role::of(&anatomy::terms(&bindings.parts[piece.part].name));
     let mut ends: Vec<usize> = Vec::new();
     for limb in [&[UpperArm, LowerArm, Hand][..], &[Thigh, Shin, Foot, Toe]] {
-        let is_limb = |piece: &Piece| role(piece).is_some_and(|role| limb.contains(&role));
+        let is_limb = |piece: &PaperPiece| role(piece).is_some_and(|role| limb.contains(&role));
         let carries_more = |index: usize| {
             let mut limbs = pieces.iter().filter(|piece| is_limb(piece));
             limbs.any(|piece| piece.joint.is_some_and(|joint| joint.parent == index))
@@ -96,7 +100,8 @@ fn ends(bindings: &Bindings, pieces: &[Piece]) -> Vec<usize> {
             return ends;
         }
     }
-    let middle = |piece: &Piece| bounds(&piece.outline).map_or(DVec2::ZERO, |(a, b)| (a + b) / 2.0);
+    let middle =
+        |piece: &PaperPiece| bounds(&piece.outline).map_or(DVec2::ZERO, |(a, b)| (a + b) / 2.0);
     let root = pieces.iter().find(|piece| piece.joint.is_none());
     let center = root.map_or(DVec2::ZERO, middle);
     let mut others: Vec<usize> = (0..pieces.len())
@@ -110,7 +115,7 @@ fn ends(bindings: &Bindings, pieces: &[Piece]) -> Vec<usize> {
 }
 
 /// The colours for marks, those that differ from all vivid colours of the pieces first.
-fn palette(drawing: &Drawing, pieces: &[Piece]) -> Vec<(&'static str, [u8; 3])> {
+fn palette(drawing: &Drawing, pieces: &[PaperPiece]) -> Vec<(&'static str, [u8; 3])> {
     let is_shown = |leaf: usize| pieces.iter().any(|piece| piece.leaves.contains(&leaf));
     let shapes = drawing.shapes.iter().filter(|shape| is_shown(shape.leaf));
     let hues: Vec<f64> = shapes.filter_map(|shape| hue(shape.paint.color)).collect();

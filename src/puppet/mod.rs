@@ -25,7 +25,7 @@ use crate::threads;
 use instructions::Texts;
 use layout::{EDGE, GAP, Layout, Task};
 pub use marks::{MarkOrigin, PieceMark, marks};
-pub use pieces::{Piece, pieces};
+pub use pieces::{PaperPiece, pieces};
 use sheet::Printed;
 
 /// The most pieces of a sheet; nobody pins more.
@@ -108,7 +108,7 @@ pub fn sheet(
 /// The figures of a drawing, ready to be laid out.
 struct Puppet<'a> {
     bindings: &'a Bindings,
-    pieces: Vec<Piece>,
+    pieces: Vec<PaperPiece>,
     marks: Vec<Option<PieceMark>>,
     /// Per piece the holes of what it carries: the pieces whose joints they are.
     carried: Vec<Vec<usize>>,

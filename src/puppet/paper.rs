@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::pieces::Piece;
+use super::pieces::PaperPiece;
 use crate::geometry::{
     FillRule, Outline, Polygon, Ring, bounds, centroid, distance_squared, offset, resolve_overlaps,
     subtract, union,
@@ -52,7 +52,7 @@ pub(super) enum Marked {
 }
 
 /// Cuts out a piece at `scale` millimetres a drawing unit. `holes` are in drawing units.
-pub(super) fn cut_out(piece: &Piece, holes: &[DVec2], marked: Marked, scale: f64) -> Paper {
+pub(super) fn cut_out(piece: &PaperPiece, holes: &[DVec2], marked: Marked, scale: f64) -> Paper {
     let drawn = piece
         .outline
         .map_rings(|ring| ring.iter().map(|p| *p * scale).collect());

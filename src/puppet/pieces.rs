@@ -22,7 +22,7 @@ const NEAR: f64 = 0.02;
 
 /// A piece of paper: a part with its details. Points are in drawing units from the page's top left corner.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Piece {
+pub struct PaperPiece {
     /// The main part, an index into the bindings' parts.
     pub part: usize,
     /// The other main parts that are drawn on it.
@@ -46,7 +46,7 @@ pub struct Joint {
     pub at: DVec2,
 }
 
-impl Piece {
+impl PaperPiece {
     /// Whether it is drawn before another one, and so lies behind it.
     pub fn is_behind(&self, other: &Self) -> bool {
         self.first < other.first
@@ -54,7 +54,7 @@ impl Piece {
 }
 
 /// The pieces of all figures of a drawing, in paint order.
-pub fn pieces(drawing: &Drawing, bindings: &Bindings) -> Vec<Piece> {
+pub fn pieces(drawing: &Drawing, bindings: &Bindings) -> Vec<PaperPiece> {
     let mut cut = Cutter {
         drawing,
         bindings,
@@ -83,7 +83,7 @@ struct Cutter<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
     members: BTreeMap<usize, Vec<usize>>,
-    pieces: Vec<Piece>,
+    pieces: Vec<PaperPiece>,
 }
 
 impl Cutter<'_> {
@@ -115,7 +115,7 @@ impl Cutter<'_> {
     }
 
     /// The piece of a part by itself; `None` if nothing of it is built.
-    fn piece(&self, part: usize) -> Option<Piece> {
+    fn piece(&self, part: usize) -> Option<PaperPiece> {
         let bindings = self.bindings;
         let is_built = |member: &&usize| {
             let form = bindings.form(**member);
@@ -144,7 +144,7 @@ impl Cutter<'_> {
             .collect();
         leaves.sort_unstable();
         leaves.dedup();
-        Some(Piece {
+        Some(PaperPiece {
             part,
             details: Vec::new(),
             first: *leaves.first()?,
@@ -156,7 +156,7 @@ impl Cutter<'_> {
 
     /// Where a piece is pinned to its carrier: at the part's joint; where the pieces touch if it has none, as of two roots, or if
     /// that is on neither of them, as of a bent leg in one piece.
-    fn pin(&self, piece: &Piece, carrier: usize) -> DVec2 {
+    fn pin(&self, piece: &PaperPiece, carrier: usize) -> DVec2 {
         let carrier = &self.pieces[carrier].outline;
         let part = &self.bindings.parts[piece.part];
         let joint = part.origin - self.drawing.page.0;
@@ -177,7 +177,7 @@ impl Cutter<'_> {
     }
 
     /// Whether a piece stays on its carrier, rather than being cut out: an eye, a button, hair.
-    fn is_detail(&self, piece: &Piece, carrier: usize) -> bool {
+    fn is_detail(&self, piece: &PaperPiece, carrier: usize) -> bool {
         let carrier = &self.pieces[carrier];
         let attributes = self.bindings.attributes(piece.part);
         let moves = attributes.mark().is_some()
@@ -204,7 +204,7 @@ impl Cutter<'_> {
         Role::of(&anatomy::terms(&self.bindings.parts[part].name))
     }
 
-    fn merge(&mut self, detail: Piece, carrier: usize) {
+    fn merge(&mut self, detail: PaperPiece, carrier: usize) {
         let carrier = &mut self.pieces[carrier];
         carrier.details.push(detail.part);
         carrier.leaves.extend(detail.leaves);
@@ -258,14 +258,14 @@ fn middle(outline: Outline) -> Option<DVec2> {
 }
 
 /// The pieces by their first shapes.
-fn in_paint_order(pieces: Vec<Piece>) -> Vec<Piece> {
+fn in_paint_order(pieces: Vec<PaperPiece>) -> Vec<PaperPiece> {
     let mut order: Vec<usize> = (0..pieces.len()).collect();
     order.sort_by_key(|piece| pieces[*piece].first);
     let mut place = vec![0; pieces.len()];
     for (new, old) in order.iter().enumerate() {
         place[*old] = new;
     }
-    let mut placed: Vec<(usize, Piece)> = place.iter().copied().zip(pieces).collect();
+    let mut placed: Vec<(usize, PaperPiece)> = place.iter().copied().zip(pieces).collect();
     placed.sort_by_key(|(place, _)| *place);
     let moved = placed.into_iter().map(|(_, mut piece)| {
         if let Some(joint) = &mut piece.joint {

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use glam::{DAffine2, DVec2};
 
 use super::instructions::{BELOW_TITLE, FONT, LINE, Line, SAMPLE, TITLE, Texts};
-use super::layout::{EDGE, Layout, NAME_LINE, Placed};
+use super::layout::{EDGE, Layout, NAME_LINE, PlacedPiece};
 use super::marks::PieceMark;
 use super::paper::{HOLE, MARK};
 use crate::geometry::Outline;
@@ -21,7 +21,7 @@ const DOT: f64 = 1.7;
 
 /// A piece with all that is printed on and beside it.
 pub(super) struct Printed<'a> {
-    pub(super) placed: &'a Placed,
+    pub(super) placed: &'a PlacedPiece,
     pub(super) mark: Option<&'a PieceMark>,
     /// The part's name.
     pub(super) name: String,
@@ -140,7 +140,7 @@ fn piece(
     corner: DVec2,
     drawn: &str,
 ) {
-    let Placed { paper, shift, .. } = printed.placed;
+    let PlacedPiece { paper, shift, .. } = printed.placed;
     let shift = *shift + corner;
     let place = |point: DVec2| paper.turned(point) + shift;
     let id = index + 1;

@@ -274,12 +274,11 @@ impl<'a> Film<'a> {
         };
         let few = self.triangles.saturating_mul(3 * moments.len()) <= MAX_CACHED_CORNERS;
         let framing = || {
-            let kept: Vec<Vec<Vec3>> = match few {
-                true => moments
-                    .par_iter()
-                    .map(|time| corners(*time))
-                    .collect::<Result<_, _>>()?,
-                false => Vec::new(),
+            let kept: Vec<Vec<Vec3>> = if few {
+                let all = moments.par_iter().map(|time| corners(*time));
+                all.collect::<Result<_, _>>()?
+            } else {
+                Vec::new()
             };
             let shots: Vec<(View, usize)> =
                 (0..moments.len()).map(|moment| (view, moment)).collect();

@@ -145,13 +145,19 @@ impl Options {
     /// These options with view-dependent nodes that do not bend with the view.
     #[must_use]
     pub fn unbent(self) -> Self {
-        Self { bend: false, ..self }
+        Self {
+            bend: false,
+            ..self
+        }
     }
 
     /// These options with a background colour in sRGB instead of transparency.
     #[must_use]
     pub fn with_background(self, color: [u8; 3]) -> Self {
-        Self { background: Some(color), ..self }
+        Self {
+            background: Some(color),
+            ..self
+        }
     }
 
     /// The direction to the viewer for which view-dependent nodes are bent; `None` leaves them unbent.

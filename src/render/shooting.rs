@@ -152,15 +152,14 @@ impl Shooting<'_> {
         surface.low.y = surface.low.y.min(film.ground);
         let (triangles, hierarchy) = &self.hierarchy;
         let same = *triangles == surface.triangles;
-        let hierarchy = match same {
-            true => {
-                let spare = self.spare.lock().ok().and_then(|mut spare| spare.pop());
-                let mut fitted = spare.unwrap_or_else(|| hierarchy.clone());
-                fitted.fit(&surface);
-                fitted
-            }
+        let hierarchy = if same {
+            let spare = self.spare.lock().ok().and_then(|mut spare| spare.pop());
+            let mut fitted = spare.unwrap_or_else(|| hierarchy.clone());
+            fitted.fit(&surface);
+            fitted
+        } else {
             // Other triangles are visible: some are too small in one of the poses.
-            false => Hierarchy::new(&surface, Rays::Many),
+            Hierarchy::new(&surface, Rays::Many)
         };
         let tracer = film.model.tracer_with(surface, hierarchy);
         let take = Take {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::parts::Part;
-use crate::billboard::{Character, RegionModel, TrackId};
+use crate::billboard::{Character, RegionId, RegionModel, TrackId, ViewId};
 use crate::compile::Compiled;
 use crate::scene::view_axes;
 
@@ -39,7 +39,7 @@ pub fn billboards(compiled: &Compiled) -> Vec<Billboard<'_>> {
     characters
         .map(|character| Billboard {
             name: &character.name,
-            views: &character.turn.views,
+            views: &character.turn.views.raw,
             regions: (character.regions.keys())
                 .map(|index| region(compiled, character, index))
                 .collect(),
@@ -59,15 +59,15 @@ fn region<'a>(
         let id = shape.element.id.as_deref();
         id.filter(|_| shape.picture.is_none())
     };
-    let number = |region: &Option<usize>| Some((*region)? + 1);
+    let number = |region: &Option<RegionId>| Some(usize::from((*region)?) + 1);
     let pairs = character.matching.pairs.iter();
-    let own = pairs.filter(|pair| track.regions[pair.second.view] == Some(pair.second.region));
+    let own = pairs.filter(|pair| track.regions[pair.second.view] == Some(pair.second.id));
     BillboardRegion {
         name: &model.name,
         members: model.shapes.iter().map(member).collect(),
         numbers: track.regions.iter().map(number).collect(),
         similarity: own.map(|pair| pair.similarity).reduce(f64::min),
-        position: model.places[0].to_array(),
+        position: model.positions[ViewId::FIRST].to_array(),
     }
 }
 
@@ -75,8 +75,8 @@ fn region<'a>(
 pub fn characters<'a>(compiled: &'a Compiled) -> Vec<Part<'a>> {
     let mut parts = Vec::new();
     for character in &compiled.characters {
-        let layer = &compiled.bindings.layers[character.layers[0]];
-        let frame = &character.frames[0];
+        let layer = &compiled.bindings.layers[character.layers[ViewId::FIRST]];
+        let frame = &character.frames[ViewId::FIRST];
         parts.push(Part {
             element: compiled.drawing.groups[layer.group].element.id.as_deref(),
             ..Part::plain(&character.name, "character", frame.center)
@@ -92,10 +92,10 @@ pub fn characters<'a>(compiled: &'a Compiled) -> Vec<Part<'a>> {
 
 /// The middle of a region in the first view, drawing units, y down.
 fn middle(character: &Character, region: &RegionModel) -> glam::DVec2 {
-    let [right, up, _] = view_axes(character.turn.views[0]);
-    let place = region.places[0];
+    let [right, up, _] = view_axes(character.turn.views[ViewId::FIRST]);
+    let place = region.positions[ViewId::FIRST];
     let at = glam::DVec2::new(place.dot(right), place.dot(up));
-    character.frames[0].in_drawing(at)
+    character.frames[ViewId::FIRST].in_drawing(at)
 }
 
 /// A character for people.

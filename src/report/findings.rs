@@ -64,7 +64,7 @@ struct Finding<'a> {
     severity: &'static str,
     message: &'a str,
     #[serde(flatten)]
-    place: Place,
+    range: TextRange,
     /// Where on the page the text or the shape is.
     #[serde(skip_serializing_if = "Option::is_none")]
     on_page: Option<&'static str>,
@@ -75,7 +75,7 @@ struct Finding<'a> {
 }
 
 #[derive(Serialize)]
-struct Place {
+struct TextRange {
     line: usize,
     column: usize,
     end_line: usize,
@@ -88,7 +88,7 @@ struct Place {
 struct RelatedEntry<'a> {
     message: &'a str,
     #[serde(flatten)]
-    place: Place,
+    range: TextRange,
 }
 
 #[derive(Serialize)]
@@ -101,15 +101,15 @@ struct FixEntry<'a> {
 struct Change<'a> {
     text: &'a str,
     #[serde(flatten)]
-    place: Place,
+    range: TextRange,
 }
 
 fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
-    let places = LineIndex::new(findings.text);
+    let lines = LineIndex::new(findings.text);
     let diagnostics = findings.diagnostics.iter();
     Drawing {
         drawing: findings.path,
-        diagnostics: diagnostics.map(|one| finding(one, &places)).collect(),
+        diagnostics: diagnostics.map(|one| finding(one, &lines)).collect(),
         look: findings.look.map(|look| Likeness {
             right: (look.right * 1e4).floor() / 1e4,
             ..look
@@ -117,14 +117,14 @@ fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
     }
 }
 
-fn finding<'a>(diagnostic: &'a Diagnostic, places: &LineIndex<&str>) -> Finding<'a> {
+fn finding<'a>(diagnostic: &'a Diagnostic, lines: &LineIndex<&str>) -> Finding<'a> {
     let related = |related: &'a Related| RelatedEntry {
         message: &related.message,
-        place: place(related.span, places),
+        range: text_range(related.span, lines),
     };
     let change = |edit: &'a Edit| Change {
         text: &edit.text,
-        place: place(edit.span, places),
+        range: text_range(edit.span, lines),
     };
     let fix = |fix: &'a Fix| FixEntry {
         title: &fix.title,
@@ -134,8 +134,8 @@ fn finding<'a>(diagnostic: &'a Diagnostic, places: &LineIndex<&str>) -> Finding<
         code: diagnostic.code.id(),
         severity: diagnostic.severity().name(),
         message: &diagnostic.message,
-        place: place(diagnostic.span, places),
-        on_page: diagnostic.place,
+        range: text_range(diagnostic.span, lines),
+        on_page: diagnostic.on_page,
         label: diagnostic.label.as_deref(),
         help: diagnostic.help.as_deref(),
         related: diagnostic.related.iter().map(related).collect(),
@@ -143,10 +143,10 @@ fn finding<'a>(diagnostic: &'a Diagnostic, places: &LineIndex<&str>) -> Finding<
     }
 }
 
-fn place(span: Span, places: &LineIndex<&str>) -> Place {
-    let (line, column) = places.line_column(span.start);
-    let (end_line, end_column) = places.line_column(span.end);
-    Place {
+fn text_range(span: Span, lines: &LineIndex<&str>) -> TextRange {
+    let (line, column) = lines.line_column(span.start);
+    let (end_line, end_column) = lines.line_column(span.end);
+    TextRange {
         line,
         column,
         end_line,

@@ -108,7 +108,7 @@ impl<'a> Part<'a> {
 /// The parts of a drawing, in paint order.
 pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let bindings = &compiled.bindings;
-    let places = LineIndex::new(text);
+    let lines = LineIndex::new(text);
     let drivers = drivers(compiled);
     let parts = bindings.parts.iter().enumerate();
     let parts = parts.filter(|(_, part)| !matches!(part.kind, PartKind::Tile | PartKind::Region));
@@ -128,7 +128,7 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         element: compiled.drawing.shapes[part.shape].element.id.as_deref(),
         string: part.string.map(|string| {
             let string = &bindings.strings[string];
-            string_report(compiled, string, &places)
+            string_report(compiled, string, &lines)
         }),
         center: part.measure.center.to_array(),
         ends: part.measure.ends.map(|end| end.to_array()),
@@ -155,7 +155,7 @@ pub fn part_count(compiled: &Compiled) -> usize {
 
 /// The landscapes of a drawing as parts of the kind `terrain`, for lists of everything in the model.
 pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
-    let (bindings, places) = (&compiled.bindings, LineIndex::new(text));
+    let (bindings, lines) = (&compiled.bindings, LineIndex::new(text));
     let report = |layer: &'a Layer| {
         let [low, high] = layer.bounds();
         let (center, middle) = ((low + high) / 2.0, (low.y + high.y) / 2.0);
@@ -170,7 +170,7 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         Part {
             parent: layer.parent.map(|part| bindings.parts[part].name.as_str()),
             element: compiled.drawing.groups[layer.group].element.id.as_deref(),
-            string: Some(string_report(compiled, string, &places)),
+            string: Some(string_report(compiled, string, &lines)),
             ends: [[low.x, middle], [high.x, middle]],
             attributes: settings.collect(),
             ..Part::plain(&layer.name, "terrain", center)
@@ -182,9 +182,9 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
 fn string_report<'a>(
     compiled: &Compiled,
     string: &'a DrawingString,
-    places: &LineIndex<&str>,
+    lines: &LineIndex<&str>,
 ) -> StringReport<'a> {
-    let (line, column) = places.line_column(string.text.whole().start);
+    let (line, column) = lines.line_column(string.text.whole().start);
     StringReport {
         line,
         column,

@@ -201,10 +201,12 @@ fn shares(feet: &[Vec<Contact>]) -> Vec<Vec<f64>> {
         let pull: f64 = all.map(|own| own.pull).sum();
         let others = pull - holder.map_or(0.0, |foot| contact(foot).pull);
         for (foot, shares) in shares.iter_mut().enumerate() {
-            shares.push(match holder == Some(foot) {
-                true => held,
-                false if others > 0.0 => (firmest - held) * contact(foot).pull / others,
-                false => 0.0,
+            shares.push(if holder == Some(foot) {
+                held
+            } else if others > 0.0 {
+                (firmest - held) * contact(foot).pull / others
+            } else {
+                0.0
             });
         }
     }

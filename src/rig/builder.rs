@@ -53,7 +53,7 @@ struct MeasuredKey(Exactly<Arc<Rig>>, Same<RetargetedClip>);
 #[derive(PartialEq, Eq, Hash)]
 struct CutKey(Same<Measured>, [usize; 2], Option<usize>);
 
-/// A clip that comes along, as the key of a cached [`PreparedClip`].
+/// A built-in clip, as the key of a cached [`PreparedClip`].
 #[derive(PartialEq, Eq, Hash)]
 struct BuiltInKey(BuiltIn, Legs);
 
@@ -91,7 +91,7 @@ pub(super) struct ClipBuilder<'a> {
 }
 
 impl<'a> ClipBuilder<'a> {
-    /// A clip that comes along, for as many legs as a figure has.
+    /// A built-in clip, for as many legs as a figure has.
     pub(super) fn built_in(&self, which: BuiltIn, figure: &Figure) -> Arc<PreparedClip> {
         let legs = Legs::of(figure);
         self.memo.get(BuiltInKey(which, legs), |key| {

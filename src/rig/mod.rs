@@ -69,7 +69,7 @@ pub struct Context<'a> {
 enum Motion {
     /// That of a file.
     File(Arc<PreparedClip>),
-    /// One that comes along: which clip it is depends on the figure.
+    /// A built-in one: which clip it is depends on the figure.
     BuiltIn(BuiltIn),
 }
 

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3, Vec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::{MaterialId, Mesh, MeshId, Node, NodeId, Piece, Primitive, Scene, Surface};
+use super::{MaterialId, Mesh, MeshId, Node, NodeId, Primitive, Scene, Surface, SurfacePatch};
 
 /// The largest number of joints of a skin: corners refer to them by 16 bits.
 pub const MAX_JOINTS: usize = 1 << 16;
@@ -66,21 +66,21 @@ impl RigidTransform {
     }
 }
 
-/// A piece in the world's frame that is bound to a joint with its full weight.
+/// A patch in the world's frame that is bound to a joint with its full weight.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SkinnedPiece {
-    /// The piece in the joint's frame.
-    pub piece: Piece,
+pub struct SkinnedPatch {
+    /// The patch in the joint's frame.
+    pub patch: SurfacePatch,
     /// From there to the world in the rest pose.
     pub pose: RigidTransform,
     /// Index of the joint in the skin.
     pub joint: u16,
 }
 
-impl SkinnedPiece {
+impl SkinnedPatch {
     /// Its triangles.
     pub(super) fn surface(&self) -> Surface {
-        let mut surface = self.piece.surface().into_owned();
+        let mut surface = self.patch.surface().into_owned();
         let turn = self.pose.rotation.as_quat();
         for position in &mut surface.positions {
             let place = self.pose.place(Vec3::from(*position).as_dvec3());
@@ -127,7 +127,7 @@ impl Scene {
         let to_world = rest(&self.nodes);
         let rest: Vec<RigidTransform> = joints.iter().map(|node| to_world[*node]).collect();
         let kept = below_view_dependent(&self.nodes);
-        let mut by_material: TiVec<MaterialId, Vec<Piece>> =
+        let mut by_material: TiVec<MaterialId, Vec<SurfacePatch>> =
             ti_vec![Vec::new(); self.materials.len()];
         for (joint, node) in joints.iter().enumerate() {
             if kept[*node] {
@@ -137,9 +137,9 @@ impl Scene {
                 continue;
             };
             for primitive in &self.meshes[mesh].primitives {
-                let skinned = primitive.pieces.iter().map(|piece| {
-                    Piece::Skinned(Box::new(SkinnedPiece {
-                        piece: piece.clone(),
+                let skinned = primitive.patches.iter().map(|patch| {
+                    SurfacePatch::Skinned(Box::new(SkinnedPatch {
+                        patch: patch.clone(),
                         pose: rest[joint],
                         joint: joint as u16,
                     }))
@@ -149,8 +149,8 @@ impl Scene {
         }
         let primitives: Vec<Primitive> = by_material
             .into_iter_enumerated()
-            .filter(|(_, pieces)| !pieces.is_empty())
-            .map(|(material, pieces)| Primitive { pieces, material })
+            .filter(|(_, patches)| !patches.is_empty())
+            .map(|(material, patches)| Primitive { patches, material })
             .collect();
         self.keep_used_meshes();
         if !primitives.is_empty() {

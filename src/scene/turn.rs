@@ -1,16 +1,32 @@
 //! Characters that turn with the viewer.
 
 use glam::{DVec2, DVec3};
+use typed_index_collections::{TiSlice, TiVec};
+
+use crate::index::index_type;
+
+index_type!(
+    /// Counts the views of a character.
+    pub ViewId
+);
+
+impl ViewId {
+    /// The view that a character is modelled in: morph targets are differences from it.
+    pub const FIRST: Self = Self(0);
+    /// The view after the first.
+    #[cfg(test)]
+    pub(crate) const SECOND: Self = Self(1);
+}
 
 /// The views of a character that turns, and what lies between them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Turn {
     /// The directions of the views, degrees: around the upright axis towards the character's left (+x), and up. At the first the
     /// weights of all morph targets are 0; target i belongs to view i + 1.
-    pub views: Vec<[f64; 2]>,
+    pub views: TiVec<ViewId, [f64; 2]>,
     /// Sets of one to three views; between the views of a set their weights are linear. A viewer outside of all sees the nearest
-    /// place in one of them.
-    pub between: Vec<Vec<usize>>,
+    /// position in one of them.
+    pub between: Vec<Vec<ViewId>>,
 }
 
 /// The axes of a viewer in a direction, degrees: the screen's right and up, and towards the viewer, as unit vectors of the
@@ -37,8 +53,9 @@ impl Turn {
     pub const FLATNESS: f64 = 0.25;
 
     /// The weight of each view from a direction, degrees; they add up to 1.
-    pub fn weights(&self, [theta, phi]: [f64; 2]) -> Vec<f64> {
-        let mut best = (f64::INFINITY, vec![0.0; self.views.len()]);
+    pub fn weights(&self, [theta, phi]: [f64; 2]) -> TiVec<ViewId, f64> {
+        let none = || TiVec::from(vec![0.0; self.views.len()]);
+        let mut best = (f64::INFINITY, none());
         for set in &self.between {
             let Some(corners) = self.corners(set) else {
                 continue;
@@ -46,10 +63,10 @@ impl Turn {
             for turns in [-360.0, 0.0, 360.0] {
                 let point = DVec2::new(theta + turns, phi);
                 let shares = nearest(&corners, point);
-                let place: DVec2 = corners.iter().zip(&shares).map(|(c, s)| *c * *s).sum();
-                let distance = place.distance_squared(point);
+                let position: DVec2 = corners.iter().zip(&shares).map(|(c, s)| *c * *s).sum();
+                let distance = position.distance_squared(point);
                 if distance < best.0 {
-                    let mut weights = vec![0.0; self.views.len()];
+                    let mut weights = none();
                     for (view, share) in set.iter().zip(shares) {
                         weights[*view] += share;
                     }
@@ -61,29 +78,33 @@ impl Turn {
     }
 
     /// Where a region is for a viewer, in the frame of a screen that faces the viewer: right, up and towards the viewer.
-    /// `places` are its positions in the views, in the character's space.
-    pub fn place(&self, weights: &[f64], places: &[DVec3]) -> DVec3 {
+    /// `positions` are its positions in the views, in the character's space.
+    pub fn position(
+        &self,
+        weights: &TiSlice<ViewId, f64>,
+        positions: &TiSlice<ViewId, DVec3>,
+    ) -> DVec3 {
         let (mut direction, mut point, mut depth) = ([0.0; 2], DVec3::ZERO, 0.0);
         let greatest = weights
             .iter()
             .zip(&self.views)
             .max_by(|a, b| a.0.total_cmp(b.0));
         let near = greatest.map_or(0.0, |(_, view)| view[0]);
-        for ((view, weight), place) in self.views.iter().zip(weights).zip(places) {
+        for ((view, weight), position) in self.views.iter().zip(weights).zip(positions) {
             let [_, _, towards] = view_axes(*view);
             direction[0] += weight * (near + short_way(view[0] - near));
             direction[1] += weight * view[1];
-            point += *weight * *place;
-            depth += weight * place.dot(towards);
+            point += *weight * *position;
+            depth += weight * position.dot(towards);
         }
         let [right, up, _] = view_axes(direction);
         DVec3::new(point.dot(right), point.dot(up), Self::FLATNESS * depth)
     }
 
     /// The views of a set in the plane of angles, the short way around from the first; `None` if one is missing.
-    fn corners(&self, set: &[usize]) -> Option<Vec<DVec2>> {
+    fn corners(&self, set: &[ViewId]) -> Option<Vec<DVec2>> {
         let first = short_way(self.views.get(*set.first()?)?[0]);
-        let corner = |view: &usize| {
+        let corner = |view: &ViewId| {
             let [theta, phi] = *self.views.get(*view)?;
             Some(DVec2::new(first + short_way(theta - first), phi))
         };
@@ -120,10 +141,10 @@ fn nearest(corners: &[DVec2], point: DVec2) -> Vec<f64> {
             }
             let sides = [[0, 1], [1, 2], [2, 0]].map(|[i, j]| {
                 let side = nearest(&[corners[i], corners[j]], point);
-                let place = corners[i] * side[0] + corners[j] * side[1];
+                let position = corners[i] * side[0] + corners[j] * side[1];
                 let mut shares = vec![0.0; 3];
                 (shares[i], shares[j]) = (side[0], side[1]);
-                (place.distance_squared(point), shares)
+                (position.distance_squared(point), shares)
             });
             let best = sides.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
             best.map_or_else(Vec::new, |(_, shares)| shares)
@@ -140,12 +161,15 @@ mod tests {
 
     fn turn(views: &[[f64; 2]], between: &[&[usize]]) -> Turn {
         Turn {
-            views: views.to_vec(),
-            between: between.iter().map(|set| set.to_vec()).collect(),
+            views: views.to_vec().into(),
+            between: between
+                .iter()
+                .map(|set| set.iter().copied().map(ViewId::from).collect())
+                .collect(),
         }
     }
 
-    fn close(found: &[f64], expected: &[f64]) {
+    fn close(found: &TiSlice<ViewId, f64>, expected: &[f64]) {
         let mut pairs = found.iter().zip(expected);
         let near = pairs.all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(
@@ -178,15 +202,16 @@ mod tests {
     #[test]
     fn a_region_is_where_it_was_drawn() {
         let pair = turn(&[[0.0, 0.0], [45.0, 10.0]], &[&[0, 1]]);
-        for (index, view) in pair.views.iter().enumerate() {
+        for (index, view) in pair.views.iter_enumerated() {
             let [right, up, towards] = view_axes(*view);
-            let places = [DVec3::new(3.0, 2.0, 1.0), DVec3::new(2.5, 2.0, 0.5)];
-            let found = pair.place(&pair.weights(*view), &places);
-            let place = places[index];
+            let positions = [DVec3::new(3.0, 2.0, 1.0), DVec3::new(2.5, 2.0, 0.5)];
+            let positions = TiVec::from(positions.to_vec());
+            let found = pair.position(&pair.weights(*view), &positions);
+            let position = positions[index];
             let seen = DVec3::new(
-                place.dot(right),
-                place.dot(up),
-                Turn::FLATNESS * place.dot(towards),
+                position.dot(right),
+                position.dot(up),
+                Turn::FLATNESS * position.dot(towards),
             );
             assert!(found.distance(seen) < 1e-12, "{found} {seen}");
             let back = direction(towards);

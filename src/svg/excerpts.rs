@@ -1,12 +1,10 @@
 //! Parts of a drawing as SVG of their own: shapes with the groups, paints and clips that they are drawn with.
 
 use std::fmt::Write as _;
-use std::sync::Mutex;
 
 use roxmltree::Node;
 
-use super::fit::Places;
-use super::links::options;
+use super::links::styled_tree;
 use super::prepare::prepare;
 use crate::resolver::Resolver;
 use crate::source::end_of_tag;
@@ -65,18 +63,7 @@ pub fn excerpts(
 /// The drawing as usvg writes it: groups, paths and pictures, without styles and references to shapes.
 fn plain(text: &str, resolver: &dyn Resolver) -> Option<String> {
     let prepared = prepare(text).ok()?;
-    let parsing = roxmltree::ParsingOptions {
-        allow_dtd: true,
-        ..Default::default()
-    };
-    let document = roxmltree::Document::parse_with_options(&prepared.text, parsing).ok()?;
-    let unshown = Mutex::new(Vec::new());
-    let places = Places::of(&document);
-    let options = usvg::Options {
-        style_sheet: Some(STYLE.to_owned()),
-        ..options(resolver, &places, &unshown)
-    };
-    let tree = usvg::Tree::from_xmltree(&document, &options).ok()?;
+    let tree = styled_tree(&prepared.text, STYLE, resolver)?;
     Some(tree.to_string(&usvg::WriteOptions {
         id_prefix: Some(PREFIX.to_owned()),
         indent: usvg::Indent::None,

@@ -1,4 +1,4 @@
-//! Pictures that no rectangle of single precision shows: their sides are too unequal for their place.
+//! Pictures that no rectangle of single precision shows: their sides are too unequal for their viewport.
 //!
 //! usvg panics at such a picture, so it is found before, with the calculation that usvg does.
 
@@ -27,11 +27,11 @@ const MARGIN: f32 = 8.0;
 /// How links to embedded pictures begin.
 pub(super) const EMBEDDED: &str = "data:";
 
-/// Where a drawing shows pictures. A picture that does not fit into one of its places is left out of all.
+/// Where a drawing shows pictures. A picture that does not fit into one of its viewports is left out of all.
 ///
-/// Places in filters, and in drawings that are pictures, are not known.
-pub(super) struct Places<'a> {
-    /// What fits into all places of a link; without the links that every picture fits into.
+/// Viewports in filters, and in drawings that are pictures, are not known.
+pub(super) struct ImageViewports<'a> {
+    /// What fits into all viewports of a link; without the links that every picture fits into.
     linked: FxHashMap<&'a str, Ratios>,
     /// The same for the bytes of embedded pictures, with their data URI.
     embedded: FxHashMap<Vec<u8>, (&'a str, Ratios)>,
@@ -48,11 +48,11 @@ pub(super) enum Origin<'a> {
     Embedded(&'a [u8]),
 }
 
-impl<'a> Places<'a> {
-    /// The places in a drawing.
+impl<'a> ImageViewports<'a> {
+    /// The viewports in a drawing.
     pub(super) fn of(document: &'a roxmltree::Document<'_>) -> Self {
         let page = page_size(document.root_element());
-        let mut places = Self {
+        let mut viewports = Self {
             linked: FxHashMap::default(),
             embedded: FxHashMap::default(),
         };
@@ -64,13 +64,13 @@ impl<'a> Places<'a> {
                 .attributes()
                 .find(|attribute| attribute.name() == "href");
             if let Some(link) = link
-                && let Some(place) = Place::of(image, page)
-                && let Some(ratios) = place.limited_ratios()
+                && let Some(viewport) = ImageViewport::of(image, page)
+                && let Some(ratios) = viewport.limited_ratios()
             {
-                places.add(link.value(), ratios);
+                viewports.add(link.value(), ratios);
             }
         }
-        places
+        viewports
     }
 
     fn add(&mut self, link: &'a str, ratios: Ratios) {
@@ -89,7 +89,7 @@ impl<'a> Places<'a> {
         *known = known.start().max(*ratios.start())..=known.end().min(*ratios.end());
     }
 
-    /// The link or data URI of a picture, if it does not fit into one of its places, or is too narrow for any.
+    /// The link or data URI of a picture, if it does not fit into one of its viewports, or is too narrow for any.
     pub(super) fn misfit(&self, origin: Origin<'_>, picture: &usvg::ImageKind) -> Option<String> {
         let size = match picture {
             usvg::ImageKind::SVG(tree) => Some(tree.size()),
@@ -119,15 +119,15 @@ fn every_ratio() -> Ratios {
     MAX_RATIO.recip()..=MAX_RATIO
 }
 
-/// The place of an `<image>`.
-struct Place {
+/// The viewport of an `<image>`.
+struct ImageViewport {
     rect: NonZeroRect,
-    /// Whether the picture covers the place, rather than lying within it.
+    /// Whether the picture covers the viewport, rather than lying within it.
     covers: bool,
 }
 
-impl Place {
-    /// `None` if every picture fits, because it gets the shape of the place or the place that of the picture.
+impl ImageViewport {
+    /// `None` if every picture fits, because it gets the shape of the viewport or the viewport that of the picture.
     fn of(node: roxmltree::Node<'_, '_>, page: [f32; 2]) -> Option<Self> {
         let length = |name, page| {
             let length: Length = node.attribute(name)?.parse().ok()?;
@@ -140,11 +140,11 @@ impl Place {
         let [x, y] =
             [("x", page[0]), ("y", page[1])].map(|(name, page)| length(name, page).unwrap_or(0.0));
         let (width, height) = (length("width", page[0])?, length("height", page[1])?);
-        let place = Self {
+        let viewport = Self {
             rect: NonZeroRect::from_xywh(x, y, width, height)?,
             covers: aspect.slice,
         };
-        (aspect.align != Align::None).then_some(place)
+        (aspect.align != Align::None).then_some(viewport)
     }
 
     /// The ratios of the pictures that fit, either end too near by a factor of up to 2; `None` if all fit.
@@ -153,7 +153,7 @@ impl Place {
         if self.fits(*every.start()) && self.fits(*every.end()) {
             return None;
         }
-        // A picture with the ratio of the place fits best.
+        // A picture with the ratio of the viewport fits best.
         let own = (self.rect.width() / self.rect.height()).clamp(*every.start(), *every.end());
         let furthest = |factor: f32| {
             let ratios = std::iter::successors(Some(own), |ratio| Some(ratio * factor));

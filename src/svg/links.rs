@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use super::elements::start_tag;
-use super::fit::{EMBEDDED, Origin, Places};
+use super::fit::{EMBEDDED, ImageViewports, Origin};
 use super::prepare::Prepared;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::resolver::{LinkError, Resolver};
@@ -18,9 +18,29 @@ pub(super) enum Unshown {
     TooNarrow(String),
 }
 
+/// What usvg reads from a drawing with one more style sheet. What it cannot show is left out.
+pub(super) fn styled_tree(text: &str, style: &str, resolver: &dyn Resolver) -> Option<usvg::Tree> {
+    let document = roxmltree::Document::parse_with_options(text, parsing()).ok()?;
+    let unshown = Mutex::new(Vec::new());
+    let viewports = ImageViewports::of(&document);
+    let options = usvg::Options {
+        style_sheet: Some(style.to_owned()),
+        ..options(resolver, &viewports, &unshown)
+    };
+    usvg::Tree::from_xmltree(&document, &options).ok()
+}
+
+/// How drawings are parsed: those of Illustrator have entities.
+pub(super) fn parsing<'input>() -> roxmltree::ParsingOptions<'input> {
+    roxmltree::ParsingOptions {
+        allow_dtd: true,
+        ..Default::default()
+    }
+}
+
 pub(super) fn options<'a>(
     resolver: &'a dyn Resolver,
-    places: &'a Places<'_>,
+    viewports: &'a ImageViewports<'_>,
     unshown: &'a Mutex<Vec<Unshown>>,
 ) -> usvg::Options<'a> {
     // usvg's own data resolver recognises the format by the first bytes.
@@ -36,7 +56,7 @@ pub(super) fn options<'a>(
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_data: Box::new(move |media_type, bytes, options| {
                 let picture = read_embedded(media_type, Arc::clone(&bytes), options)?;
-                match places.misfit(Origin::Embedded(&bytes), &picture) {
+                match viewports.misfit(Origin::Embedded(&bytes), &picture) {
                     None => Some(picture),
                     Some(link) => leave_out(Unshown::TooNarrow(link)),
                 }
@@ -44,7 +64,7 @@ pub(super) fn options<'a>(
             resolve_string: Box::new(move |href, options| match resolver.read(href) {
                 Ok(bytes) => {
                     let picture = read("text/plain", Arc::new(bytes.to_vec()), options)?;
-                    match places.misfit(Origin::Link(href), &picture) {
+                    match viewports.misfit(Origin::Link(href), &picture) {
                         None => Some(picture),
                         Some(link) => leave_out(Unshown::TooNarrow(link)),
                     }

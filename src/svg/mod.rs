@@ -213,11 +213,7 @@ fn read_document(
         ));
     }
     let prepared = prepare::prepare(source)?;
-    let options = roxmltree::ParsingOptions {
-        allow_dtd: true,
-        ..Default::default()
-    };
-    let document = roxmltree::Document::parse_with_options(&prepared.text, options)
+    let document = roxmltree::Document::parse_with_options(&prepared.text, links::parsing())
         .map_err(|error| Box::new(not_xml(&error, &prepared, source)))?;
     prepare::check_elements(&document, &prepared)?;
     let root = document.root_element();

@@ -1,12 +1,9 @@
 //! Draws a drawing as drawing programs show it, without some of its shapes, with resvg.
 
-use std::sync::Mutex;
-
 use resvg::tiny_skia::{Pixmap, Transform};
 use rustc_hash::FxHashMap;
 
-use super::fit::Places;
-use super::links::options;
+use super::links::{parsing, styled_tree};
 use super::prepare::prepare;
 use crate::resolver::Resolver;
 
@@ -61,14 +58,7 @@ pub fn raster(
     scale: f64,
 ) -> Option<Raster> {
     let marked = marked(text, left_out)?;
-    let document = roxmltree::Document::parse_with_options(&marked, parsing()).ok()?;
-    let unshown = Mutex::new(Vec::new());
-    let places = Places::of(&document);
-    let options = usvg::Options {
-        style_sheet: Some(STYLE.to_owned()),
-        ..options(resolver, &places, &unshown)
-    };
-    let tree = usvg::Tree::from_xmltree(&document, &options).ok()?;
+    let tree = styled_tree(&marked, STYLE, resolver)?;
     let mut pixmap = Pixmap::new(width, height)?;
     let scale = scale as f32;
     resvg::render(
@@ -104,11 +94,4 @@ fn marked(text: &str, left_out: &FxHashMap<usize, LeftOut>) -> Option<String> {
     }
     marked.push_str(&prepared.text[done..]);
     Some(marked)
-}
-
-fn parsing<'input>() -> roxmltree::ParsingOptions<'input> {
-    roxmltree::ParsingOptions {
-        allow_dtd: true,
-        ..Default::default()
-    }
 }

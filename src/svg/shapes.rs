@@ -8,7 +8,7 @@ use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
 
 use super::elements::{Ids, element, labels};
-use super::fit::Places;
+use super::fit::ImageViewports;
 use super::links::{options, report_links, unusable};
 use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
 use super::prepare::Prepared;
@@ -31,7 +31,7 @@ pub(super) fn read(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
     let unshown = Mutex::new(Vec::new());
-    let places = Places::of(document);
+    let viewports = ImageViewports::of(document);
     let styles = Styles::read(document);
     let early_ids = if prepared.draws_again || prepared.has_clones {
         let ids = Ids::read(document, prepared);
@@ -42,7 +42,7 @@ pub(super) fn read(
     };
     // usvg uses one core; the texts, which it does not read, need only the XML.
     let (tree, (labels, by_id, unseen)) = rayon::join(
-        || usvg::Tree::from_xmltree(document, &options(resolver, &places, &unshown)),
+        || usvg::Tree::from_xmltree(document, &options(resolver, &viewports, &unshown)),
         || {
             (
                 labels(document, &styles, prepared),

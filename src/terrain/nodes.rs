@@ -6,7 +6,7 @@ use super::reading::Layer;
 use crate::bind::Bindings;
 use crate::geometry::{Frame, y_up};
 use crate::scene::{
-    MaterialId, Mesh, NewNode, Node, NodeId, Piece, Primitive, Provenance, ViewDependent,
+    MaterialId, Mesh, NewNode, Node, NodeId, Primitive, Provenance, SurfacePatch, ViewDependent,
     WorldTransform,
 };
 use crate::svg::Drawing;
@@ -62,12 +62,12 @@ fn mesh(layer: &Layer, tile: f64, material_of: impl Fn(u8) -> Option<MaterialId>
         {
             *position = position.map(|at| (f64::from(at) * tile) as f32);
         }
-        let pieces = surfaces.into_iter().map(Piece::from);
+        let patches = surfaces.into_iter().map(SurfacePatch::from);
         let mut same = primitives.iter_mut();
         match same.find(|primitive| primitive.material == material) {
-            Some(primitive) => primitive.pieces.extend(pieces),
+            Some(primitive) => primitive.patches.extend(patches),
             None => primitives.push(Primitive {
-                pieces: pieces.collect(),
+                patches: patches.collect(),
                 material,
             }),
         }

@@ -40,10 +40,7 @@ fn check_pictures(bytes: &[u8]) -> Result<(), RenderError> {
         let times = [0.0, clip.seconds / 3.0, clip.seconds, clip.seconds + 1.0];
         times.map(|time| model.pose_at(clip, time))
     });
-    let options = Options {
-        size: [24, 16],
-        ..Options::default()
-    };
+    let options = Options::default().with_size([24, 16]);
     for pose in [model.rest()].into_iter().chain(moments) {
         let posed = PosedModel::new(&model, &pose)?;
         if posed.triangles() <= RENDERED {

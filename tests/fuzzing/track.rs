@@ -1,13 +1,13 @@
 //! Every track is read, or refused with a help; one that was read is the same when it is written and read again.
 
-use okoshi::internals::mark_tracks::{MarkTracks, Place};
+use okoshi::internals::mark_tracks::{ErrorLocation, MarkTracks};
 
 pub(super) fn check(bytes: &[u8]) {
     match MarkTracks::from_bytes(bytes) {
         Ok(tracks) => check_tracks(&tracks),
         Err(error) => {
             assert!(!error.help.is_empty() && !error.message.is_empty());
-            if let Place::Position { line, column } = error.place {
+            if let ErrorLocation::Position { line, column } = error.location {
                 let lines = 1 + bytes.iter().filter(|byte| **byte == b'\n').count();
                 assert!((1..=lines).contains(&line) && column > 0, "{error:?}");
             }

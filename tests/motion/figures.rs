@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::{env, fs};
 
 use okoshi::compile::Compiled;
-use okoshi::internals::labels::{Anatomy, Class, Limb, Piece, Side, Tip, label_clip};
+use okoshi::internals::labels::{Anatomy, Class, Limb, LimbSegment, Side, Tip, label_clip};
 use okoshi::internals::mocap::bvh::{self, Decimals};
 use okoshi::internals::mocap::{Clip, JointId, Skeleton};
 use okoshi::resolver::MemoryResolver;
@@ -41,7 +41,7 @@ enum Choice {
     Limb {
         class: Class,
         side: Side,
-        piece: Piece,
+        segment: LimbSegment,
         pair: usize,
         splayed: bool,
     },
@@ -51,15 +51,15 @@ impl Choice {
     fn read(text: &str) -> Self {
         let mut class = None;
         let mut side = None;
-        let (mut piece, mut pair, mut splayed) = (Piece::Whole, 0, false);
+        let (mut segment, mut pair, mut splayed) = (LimbSegment::Whole, 0, false);
         for word in text.split_whitespace() {
             match word {
                 "-" => return Self::FollowsParent,
                 "left" => side = Some(Side::Left),
                 "right" => side = Some(Side::Right),
-                "upper" => piece = Piece::Upper,
-                "lower" => piece = Piece::Lower,
-                "end" => piece = Piece::End,
+                "upper" => segment = LimbSegment::Upper,
+                "lower" => segment = LimbSegment::Lower,
+                "end" => segment = LimbSegment::End,
                 "splayed" => splayed = true,
                 word => match word.parse() {
                     Ok(number) => pair = number,
@@ -72,7 +72,7 @@ impl Choice {
             Some(side) => Self::Limb {
                 class,
                 side,
-                piece,
+                segment,
                 pair,
                 splayed,
             },
@@ -155,7 +155,7 @@ impl Motion {
 /// Where the bone or chain that drives a part begins and ends; `None` for a part that follows its parent.
 type Found = Option<(JointId, Option<Tip>)>;
 
-/// Whether a part is driven as chosen. Which joint of spine or neck drives a piece of it is left open, and so is where a hand or
+/// Whether a part is driven as chosen. Which joint of spine or neck drives a segment of it is left open, and so is where a hand or
 /// foot points.
 fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> bool {
     let joint = found.map(|(joint, _)| joint);
@@ -176,7 +176,7 @@ fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> boo
         Choice::Limb {
             class,
             side,
-            piece,
+            segment,
             pair,
             splayed,
         } => {
@@ -189,14 +189,16 @@ fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> boo
             let Some(limb) = anatomy.limb(class, side) else {
                 return found.is_none();
             };
-            if whole && piece == Piece::End {
+            if whole && segment == LimbSegment::End {
                 return found.is_none();
             }
-            let bone = bone(limb, piece);
+            let bone = bone(limb, segment);
             match found {
-                Some((joint, None)) => (splayed || piece == Piece::End) && Some(joint) == bone.0,
+                Some((joint, None)) => {
+                    (splayed || segment == LimbSegment::End) && Some(joint) == bone.0
+                }
                 Some((joint, Some(tip))) => {
-                    let ends = piece == Piece::End || bone.1.map(Tip::Joint) == Some(tip);
+                    let ends = segment == LimbSegment::End || bone.1.map(Tip::Joint) == Some(tip);
                     !splayed && Some(joint) == bone.0 && ends
                 }
                 None => false,
@@ -205,11 +207,11 @@ fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> boo
     }
 }
 
-fn bone(limb: &Limb, piece: Piece) -> (Option<JointId>, Option<JointId>) {
-    match piece {
-        Piece::Upper => (Some(limb.upper), limb.lower),
-        Piece::Lower => (limb.lower, limb.end),
-        Piece::End => (limb.end, None),
+fn bone(limb: &Limb, segment: LimbSegment) -> (Option<JointId>, Option<JointId>) {
+    match segment {
+        LimbSegment::Upper => (Some(limb.upper), limb.lower),
+        LimbSegment::Lower => (limb.lower, limb.end),
+        LimbSegment::End => (limb.end, None),
         _ => (Some(limb.upper), limb.end),
     }
 }
@@ -254,7 +256,7 @@ fn is_whole(parts: &[(String, Vec<Choice>)], choice: Choice) -> bool {
         return false;
     };
     parts.iter().flat_map(|(_, choices)| choices).any(|other| {
-        matches!(other, Choice::Limb { class: c, side: s, piece: Piece::Whole, pair: p, .. } if (*c, *s, *p) == (class, side, pair))
+        matches!(other, Choice::Limb { class: c, side: s, segment: LimbSegment::Whole, pair: p, .. } if (*c, *s, *p) == (class, side, pair))
     })
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use glam::{DQuat, DVec2, DVec3};
-use okoshi::compile::{Compiled, Options, compile};
 use okoshi::FolderResolver;
+use okoshi::compile::{Compiled, Options, compile};
 use okoshi::internals::labels::Facing;
 use okoshi::internals::mocap::{Clip, JointId, Pose, Transform};
 use okoshi::internals::retarget::Landmarks;
@@ -53,8 +53,7 @@ fn world(scene: &Scene, clip: &Animation, key: usize) -> TiVec<NodeId, Transform
         match &track.values {
             Values::Rotations(turns) => local[track.node].rotation = turns[key],
             Values::Translations(places) => local[track.node].position = places[key],
-            // Figures have no morph targets.
-            Values::Weights(_) => {}
+            other => panic!("{other:?} of a figure"),
         }
     }
     let mut world = local.clone();
@@ -279,7 +278,7 @@ fn a_key_for_each_drawing() {
                 match &track.values {
                     Values::Rotations(a) => assert!(a[drawings.len()] == a[drawings.len() - 1]),
                     Values::Translations(a) => assert!(a[drawings.len()] == a[drawings.len() - 1]),
-                    Values::Weights(_) => panic!("weights of a figure"),
+                    other => panic!("{other:?} of a figure"),
                 }
                 for (key, drawing) in drawings.iter().enumerate() {
                     let time = (drawing.start as f64 * figure_clip.frame_time()) as f32;
@@ -307,10 +306,10 @@ fn a_key_for_each_drawing() {
 fn corners(scene: &Scene) -> Vec<(NodeId, Vec<DVec3>)> {
     let nodes = scene.nodes.iter_enumerated();
     let corners = nodes.filter_map(|(id, node)| {
-        let pieces = scene.meshes[node.mesh?].primitives.iter();
-        let pieces = pieces.flat_map(|primitive| &primitive.pieces);
-        let corners = pieces.flat_map(|piece| {
-            let surface = piece.surface();
+        let patches = scene.meshes[node.mesh?].primitives.iter();
+        let patches = patches.flat_map(|primitive| &primitive.patches);
+        let corners = patches.flat_map(|patch| {
+            let surface = patch.surface();
             let corners = surface.positions.iter();
             let corners = corners.map(|corner| DVec3::from(corner.map(f64::from)));
             corners.collect::<Vec<DVec3>>()

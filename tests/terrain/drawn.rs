@@ -74,14 +74,12 @@ fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
             width: columns as f64 * tile,
             height: rows as f64 * tile,
         };
-        let options = render::Options {
-            view: View {
+        let options = render::Options::default()
+            .with_view(View {
                 yaw: 0.0,
                 pitch: 45.0,
-            },
-            size: [columns as u32, rows as u32],
-            ..render::Options::default()
-        };
+            })
+            .with_size([columns as u32, rows as u32]);
         let seen = posed.visible_surfaces(&options, window).expect("seen");
         let mut material_of: BTreeMap<u8, BTreeMap<Option<usize>, usize>> = BTreeMap::new();
         for (look, seen) in layer.map.cells.iter().zip(&seen) {

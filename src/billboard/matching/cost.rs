@@ -1,9 +1,10 @@
 //! How well two regions of two views fit each other.
 
 use glam::{DVec2, DVec3, Vec2Swizzles as _};
+use typed_index_collections::{TiSlice, TiVec};
 
 use crate::billboard::place::Frame;
-use crate::billboard::region::{Direction, Region, View};
+use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::geometry::{bounds, shoelace};
 
 /// Colours farther apart than this cannot be the same surface (Tc of equation 4.2).
@@ -36,21 +37,21 @@ pub(super) struct Features {
     /// Its area with holes filled.
     area: f64,
     color: DVec3,
-    pub(super) container: Option<usize>,
+    pub(super) container: Option<RegionId>,
     container_color: Option<DVec3>,
     /// Towards the viewer, guessed from its place in its container.
     pub(super) depth: f64,
 }
 
 /// The features of all regions of a view.
-pub(super) fn features(view: &View, frame: &Frame) -> Vec<Features> {
-    let mut all: Vec<_> = view.regions.iter().map(|r| own(r, frame)).collect();
-    for i in 0..all.len() {
-        let container = all[i].container.filter(|c| *c < all.len() && *c != i);
+pub(super) fn features(view: &View, frame: &Frame) -> TiVec<RegionId, Features> {
+    let mut all: TiVec<RegionId, _> = view.regions.iter().map(|r| own(r, frame)).collect();
+    for i in all.keys() {
+        let container = all[i].container.filter(|c| *c < all.next_key() && *c != i);
         all[i].container = container;
         all[i].container_color = container.map(|c| all[c].color);
     }
-    for i in 0..all.len() {
+    for i in all.keys() {
         all[i].depth = guessed_depth(&all, i);
     }
     all
@@ -84,7 +85,7 @@ fn own(region: &Region, frame: &Frame) -> Features {
 }
 
 /// The depth of a region that lies on a rounded container: 0 without one, and that of its container if that is contained, too.
-fn guessed_depth(all: &[Features], region: usize) -> f64 {
+fn guessed_depth(all: &TiSlice<RegionId, Features>, region: RegionId) -> f64 {
     let mut inner = region;
     let Some(mut outer) = all[inner].container else {
         return 0.0;

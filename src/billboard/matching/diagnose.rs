@@ -1,9 +1,11 @@
 //! What to say about a matching: regions without a partner, and views that contradict each other.
 
-use super::cost::{Features, Turn};
+use typed_index_collections::{TiSlice, TiVec};
+
+use super::cost::Turn;
 use super::{
-    Candidate, Comparison, Matching, Names, Pair, Place, Reason, TrackId, Unmatched, Warning,
-    compare, nearest,
+    Candidate, Comparison, FeaturesOfViews, Matching, Names, Pair, Reason, RegionId, RegionInView,
+    TrackId, Unmatched, ViewId, Warning, compare, nearest,
 };
 use crate::billboard::place::{angle, nearest_to_rays};
 use crate::billboard::region::View;
@@ -17,9 +19,9 @@ const CANDIDATES: usize = 3;
 
 /// Looks at the pairs of two views that were matched just now.
 pub(super) fn step(
-    views: &[View],
-    all: &[Vec<Features>],
-    pair: [usize; 2],
+    views: &TiSlice<ViewId, View>,
+    all: &FeaturesOfViews,
+    pair: [ViewId; 2],
     matching: &mut Matching,
 ) {
     let [a, b] = pair.map(|v| views[v].direction);
@@ -32,17 +34,17 @@ pub(super) fn step(
     }
     let toward = a.axes()[2] + b.axes()[2];
     let of_views = |p: &&Pair| [p.first.view, p.second.view] == pair;
-    let depth_of = |place: [usize; 2]| {
-        let at = [0, 1].map(|i| all[pair[i]][place[i]].at);
+    let depth_of = |regions: [RegionId; 2]| {
+        let at = [0, 1].map(|i| all[pair[i]][regions[i]].at);
         nearest_to_rays(&[(a, at[0]), (b, at[1])]).map(|p| p.dot(toward) / toward.length())
     };
     // The partner of each region of the first view.
-    let mut partners = vec![None; all[pair[0]].len()];
+    let mut partners: TiVec<RegionId, Option<RegionId>> = vec![None; all[pair[0]].len()].into();
     for pair in matching.pairs.iter().filter(of_views) {
-        partners[pair.first.region] = Some(pair.second.region);
+        partners[pair.first.id] = Some(pair.second.id);
     }
     let (mut behind, mut of) = (0, 0);
-    for (inner, partner) in partners.iter().enumerate() {
+    for (inner, partner) in partners.iter_enumerated() {
         let containers = partner.and_then(|p| {
             let outer = all[pair[0]][inner].container?;
             let other = all[pair[1]][p].container?;
@@ -66,13 +68,17 @@ pub(super) fn step(
 }
 
 /// Lists the regions that are alone, with those that fit them best.
-pub(super) fn unmatched(views: &[View], all: &[Vec<Features>], matching: &mut Matching) {
-    let mut partners: Vec<Vec<Option<TrackId>>> = all
+pub(super) fn unmatched(
+    views: &TiSlice<ViewId, View>,
+    all: &FeaturesOfViews,
+    matching: &mut Matching,
+) {
+    let mut partners: TiVec<ViewId, TiVec<RegionId, Option<TrackId>>> = all
         .iter()
-        .map(|regions| vec![None; regions.len()])
+        .map(|regions| vec![None; regions.len()].into())
         .collect();
     for (i, track) in matching.tracks.iter_enumerated() {
-        for (view, region) in track.regions.iter().enumerate() {
+        for (view, region) in track.regions.iter_enumerated() {
             if let Some(region) = region {
                 partners[view][*region] = Some(i);
             }
@@ -80,54 +86,49 @@ pub(super) fn unmatched(views: &[View], all: &[Vec<Features>], matching: &mut Ma
     }
     let mut found = Vec::new();
     for track in &matching.tracks {
-        let mut seen = track.regions.iter().enumerate();
-        let mut seen = seen.by_ref().filter_map(|(view, r)| {
-            Some(Place {
-                view,
-                region: (*r)?,
-            })
-        });
-        let (Some(place), None) = (seen.next(), seen.next()) else {
+        let seen = track.regions.iter_enumerated();
+        let mut seen = seen.filter_map(|(view, id)| Some(RegionInView { view, id: (*id)? }));
+        let (Some(region), None) = (seen.next(), seen.next()) else {
             continue;
         };
-        let others: Vec<_> = (0..views.len()).filter(|v| *v != place.view).collect();
-        let Some(view) = nearest(views, place.view, &others) else {
+        let others: Vec<_> = views.keys().filter(|v| *v != region.view).collect();
+        let Some(view) = nearest(views, region.view, &others) else {
             continue;
         };
         // The same direction of comparison as in the matching, where the earlier view predicts the later one.
-        let ordered = |other: Place| {
-            if place.view < view {
-                [place, other]
+        let ordered = |other: RegionInView| {
+            if region.view < view {
+                [region, other]
             } else {
-                [other, place]
+                [other, region]
             }
         };
-        let [from, to] = [place.view.min(view), place.view.max(view)];
+        let [from, to] = [region.view.min(view), region.view.max(view)];
         let turn = Turn::new(views[from].direction, views[to].direction);
-        let candidate = |region: usize| {
-            let other = Place { view, region };
+        let candidate = |id: RegionId| {
+            let other = RegionInView { view, id };
             let compared = compare(views, all, &turn, ordered(other));
-            let track = partners[view][region].map(|t| &matching.tracks[t]);
-            let taken = track.and_then(|t| t.regions[place.view]);
+            let track = partners[view][id].map(|t| &matching.tracks[t]);
+            let taken = track.and_then(|t| t.regions[region.view]);
             Candidate {
-                place: other,
+                region: other,
                 similarity: {
-                    let [a, b] = ordered(other).map(|p| &all[p.view][p.region]);
+                    let [a, b] = ordered(other).map(|r| &all[r.view][r.id]);
                     turn.similarity(a, b)
                 },
                 cost: compared.cost,
-                reason: reason(&compared, taken.map(|region| Place { region, ..place })),
+                reason: reason(&compared, taken.map(|id| RegionInView { id, ..region })),
             }
         };
-        let mut candidates: Vec<_> = (0..all[view].len()).map(candidate).collect();
+        let mut candidates: Vec<_> = all[view].keys().map(candidate).collect();
         candidates.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         candidates.truncate(CANDIDATES);
-        found.push(Unmatched { place, candidates });
+        found.push(Unmatched { region, candidates });
     }
     matching.unmatched = found;
 }
 
-fn reason(compared: &Comparison, taken: Option<Place>) -> Reason {
+fn reason(compared: &Comparison, taken: Option<RegionInView>) -> Reason {
     match (compared.names, compared.gain(), taken) {
         (Names::Different, ..) => Reason::Names,
         (Names::Nothing, None, _) => Reason::Color,

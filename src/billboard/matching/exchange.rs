@@ -6,6 +6,7 @@
 use glam::DVec2;
 
 use super::gains::Gains;
+use crate::scene::ViewId;
 
 /// What two pairs cost whose order differs.
 const DISORDER: f64 = 0.5;
@@ -21,7 +22,7 @@ const LEAST: f64 = 1e-9;
 pub(super) struct Sides<'a> {
     pub(super) gains: &'a Gains,
     /// The view of each row's region, and where the region should come to lie in the columns' view.
-    pub(super) rows: &'a [(usize, DVec2)],
+    pub(super) rows: &'a [(ViewId, DVec2)],
     /// Where each column's region is drawn.
     pub(super) columns: &'a [DVec2],
 }

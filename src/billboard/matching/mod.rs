@@ -20,8 +20,9 @@ use exchange::{Sides, exchange};
 use gains::Gains;
 
 use super::place::{Frame, angle};
-use super::region::View;
+use super::region::{RegionId, View};
 use crate::index::index_type;
+use crate::scene::ViewId;
 
 index_type!(
     /// Counts what is one thing in space: the tracks of a character, and its regions over all views.
@@ -45,37 +46,37 @@ pub struct Matching {
 /// One thing in space.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Track {
-    /// The index of its region in each view; `None` where it is hidden.
-    pub regions: Vec<Option<usize>>,
+    /// Its region in each view; `None` where it is hidden.
+    pub regions: TiVec<ViewId, Option<RegionId>>,
 }
 
 /// Two regions that show the same thing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
     /// The region of the view that was matched first.
-    pub first: Place,
+    pub first: RegionInView,
     /// The region of the view that was matched with it.
-    pub second: Place,
+    pub second: RegionInView,
     /// The similarity of equation 4.1, from 0 to 1.
     pub similarity: f64,
     /// Our cost: 0 for a perfect pair; pairs above 3.5 are only made by names.
     pub cost: f64,
 }
 
-/// A region of a view.
+/// One region of one view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place {
-    /// The view's index.
-    pub view: usize,
-    /// The region's index in the view.
-    pub region: usize,
+pub struct RegionInView {
+    /// The view.
+    pub view: ViewId,
+    /// The region in the view.
+    pub id: RegionId,
 }
 
 /// A region without a partner.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unmatched {
     /// The region.
-    pub place: Place,
+    pub region: RegionInView,
     /// The regions of the view compared with it that fit best, at most three, the best first.
     pub candidates: Vec<Candidate>,
 }
@@ -84,7 +85,7 @@ pub struct Unmatched {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Candidate {
     /// The region.
-    pub place: Place,
+    pub region: RegionInView,
     /// The similarity of equation 4.1, from 0 to 1.
     pub similarity: f64,
     /// Our cost.
@@ -103,7 +104,7 @@ pub enum Reason {
     /// They are less alike than two regions may be.
     Cost,
     /// The candidate fits this region of the other's view better, or the whole does.
-    Taken(Place),
+    Taken(RegionInView),
 }
 
 /// Something about the views as a whole that looks wrong.
@@ -112,14 +113,14 @@ pub enum Warning {
     /// The directions of two views that were matched are less than 15° apart, so that depths are uncertain.
     SmallAngle {
         /// The views.
-        views: [usize; 2],
+        views: [ViewId; 2],
         /// The angle between them, degrees.
         degrees: f64,
     },
     /// Most contained regions come to lie behind their containers: the sign of `theta` or `phi` may be wrong.
     BehindContainers {
         /// The views.
-        views: [usize; 2],
+        views: [ViewId; 2],
         /// Contained regions behind their containers.
         behind: usize,
         /// Contained regions that were looked at.
@@ -132,78 +133,91 @@ pub enum Warning {
 /// `frames` are those of the views, in the same order. Views are added one by one, the nearest first, and each is matched with
 /// what is known already, seen from the nearest view that shows it. Regions with the same name are a pair, whatever they look
 /// like, and regions with different names are none.
-pub(super) fn match_regions(views: &[View], frames: &[Frame]) -> Matching {
+pub(super) fn match_regions(
+    views: &TiSlice<ViewId, View>,
+    frames: &TiSlice<ViewId, Frame>,
+) -> Matching {
     let all = views.iter().zip(frames);
-    let all: Vec<Vec<Features>> = all.map(|(view, frame)| features(view, frame)).collect();
-    let views = &views[..all.len()];
+    let all: TiVec<ViewId, TiVec<RegionId, Features>> =
+        all.map(|(view, frame)| features(view, frame)).collect();
+    let views = &views[..all.next_key()];
     let mut matching = Matching::default();
-    let mut placed: Vec<usize> = Vec::new();
-    while let Some((next, nearest)) = next_view(views, &placed) {
+    let mut added: Vec<ViewId> = Vec::new();
+    while let Some((next, nearest)) = next_view(views, &added) {
         let tracks = matching.tracks.len();
         if let Some(nearest) = nearest {
-            Step::new(views, &all, next, &placed, &matching.tracks).run(&mut matching);
+            Step::new(views, &all, next, &added, &matching.tracks).run(&mut matching);
             diagnose::step(views, &all, [nearest, next], &mut matching);
         }
         let known = matching.tracks.iter().take(tracks);
-        let mut is_new = vec![true; all[next].len()];
+        let mut is_new: TiVec<RegionId, bool> = vec![true; all[next].len()].into();
         for region in known.filter_map(|t| t.regions[next]) {
             is_new[region] = false;
         }
-        for region in (0..is_new.len()).filter(|r| is_new[*r]) {
-            let mut regions = vec![None; views.len()];
+        for region in is_new.keys().filter(|r| is_new[*r]) {
+            let mut regions = TiVec::from(vec![None; views.len()]);
             regions[next] = Some(region);
             matching.tracks.push(Track { regions });
         }
-        placed.push(next);
+        added.push(next);
     }
     diagnose::unmatched(views, &all, &mut matching);
     matching
 }
 
 /// The view to add, and the nearest view that has been added; `None` once all are added.
-fn next_view(views: &[View], placed: &[usize]) -> Option<(usize, Option<usize>)> {
-    if placed.is_empty() {
-        return (!views.is_empty()).then_some((0, None));
+fn next_view(views: &TiSlice<ViewId, View>, added: &[ViewId]) -> Option<(ViewId, Option<ViewId>)> {
+    if added.is_empty() {
+        return views.first_key().map(|first| (first, None));
     }
-    let rest = (0..views.len()).filter(|v| !placed.contains(v));
-    let near = rest.filter_map(|v| Some((v, nearest(views, v, placed)?)));
+    let rest = views.keys().filter(|v| !added.contains(v));
+    let near = rest.filter_map(|v| Some((v, nearest(views, v, added)?)));
     near.min_by(|a, b| {
-        let degrees = |(v, n): (usize, usize)| angle(views[v].direction, views[n].direction);
+        let degrees = |(v, n): (ViewId, ViewId)| angle(views[v].direction, views[n].direction);
         degrees(*a).total_cmp(&degrees(*b))
     })
     .map(|(v, n)| (v, Some(n)))
 }
 
 /// The view of some that is nearest to a view, the first of equals.
-fn nearest(views: &[View], view: usize, of: &[usize]) -> Option<usize> {
-    let degrees = |v: usize| angle(views[view].direction, views[v].direction);
-    let by_angle = |a: &usize, b: &usize| degrees(*a).total_cmp(&degrees(*b));
+fn nearest(views: &TiSlice<ViewId, View>, view: ViewId, of: &[ViewId]) -> Option<ViewId> {
+    let degrees = |v: ViewId| angle(views[view].direction, views[v].direction);
+    let by_angle = |a: &ViewId, b: &ViewId| degrees(*a).total_cmp(&degrees(*b));
     of.iter().copied().min_by(by_angle)
 }
 
+/// What is compared of the regions of each view.
+type FeaturesOfViews = TiSlice<ViewId, TiVec<RegionId, Features>>;
+
 /// One view that is matched with what is known already.
 struct Step<'a> {
-    views: &'a [View],
-    all: &'a [Vec<Features>],
-    view: usize,
+    views: &'a TiSlice<ViewId, View>,
+    all: &'a FeaturesOfViews,
+    view: ViewId,
     /// The track and the region that stands for it.
-    rows: Vec<(TrackId, Place)>,
+    rows: Vec<(TrackId, RegionInView)>,
 }
 
 impl<'a> Step<'a> {
     fn new(
-        views: &'a [View],
-        all: &'a [Vec<Features>],
-        view: usize,
-        placed: &[usize],
+        views: &'a TiSlice<ViewId, View>,
+        all: &'a FeaturesOfViews,
+        view: ViewId,
+        added: &[ViewId],
         tracks: &TiSlice<TrackId, Track>,
     ) -> Self {
         let row = |(i, track): (TrackId, &Track)| {
-            let seen = placed.iter().copied();
+            let seen = added.iter().copied();
             let seen: Vec<_> = seen.filter(|v| track.regions[*v].is_some()).collect();
             let from = nearest(views, view, &seen)?;
             let region = track.regions[from]?;
-            Some((i, Place { view: from, region }))
+            Some((
+                i,
+                RegionInView {
+                    view: from,
+                    id: region,
+                },
+            ))
         };
         Self {
             views,
@@ -216,19 +230,21 @@ impl<'a> Step<'a> {
     fn run(&self, matching: &mut Matching) {
         let known = &self.all[self.view];
         let turn = |v: &View| Turn::new(v.direction, self.views[self.view].direction);
-        let mut turns: Vec<_> = self.views.iter().map(turn).collect();
+        let mut turns: TiVec<ViewId, _> = self.views.iter().map(turn).collect();
         let rough = self.gains(&self.compared(&turns)).assign();
-        for (view, turn) in turns.iter_mut().enumerate() {
-            let of_view = |(row, _): &(&(TrackId, Place), _)| row.1.view == view;
+        for (view, turn) in turns.iter_mut_enumerated() {
+            let of_view = |(row, _): &(&(TrackId, RegionInView), _)| row.1.view == view;
             let pairs = self.rows.iter().zip(&rough).filter(of_view);
-            let pairs = pairs.filter_map(|(row, p)| Some((self.features(row), &known[(*p)?])));
+            let pairs = pairs
+                .filter_map(|(row, p)| Some((self.features(row), &known[RegionId::from((*p)?)])));
             turn.shift_by(&pairs.collect::<Vec<_>>());
         }
         let compared = self.compared(&turns);
         let gains = self.gains(&compared);
         let mut partners = gains.assign();
-        let at =
-            |row: &(TrackId, Place)| (row.1.view, turns[row.1.view].predicted(self.features(row)));
+        let at = |row: &(TrackId, RegionInView)| {
+            (row.1.view, turns[row.1.view].predicted(self.features(row)))
+        };
         let sides = Sides {
             gains: &gains,
             rows: &self.rows.iter().map(at).collect::<Vec<_>>(),
@@ -236,36 +252,37 @@ impl<'a> Step<'a> {
         };
         exchange(&sides, &mut partners);
         for (row, partner) in partners.into_iter().enumerate() {
-            let (Some(region), (track, first)) = (partner, self.rows[row]) else {
+            let (Some(column), (track, first)) = (partner, self.rows[row]) else {
                 continue;
             };
-            let compared = &compared[row * known.len() + region];
-            matching.tracks[track].regions[self.view] = Some(region);
+            let compared = &compared[row * known.len() + column];
+            let id = RegionId::from(column);
+            matching.tracks[track].regions[self.view] = Some(id);
             matching.pairs.push(Pair {
                 first,
-                second: Place {
+                second: RegionInView {
                     view: self.view,
-                    region,
+                    id,
                 },
                 similarity: turns[first.view]
-                    .similarity(self.features(&self.rows[row]), &known[region]),
+                    .similarity(self.features(&self.rows[row]), &known[id]),
                 cost: compared.cost,
             });
         }
     }
 
-    fn features(&self, row: &(TrackId, Place)) -> &Features {
-        &self.all[row.1.view][row.1.region]
+    fn features(&self, row: &(TrackId, RegionInView)) -> &Features {
+        &self.all[row.1.view][row.1.id]
     }
 
     /// All rows with all regions of the view, row by row.
-    fn compared(&self, turns: &[Turn]) -> Vec<Comparison> {
-        let row = |(_, first): &(TrackId, Place)| {
+    fn compared(&self, turns: &TiSlice<ViewId, Turn>) -> Vec<Comparison> {
+        let row = |(_, first): &(TrackId, RegionInView)| {
             let (first, turn) = (*first, &turns[first.view]);
-            (0..self.all[self.view].len()).map(move |region| {
-                let second = Place {
+            self.all[self.view].keys().map(move |id| {
+                let second = RegionInView {
                     view: self.view,
-                    region,
+                    id,
                 };
                 compare(self.views, self.all, turn, [first, second])
             })
@@ -310,9 +327,14 @@ impl Comparison {
     }
 }
 
-fn compare(views: &[View], all: &[Vec<Features>], turn: &Turn, pair: [Place; 2]) -> Comparison {
-    let [a, b] = pair.map(|p| &all[p.view][p.region]);
-    let [name_a, name_b] = pair.map(|p| &views[p.view].regions[p.region].name);
+fn compare(
+    views: &TiSlice<ViewId, View>,
+    all: &FeaturesOfViews,
+    turn: &Turn,
+    pair: [RegionInView; 2],
+) -> Comparison {
+    let [a, b] = pair.map(|r| &all[r.view][r.id]);
+    let [name_a, name_b] = pair.map(|r| &views[r.view].regions[r.id].name);
     Comparison {
         cost: turn.cost(a, b),
         names: match (name_a, name_b) {

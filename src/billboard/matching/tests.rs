@@ -12,12 +12,16 @@ use crate::billboard::region::{Direction, Region};
 use crate::billboard::tests::generated::{Drawn, character, directions};
 use crate::geometry::{Outline, Polygon};
 
+const FIRST: ViewId = ViewId::FIRST;
+/// The view after the first.
+const SECOND: ViewId = ViewId::SECOND;
+
 /// How many of the regions that two drawings share got their right partner.
-fn right(drawn: &[Drawn; 2], partners: &[Option<usize>]) -> (usize, usize) {
+fn right(drawn: &[Drawn; 2], partners: &TiSlice<RegionId, Option<RegionId>>) -> (usize, usize) {
     let [a, b] = drawn.each_ref().map(|d| &d.items);
     let (mut count, mut right) = (0, 0);
-    for (region, item) in a.iter().enumerate() {
-        if let Some(other) = b.iter().position(|i| i == item) {
+    for (region, item) in a.iter_enumerated() {
+        if let Some(other) = b.position(|i| i == item) {
             count += 1;
             right += usize::from(partners[region] == Some(other));
         }
@@ -30,17 +34,17 @@ fn drawn(seed: u64) -> [Drawn; 2] {
     directions(seed).map(|d| character.true_view(d))
 }
 
-fn views<const N: usize>(drawn: &[Drawn; N]) -> Vec<View> {
+fn views<const N: usize>(drawn: &[Drawn; N]) -> TiVec<ViewId, View> {
     drawn.iter().map(|d| d.view.clone()).collect()
 }
 
 /// The partners of the first view's regions in the second.
-fn partners(matching: &Matching, regions: usize) -> Vec<Option<usize>> {
+fn partners(matching: &Matching, regions: usize) -> TiVec<RegionId, Option<RegionId>> {
     let tracks = matching.tracks.iter();
-    let mut partners = vec![None; regions];
+    let mut partners = TiVec::from(vec![None; regions]);
     for track in tracks {
-        if let Some(region) = track.regions[0] {
-            partners[region] = track.regions[1];
+        if let Some(region) = track.regions[FIRST] {
+            partners[region] = track.regions[SECOND];
         }
     }
     partners
@@ -58,8 +62,11 @@ fn nearly_all_pairs_of_200_characters_are_right_and_none_has_fewer_than_by_simil
         let views = views(&drawn);
         let frames = frames(&views);
         let matching = match_regions(&views, &frames);
-        let partners = partners(&matching, views[0].regions.len());
-        let similar = most_similar([&views[0], &views[1]], [&frames[0], &frames[1]]);
+        let partners = partners(&matching, views[FIRST].regions.len());
+        let similar = most_similar(
+            [FIRST, SECOND].map(|view| &views[view]),
+            [FIRST, SECOND].map(|view| &frames[view]),
+        );
         let (own, count) = right(&drawn, &partners);
         let (their, _) = right(&drawn, &similar);
         assert!(
@@ -69,8 +76,7 @@ fn nearly_all_pairs_of_200_characters_are_right_and_none_has_fewer_than_by_simil
         ours += own;
         thesis += their;
         all += count;
-        let is_wrong =
-            |p: &&Pair| drawn[0].items[p.first.region] != drawn[1].items[p.second.region];
+        let is_wrong = |p: &&Pair| drawn[0].items[p.first.id] != drawn[1].items[p.second.id];
         wrong += matching.pairs.iter().filter(is_wrong).count();
         assert!(!matching.warnings.iter().any(is_behind), "seed {seed}");
     }
@@ -119,12 +125,12 @@ fn tracks_go_through_three_views() {
     assert!(right as f64 > 0.95 * all as f64, "{right} of {all}");
 }
 
-fn assert_in_one_track(views: &[View], matching: &Matching) {
-    for (i, view) in views.iter().enumerate() {
-        for region in 0..view.regions.len() {
+fn assert_in_one_track(views: &TiSlice<ViewId, View>, matching: &Matching) {
+    for (i, view) in views.iter_enumerated() {
+        for region in view.regions.keys() {
             let tracks = matching.tracks.iter();
             let with = tracks.filter(|t| t.regions.get(i) == Some(&Some(region)));
-            assert_eq!(with.count(), 1, "region {region} of view {i}");
+            assert_eq!(with.count(), 1, "{region:?} of {i:?}");
         }
     }
 }
@@ -134,7 +140,7 @@ fn a_drawings_place_and_size_do_not_matter() {
     for seed in (0..60).filter(|s| s % 12 < 10) {
         let mut views = views(&drawn(seed));
         let before = match_regions(&views, &frames(&views));
-        for region in &mut views[1].regions {
+        for region in &mut views[SECOND].regions {
             let moved = |p: &DVec2| *p * 3.0 + DVec2::new(900.0, -70.0);
             region.outline = region
                 .outline
@@ -152,29 +158,32 @@ fn names_decide() {
     for seed in 0..20 {
         let drawn = drawn(seed);
         let mut views = views(&drawn);
-        let last = [0, 1].map(|i| views[i].regions.len() - 1);
         // Two things that never look alike.
-        let (a, b) = (last[0], 0);
-        for (view, region) in [(0, a), (1, b)] {
+        let a = views[FIRST].regions.last_key().unwrap();
+        let b = views[SECOND].regions.first_key().unwrap();
+        for (view, region) in [(FIRST, a), (SECOND, b)] {
             views[view].regions[region].name = Some("thing".into());
         }
         let matching = match_regions(&views, &frames(&views));
         let pairs = matching.pairs.iter();
-        let pair = pairs.clone().find(|p| p.first.region == a).unwrap();
-        assert_eq!(pair.second.region, b);
+        let pair = pairs.clone().find(|p| p.first.id == a).unwrap();
+        assert_eq!(pair.second.id, b);
         // Other names keep a good pair apart.
-        let Some(good) = pairs.clone().find(|p| p.cost < 0.3 && p.first.region != a) else {
+        let Some(good) = pairs.clone().find(|p| p.cost < 0.3 && p.first.id != a) else {
             continue;
         };
         named += 1;
-        views[0].regions[good.first.region].name = Some("one".into());
-        views[1].regions[good.second.region].name = Some("other".into());
+        views[FIRST].regions[good.first.id].name = Some("one".into());
+        views[SECOND].regions[good.second.id].name = Some("other".into());
         let apart = match_regions(&views, &frames(&views));
         let is_good = |p: &&Pair| (p.first, p.second) == (good.first, good.second);
         assert!(!apart.pairs.iter().any(|p| is_good(&p)));
-        let unmatched = apart.unmatched.iter().find(|u| u.place == good.first);
+        let unmatched = apart.unmatched.iter().find(|u| u.region == good.first);
         if let Some(unmatched) = unmatched {
-            let candidate = unmatched.candidates.iter().find(|c| c.place == good.second);
+            let candidate = unmatched
+                .candidates
+                .iter()
+                .find(|c| c.region == good.second);
             assert_eq!(candidate.unwrap().reason, Reason::Names);
         }
     }
@@ -202,7 +211,7 @@ fn square(at: [f64; 2], half: f64, color: [f64; 3]) -> Region {
 fn view(theta: f64, regions: Vec<Region>) -> View {
     View {
         direction: Direction { theta, phi: 0.0 },
-        regions,
+        regions: regions.into(),
     }
 }
 
@@ -218,23 +227,26 @@ fn an_unmatched_region_comes_with_its_candidates_and_why_they_are_not_taken() {
         square([3.0, -20.0], 4.0, RED),
     ];
     let second = vec![body(), square([1.0, -20.0], 4.0, RED)];
-    let views = [view(0.0, first), view(30.0, second)];
+    let views = TiVec::from(vec![view(0.0, first), view(30.0, second)]);
     let matching = match_regions(&views, &frames(&views));
     let [unmatched] = &matching.unmatched[..] else {
         panic!("{:?}", matching.unmatched);
     };
-    let place = |view, region| Place { view, region };
-    let taken = 3 - unmatched.place.region;
+    let at = |view: usize, id: usize| RegionInView {
+        view: view.into(),
+        id: id.into(),
+    };
+    let taken = 3 - usize::from(unmatched.region.id);
     let reasons: Vec<_> = unmatched
         .candidates
         .iter()
-        .map(|c| (c.place, c.reason))
+        .map(|c| (c.region, c.reason))
         .collect();
     assert_eq!(
         reasons,
         [
-            (place(1, 1), Reason::Taken(place(0, taken))),
-            (place(1, 0), Reason::Color)
+            (at(1, 1), Reason::Taken(at(0, taken))),
+            (at(1, 0), Reason::Color)
         ]
     );
     assert!(unmatched.candidates[0].cost < unmatched.candidates[1].cost);
@@ -243,10 +255,10 @@ fn an_unmatched_region_comes_with_its_candidates_and_why_they_are_not_taken() {
 #[test]
 fn far_apart_is_a_reason_of_its_own() {
     let body = || square([0.0, 0.0], 50.0, BLUE);
-    let views = [
+    let views = TiVec::from(vec![
         view(0.0, vec![body(), square([0.0, -48.0], 2.0, RED)]),
         view(30.0, vec![body(), square([0.0, 48.0], 2.0, RED)]),
-    ];
+    ]);
     let matching = match_regions(&views, &frames(&views));
     let reasons: Vec<_> = matching
         .unmatched
@@ -260,6 +272,7 @@ fn far_apart_is_a_reason_of_its_own() {
 fn views_less_than_15_degrees_apart_are_warned_of() {
     for (theta, count) in [(14.0, 1), (16.0, 0), (-14.0, 1), (359.0, 1)] {
         let views = [0.0, theta].map(|theta| view(theta, vec![square([0.0, 0.0], 1.0, RED)]));
+        let views = TiVec::from(views.to_vec());
         assert_eq!(match_regions(&views, &frames(&views)).warnings.len(), count);
     }
 }
@@ -275,7 +288,7 @@ fn like_neighbors_keep_their_order() {
     let mut partners = gains.assign();
     assert_eq!(partners, [Some(1), Some(0)]);
     let at = [DVec2::new(-0.1, 0.0), DVec2::new(0.1, 0.0)];
-    let rows = at.map(|at| (0, at));
+    let rows = at.map(|at| (FIRST, at));
     let sides = Sides {
         gains: &gains,
         rows: &rows,
@@ -334,7 +347,7 @@ proptest! {
     ) {
         let mut partners = gains.assign();
         let place = |i: usize| DVec2::new(places[i].0, places[i].1);
-        let rows: Vec<_> = (0..gains.rows).map(|i| (i % 2, place(i))).collect();
+        let rows: Vec<_> = (0..gains.rows).map(|i| (ViewId::from(i % 2), place(i))).collect();
         let columns: Vec<_> = (0..gains.columns).map(|i| place(9 + i)).collect();
         let sides = Sides { gains: &gains, rows: &rows, columns: &columns };
         let worth = |partners: &[Option<usize>]| {
@@ -366,10 +379,10 @@ proptest! {
         let mut next = || numbers.next().unwrap();
         let mut region = || {
             let mut region = square([next(), next()], next(), [next(), next(), next()]);
-            region.container = containers.next().unwrap();
+            region.container = containers.next().unwrap().map(RegionId::from);
             region
         };
-        let mut views: Vec<View> = Vec::new();
+        let mut views: TiVec<ViewId, View> = TiVec::new();
         for count in counts {
             let regions = (0..count).map(|_| region()).collect();
             views.push(view(f64::from(views.len() as u32) * 20.0, regions));

@@ -1,8 +1,10 @@
 //! Where a drawing lies on its screen: its centre and its size.
 
 use glam::DVec2;
+use typed_index_collections::{TiSlice, TiVec};
 
 use crate::billboard::region::{Direction, View};
+use crate::scene::ViewId;
 
 /// Angles that differ by less are the same, degrees.
 const SAME_ANGLE: f64 = 1e-6;
@@ -34,11 +36,11 @@ impl Frame {
 /// Level views of a character are equally high, so that each is measured in its own height. A change of pitch leaves widths
 /// alone, so that views of one `theta` get the scale that makes them equally wide. Otherwise the drawings are taken to be equally
 /// large. The unit is the height of the first view that shows anything.
-pub(crate) fn frames(views: &[View]) -> Vec<Frame> {
-    let extents: Vec<_> = views.iter().map(extent).collect();
-    let first = extents.iter().position(Option::is_some).unwrap_or(0);
+pub(crate) fn frames(views: &TiSlice<ViewId, View>) -> TiVec<ViewId, Frame> {
+    let extents: TiVec<ViewId, _> = views.iter().map(extent).collect();
+    let first = extents.position(Option::is_some).unwrap_or(ViewId::FIRST);
     let base = extents.get(first).copied().flatten();
-    let frame = |(i, view): (usize, &View)| {
+    let frame = |(i, view): (ViewId, &View)| {
         let (Some((center, size)), Some((_, base))) = (extents[i], base) else {
             return Frame {
                 center: DVec2::ZERO,
@@ -61,7 +63,7 @@ pub(crate) fn frames(views: &[View]) -> Vec<Frame> {
         }
         .valid()
     };
-    views.iter().enumerate().map(frame).collect()
+    views.iter_enumerated().map(frame).collect()
 }
 
 impl Frame {

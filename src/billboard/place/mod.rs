@@ -15,20 +15,22 @@ use typed_index_collections::{TiSlice, TiVec};
 pub(super) use frame::{Frame, frames};
 pub(super) use rays::{angle, nearest_to_rays, on_ray};
 
+use super::matching::RegionInView;
 use super::matching::{Track, TrackId};
-use super::region::View;
+use super::region::{RegionId, View};
 use crate::geometry::bounds;
+use crate::scene::ViewId;
 
 /// A track's place.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Placed {
+pub(super) struct TrackPosition {
     /// The point nearest to the rays of all views that show it.
     pub point: DVec3,
     /// The place for each view. Where the view shows the track, it lies on that view's ray, so that the drawing is reproduced
     /// exactly.
-    pub in_views: Vec<DVec3>,
+    pub in_views: TiVec<ViewId, DVec3>,
     /// The depth of each of them towards that view's viewer, in steps of 2⁻³⁰ so that equal depths stay equal.
-    pub depths: Vec<f64>,
+    pub depths: TiVec<ViewId, f64>,
 }
 
 /// Places the tracks of some views.
@@ -39,11 +41,11 @@ pub(super) struct Placed {
 /// A track that one view shows alone is at the depth of its container, or of the middle of the other tracks. Then what is painted over
 /// something else comes to lie in front of it, by at least 0.002, without a change to any drawing.
 pub(super) fn place(
-    views: &[View],
-    frames: &[Frame],
+    views: &TiSlice<ViewId, View>,
+    frames: &TiSlice<ViewId, Frame>,
     tracks: &TiSlice<TrackId, Track>,
-    depths: &[Vec<Option<f64>>],
-) -> TiVec<TrackId, Placed> {
+    depths: &TiSlice<ViewId, TiVec<RegionId, Option<f64>>>,
+) -> TiVec<TrackId, TrackPosition> {
     let scene = Scene::new(views, frames, tracks, depths);
     let mut points: TiVec<TrackId, Option<DVec3>> =
         tracks.iter().map(|t| scene.estimated(t)).collect();
@@ -71,7 +73,7 @@ pub(super) fn place(
         .zip(tracks)
         .map(|(point, track)| point.unwrap_or_else(|| scene.beside(track, middle)))
         .collect();
-    let mut placed: TiVec<TrackId, Placed> = tracks
+    let mut placed: TiVec<TrackId, TrackPosition> = tracks
         .iter()
         .zip(&points)
         .map(|(track, point)| scene.on_rays(track, *point))
@@ -110,24 +112,24 @@ fn is_usable(length: f64) -> bool {
 
 /// What the drawings say.
 struct Scene<'a> {
-    views: &'a [View],
-    frames: &'a [Frame],
+    views: &'a TiSlice<ViewId, View>,
+    frames: &'a TiSlice<ViewId, Frame>,
     tracks: &'a TiSlice<TrackId, Track>,
-    depths: &'a [Vec<Option<f64>>],
+    depths: &'a TiSlice<ViewId, TiVec<RegionId, Option<f64>>>,
     /// The track of each region of each view.
-    track_of: Vec<Vec<Option<TrackId>>>,
+    track_of: TiVec<ViewId, TiVec<RegionId, Option<TrackId>>>,
 }
 
 impl<'a> Scene<'a> {
     fn new(
-        views: &'a [View],
-        frames: &'a [Frame],
+        views: &'a TiSlice<ViewId, View>,
+        frames: &'a TiSlice<ViewId, Frame>,
         tracks: &'a TiSlice<TrackId, Track>,
-        depths: &'a [Vec<Option<f64>>],
+        depths: &'a TiSlice<ViewId, TiVec<RegionId, Option<f64>>>,
     ) -> Self {
-        let views = &views[..views.len().min(frames.len())];
-        let regions = views.iter().map(|v| vec![None; v.regions.len()]);
-        let mut track_of: Vec<Vec<Option<TrackId>>> = regions.collect();
+        let views = &views[..views.next_key().min(frames.next_key())];
+        let regions = views.iter().map(|v| vec![None; v.regions.len()].into());
+        let mut track_of: TiVec<ViewId, TiVec<RegionId, _>> = regions.collect();
         for (i, track) in tracks.iter_enumerated() {
             for (of_view, region) in track_of.iter_mut().zip(&track.regions) {
                 if let Some(slot) = region.and_then(|r| of_view.get_mut(r)) {
@@ -144,18 +146,20 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The regions of a track, with their views.
-    fn regions(&self, track: &Track) -> Vec<(usize, usize)> {
-        let regions = track.regions.iter().copied().enumerate();
-        let regions = regions.filter_map(|(view, r)| Some((view, r?)));
-        let exists =
-            |(v, r): &(usize, usize)| self.views.get(*v).is_some_and(|v| *r < v.regions.len());
+    /// The regions of a track.
+    fn regions(&self, track: &Track) -> Vec<RegionInView> {
+        let regions = track.regions.iter_enumerated();
+        let regions = regions.filter_map(|(view, id)| Some(RegionInView { view, id: (*id)? }));
+        let exists = |region: &RegionInView| {
+            let view = self.views.get(region.view);
+            view.is_some_and(|view| view.regions.get(region.id).is_some())
+        };
         regions.filter(exists).collect()
     }
 
     /// The middle of a region's bounding box on the screen.
-    fn at(&self, (view, region): (usize, usize)) -> DVec2 {
-        let (low, high) = bounds(&self.views[view].regions[region].outline).unwrap_or_default();
+    fn at(&self, RegionInView { view, id }: RegionInView) -> DVec2 {
+        let (low, high) = bounds(&self.views[view].regions[id].outline).unwrap_or_default();
         let at = self.frames[view].on_screen((low + high) / 2.0);
         if is_usable(at.x) && is_usable(at.y) {
             at
@@ -165,8 +169,8 @@ impl<'a> Scene<'a> {
     }
 
     /// The depth that the drawing sets for a region, heights.
-    fn set_depth(&self, (view, region): (usize, usize)) -> Option<f64> {
-        let depth = (*self.depths.get(view)?.get(region)?)? / self.frames[view].height;
+    fn set_depth(&self, RegionInView { view, id }: RegionInView) -> Option<f64> {
+        let depth = (*self.depths.get(view)?.get(id)?)? / self.frames[view].height;
         is_usable(depth).then_some(depth)
     }
 
@@ -175,22 +179,24 @@ impl<'a> Scene<'a> {
         let regions = self.regions(track);
         let set = regions.iter().filter_map(|r| {
             let depth = self.set_depth(*r)?;
-            Some(on_ray(self.views[r.0].direction, self.at(*r), depth))
+            Some(on_ray(self.views[r.view].direction, self.at(*r), depth))
         });
         let (sum, count) = set.fold((DVec3::ZERO, 0), |(sum, n), p| (sum + p, n + 1));
         if count > 0 {
             return Some(sum / f64::from(count));
         }
-        let ray = |r: &(usize, usize)| (self.views[r.0].direction, self.at(*r));
+        let ray = |r: &RegionInView| (self.views[r.view].direction, self.at(*r));
         nearest_to_rays(&regions.iter().map(ray).collect::<Vec<_>>())
     }
 
     /// The track of the container in the first view that shows one.
     fn container(&self, track: &Track) -> Option<TrackId> {
-        self.regions(track).into_iter().find_map(|(view, region)| {
-            let container = self.views[view].regions[region].container?;
-            *self.track_of[view].get(container)?
-        })
+        self.regions(track)
+            .into_iter()
+            .find_map(|RegionInView { view, id }| {
+                let container = self.views[view].regions[id].container?;
+                *self.track_of[view].get(container)?
+            })
     }
 
     /// The place on the first ray at the depth of another place.
@@ -198,24 +204,24 @@ impl<'a> Scene<'a> {
         let Some(&region) = self.regions(track).first() else {
             return other.unwrap_or_default();
         };
-        let direction = self.views[region.0].direction;
+        let direction = self.views[region.view].direction;
         let depth = other.map_or(0.0, |p| p.dot(direction.axes()[2]));
         on_ray(direction, self.at(region), depth)
     }
 
     /// The places on the rays of the views that show a track.
-    fn on_rays(&self, track: &Track, point: DVec3) -> Placed {
-        let mut in_views = vec![point; self.views.len()];
+    fn on_rays(&self, track: &Track, point: DVec3) -> TrackPosition {
+        let mut in_views = TiVec::from(vec![point; self.views.len()]);
         for region in self.regions(track) {
-            let direction = self.views[region.0].direction;
+            let direction = self.views[region.view].direction;
             let depth = self.set_depth(region);
             let depth = depth.unwrap_or_else(|| point.dot(direction.axes()[2]));
-            in_views[region.0] = on_ray(direction, self.at(region), depth);
+            in_views[region.view] = on_ray(direction, self.at(region), depth);
         }
-        Placed {
+        TrackPosition {
             point,
             in_views,
-            depths: Vec::new(),
+            depths: TiVec::new(),
         }
     }
 }
@@ -224,13 +230,13 @@ impl<'a> Scene<'a> {
 fn follow(
     tracks: &TiSlice<TrackId, Track>,
     containers: &TiSlice<TrackId, Option<TrackId>>,
-    placed: &mut TiSlice<TrackId, Placed>,
+    placed: &mut TiSlice<TrackId, TrackPosition>,
 ) {
     for (i, track) in tracks.iter_enumerated() {
         // Chains of containers are short; those that contain each other are climbed once.
         let mut outer = containers[i];
         let mut steps = tracks.len();
-        for view in 0..placed[i].in_views.len() {
+        for view in placed[i].in_views.keys() {
             if track.regions.get(view).copied().flatten().is_some() {
                 continue;
             }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use typed_index_collections::{TiSlice, TiVec};
 
-use super::{Placed, Scene, TrackId, angle, snapped};
+use super::{RegionId, RegionInView, Scene, TrackId, TrackPosition, ViewId, angle, snapped};
 use crate::geometry::{area, bounds, intersect};
 
 /// How far what is in front lies before what is behind, heights.
@@ -26,12 +26,12 @@ struct Over {
 /// Moves tracks towards the viewer of each view until everything that is painted over something else lies in front of it.
 ///
 /// A view's own order comes first. Then that of the other views, the nearest first, as far as it does not contradict.
-pub(super) fn put_in_front(scene: &Scene, placed: &mut TiSlice<TrackId, Placed>) {
-    let painted: Vec<Vec<Over>> = (0..scene.views.len()).map(|v| painted(scene, v)).collect();
-    for view in 0..scene.views.len() {
+pub(super) fn put_in_front(scene: &Scene, placed: &mut TiSlice<TrackId, TrackPosition>) {
+    let painted: TiVec<ViewId, Vec<Over>> = scene.views.keys().map(|v| painted(scene, v)).collect();
+    for view in scene.views.keys() {
         let direction = scene.views[view].direction;
-        let mut others: Vec<usize> = (0..painted.len()).filter(|v| *v != view).collect();
-        let degrees = |v: &usize| angle(direction, scene.views[*v].direction);
+        let mut others: Vec<ViewId> = painted.keys().filter(|v| *v != view).collect();
+        let degrees = |v: &ViewId| angle(direction, scene.views[*v].direction);
         others.sort_by(|a, b| degrees(a).total_cmp(&degrees(b)));
         let elsewhere = others.iter().flat_map(|v| &painted[*v]);
         let mut stacks = Stacks::new(placed.len());
@@ -59,21 +59,21 @@ pub(super) fn put_in_front(scene: &Scene, placed: &mut TiSlice<TrackId, Placed>)
 
 impl Scene<'_> {
     /// Whether the drawing sets the depth of a track in a view.
-    fn is_set(&self, view: usize, track: TrackId) -> bool {
+    fn is_set(&self, view: ViewId, track: TrackId) -> bool {
         let region = self.tracks[track].regions.get(view).copied().flatten();
-        region.is_some_and(|r| self.set_depth((view, r)).is_some())
+        region.is_some_and(|id| self.set_depth(RegionInView { view, id }).is_some())
     }
 }
 
 /// Which tracks a view paints over which: contents over their containers, and overlapping regions in their order.
-fn painted(scene: &Scene, view: usize) -> Vec<Over> {
+fn painted(scene: &Scene, view: ViewId) -> Vec<Over> {
     let regions = &scene.views[view].regions;
     let tracks = &scene.track_of[view];
     let height = scene.frames[view].height;
-    let boxes: Vec<_> = regions.iter().map(|r| bounds(&r.outline)).collect();
-    let areas: Vec<_> = regions.iter().map(|r| area(&r.outline)).collect();
+    let boxes: TiVec<RegionId, _> = regions.iter().map(|r| bounds(&r.outline)).collect();
+    let areas: TiVec<RegionId, _> = regions.iter().map(|r| area(&r.outline)).collect();
     let mut all = Vec::new();
-    let mut add = |lower: usize, upper: usize, everywhere| {
+    let mut add = |lower: RegionId, upper: RegionId, everywhere| {
         if let (Some(lower), Some(upper)) = (tracks[lower], tracks[upper]) {
             all.push(Over {
                 lower,
@@ -82,23 +82,23 @@ fn painted(scene: &Scene, view: usize) -> Vec<Over> {
             });
         }
     };
-    let within = |inner: usize| {
+    let within = |inner: RegionId| {
         let mut outer = Vec::new();
         let mut next = regions[inner].container;
-        while let Some(container) = next.filter(|c| *c < regions.len() && !outer.contains(c)) {
+        while let Some(container) = next.filter(|c| *c < regions.next_key() && !outer.contains(c)) {
             outer.push(container);
             next = regions[container].container;
         }
         outer
     };
-    let containers: Vec<Vec<usize>> = (0..regions.len()).map(within).collect();
-    for (inner, outer) in containers.iter().enumerate() {
+    let containers: TiVec<RegionId, Vec<RegionId>> = regions.keys().map(within).collect();
+    for (inner, outer) in containers.iter_enumerated() {
         for outer in outer {
             add(*outer, inner, true);
         }
     }
-    for upper in 0..regions.len() {
-        for lower in 0..upper {
+    for upper in regions.keys() {
+        for lower in regions.keys().take_while(|lower| *lower < upper) {
             if containers[upper].contains(&lower) || containers[lower].contains(&upper) {
                 continue;
             }

@@ -26,8 +26,20 @@ fn place(
     frames: &[Frame],
     tracks: &[Track],
     depths: &[Vec<Option<f64>>],
-) -> Vec<Placed> {
-    super::place(views, frames, TiSlice::from_ref(tracks), depths).raw
+) -> Vec<TrackPosition> {
+    let depths: TiVec<_, _> = depths.iter().cloned().map(TiVec::from).collect();
+    super::place(
+        TiSlice::from_ref(views),
+        TiSlice::from_ref(frames),
+        TiSlice::from_ref(tracks),
+        &depths,
+    )
+    .raw
+}
+
+/// [`super::frames`] with plain lists.
+fn frames(views: &[View]) -> Vec<Frame> {
+    super::frames(TiSlice::from_ref(views)).raw
 }
 
 /// A track as seen from some direction.
@@ -37,11 +49,15 @@ struct Pose {
 }
 
 /// The tracks as seen from a direction, as the model shows them.
-fn pose(placed: &[Placed], views: &[Direction], Direction { theta, phi }: Direction) -> Vec<Pose> {
-    let turn = turn_between(views);
+fn pose(
+    placed: &[TrackPosition],
+    views: &[Direction],
+    Direction { theta, phi }: Direction,
+) -> Vec<Pose> {
+    let turn = turn_between(TiSlice::from_ref(views));
     let weights = turn.weights([theta, phi]);
-    let pose = |placed: &Placed| Pose {
-        at: turn.place(&weights, &placed.in_views).truncate(),
+    let pose = |placed: &TrackPosition| Pose {
+        at: turn.position(&weights, &placed.in_views).truncate(),
         depth: placed
             .depths
             .iter()
@@ -67,14 +83,17 @@ struct Found {
     /// The origin of the drawings is known.
     frames: Vec<Frame>,
     matching: Matching,
-    placed: Vec<Placed>,
+    placed: Vec<TrackPosition>,
 }
 
 fn found(seed: u64, directions: &[Direction]) -> Found {
     let character = character(seed);
     let drawn: Vec<_> = directions.iter().map(|d| character.true_view(*d)).collect();
     let views: Vec<_> = drawn.iter().map(|d| d.view.clone()).collect();
-    let matching = match_regions(&views, &frames(&views));
+    let matching = match_regions(
+        TiSlice::from_ref(&views),
+        TiSlice::from_ref(&frames(&views)),
+    );
     let known = Frame {
         center: DVec2::ZERO,
         height: character.scale,
@@ -95,7 +114,10 @@ impl Found {
     /// The tracks whose regions of the first two views show the same item: the track, the item, and the larger hidden share.
     fn right(&self) -> Vec<(usize, usize, f64)> {
         let right = |(t, track): (usize, &Track)| {
-            let (a, b) = (track.regions[0]?, track.regions[1]?);
+            let (a, b) = (
+                track.regions[ViewId::FIRST]?,
+                track.regions[ViewId::SECOND]?,
+            );
             let item = self.drawn[0].items[a];
             let hidden = self.drawn[0].hidden[a].max(self.drawn[1].hidden[b]);
             (self.drawn[1].items[b] == item).then_some((t, item, hidden))
@@ -112,7 +134,7 @@ impl Found {
         self.views.iter().map(|v| v.direction).collect()
     }
 
-    fn center(&self, view: usize, region: usize) -> DVec2 {
+    fn center(&self, view: usize, region: RegionId) -> DVec2 {
         let (low, high) = bounds(&self.views[view].regions[region].outline).unwrap();
         self.frames[view].on_screen((low + high) / 2.0)
     }
@@ -190,7 +212,7 @@ fn drawn_views_are_reproduced() {
         for view in 0..2 {
             let poses = pose(&found.placed, &directions, directions[view]);
             for (track, pose) in found.matching.tracks.iter().zip(poses) {
-                if let Some(region) = track.regions[view] {
+                if let Some(region) = track.regions[ViewId::from(view)] {
                     assert!(pose.at.distance(found.center(view, region)) < 1e-12);
                     count += 1;
                 }
@@ -206,16 +228,19 @@ fn contents_lie_in_front_of_their_containers_in_all_views() {
     for seed in 0..100 {
         let found = found(seed, &directions(seed));
         let tracks = &found.matching.tracks;
-        let track =
-            |view: usize, region| tracks.iter().position(|t| t.regions[view] == Some(region));
+        let track = |view: usize, region| {
+            let is_there = |t: &Track| t.regions[ViewId::from(view)] == Some(region);
+            tracks.iter().position(is_there)
+        };
         for drawn in 0..2 {
-            for (inner, region) in found.views[drawn].regions.iter().enumerate() {
+            for (inner, region) in found.views[drawn].regions.iter_enumerated() {
                 let Some(outer) = region.container else {
                     continue;
                 };
                 let [inner, outer] = [inner, outer].map(|r| track(drawn, r).unwrap());
                 for seen in 0..2 {
-                    let [z, below] = [inner, outer].map(|t| found.placed[t].depths[seen]);
+                    let [z, below] =
+                        [inner, outer].map(|t| found.placed[t].depths[ViewId::from(seen)]);
                     count += 1;
                     if z < below + 0.002 - 1e-8 {
                         // Only the other drawing's own order may say the opposite.
@@ -309,20 +334,21 @@ fn square(at: [f64; 2], half: f64, container: Option<usize>) -> Region {
             }],
         }),
         color: [0.5, 0.5, 0.5, 1.0],
-        container,
+        container: container.map(RegionId::from),
     }
 }
 
 fn view(theta: f64, regions: Vec<Region>) -> View {
     View {
         direction: direction(theta, 0.0),
-        regions,
+        regions: regions.into(),
     }
 }
 
-fn track<const N: usize>(regions: [Option<usize>; N]) -> Track {
+fn track(regions: impl IntoIterator<Item = Option<usize>>) -> Track {
+    let regions = regions.into_iter();
     Track {
-        regions: regions.to_vec(),
+        regions: regions.map(|region| region.map(RegionId::from)).collect(),
     }
 }
 
@@ -332,8 +358,11 @@ const UNIT: Frame = Frame {
 };
 
 /// The depth of each track in a view.
-fn depths(placed: &[Placed], view: usize) -> Vec<f64> {
-    placed.iter().map(|p| p.depths[view]).collect()
+fn depths(placed: &[TrackPosition], view: usize) -> Vec<f64> {
+    placed
+        .iter()
+        .map(|p| p.depths[ViewId::from(view)])
+        .collect()
 }
 
 #[test]
@@ -459,7 +488,7 @@ fn a_track_that_a_view_does_not_show_follows_its_container() {
     ];
     let tracks = [track([Some(0), Some(0)]), track([Some(1), None])];
     let placed = place(&views, &[UNIT; 2], &tracks, &[]);
-    let [outer, inner] = [0, 1].map(|t| placed[t].in_views[1]);
+    let [outer, inner] = [0, 1].map(|t| placed[t].in_views[ViewId::SECOND]);
     assert!(((inner - outer).y - (placed[1].point - placed[0].point).y).abs() < 1e-12);
     assert!(((inner - placed[1].point).y + 0.05).abs() < 1e-12);
 }
@@ -549,7 +578,7 @@ proptest! {
             let regions = (0..count).map(|_| square([next(), next()], next(), containers.next().unwrap())).collect();
             views.push(view(views.len() as f64 * 20.0, regions));
         }
-        let tracks: Vec<_> = tracks.into_iter().map(|regions| Track { regions }).collect();
+        let tracks: Vec<_> = tracks.into_iter().map(track).collect();
         let set = vec![vec![numbers.next(), None, numbers.next()]; 2];
         let placed = place(&views, &frames(&views), &tracks, &set);
         prop_assert_eq!(placed.len(), tracks.len());

@@ -224,10 +224,10 @@ fn sharpened(line: Vec<DVec2>, is_closed: bool) -> Vec<DVec2> {
             _ => at(edge - 1),
         };
         let (a, b) = (at(edge), at(edge + 1));
-        let after = match edge + 2 > count {
-            true if !is_closed => return None,
-            _ => at(edge + 2),
-        };
+        if edge + 2 > count && !is_closed {
+            return None;
+        }
+        let after = at(edge + 2);
         let (into, out) = (a - before, b - after);
         let turn = into.perp_dot(out);
         let length = a.distance(b);

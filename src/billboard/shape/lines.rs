@@ -84,7 +84,7 @@ fn middle_and_extent(line: &[DVec2]) -> (DVec2, f64) {
 pub(crate) fn line_mesh(points: &[Vec<DVec2>], widths: &[f64], ends: Ends) -> Morph {
     let count = points.iter().map(Vec::len).min().unwrap_or(0);
     let mut morph = Morph {
-        points: vec![Vec::new(); points.len()],
+        points: vec![Vec::new(); points.len()].into(),
         ..Morph::default()
     };
     let is_drawn = |p: &DVec2| p.is_finite() && p.abs().max_element() < MAX_COORDINATE;
@@ -113,7 +113,7 @@ pub(crate) fn line_mesh(points: &[Vec<DVec2>], widths: &[f64], ends: Ends) -> Mo
             sections[join.first] += wanted.saturating_sub(own);
         }
     }
-    for (view, all) in morph.points.iter_mut().enumerate() {
+    for (view, all) in morph.points.raw.iter_mut().enumerate() {
         let width = widths.get(view).copied().unwrap_or(0.0);
         let half = if width.is_finite() {
             width.max(0.0) / 2.0

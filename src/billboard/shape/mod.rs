@@ -17,17 +17,19 @@ mod unite;
 use std::borrow::Borrow;
 
 use glam::DVec2;
+use typed_index_collections::TiVec;
 
 pub(super) use contour::Ends;
 pub(super) use lines::{line_mesh, match_lines};
 
 use crate::geometry::Outline;
+use crate::scene::ViewId;
 
 /// A mesh in the drawing plane whose points move from view to view.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Morph {
     /// For every view the same number of points, drawing units, y down.
-    pub points: Vec<Vec<DVec2>>,
+    pub points: TiVec<ViewId, Vec<DVec2>>,
     /// Indices of points, counter-clockwise as seen with y up. The list holds for all views and what is between them.
     pub triangles: Vec<[u32; 3]>,
     /// Rings of point indices that form the border, holes included, in the directions that outlines have.
@@ -43,7 +45,7 @@ pub struct Morph {
 pub(super) fn morph(outlines: &[impl Borrow<Outline>], features: &[Vec<(String, DVec2)>]) -> Morph {
     let Some(plane) = rings::Plane::new(outlines) else {
         return Morph {
-            points: vec![Vec::new(); outlines.len()],
+            points: vec![Vec::new(); outlines.len()].into(),
             ..Morph::default()
         };
     };
@@ -54,25 +56,25 @@ pub(super) fn morph(outlines: &[impl Borrow<Outline>], features: &[Vec<(String, 
         Vec::new()
     };
     let mut morph = Morph {
-        points: vec![Vec::new(); outlines.len()],
+        points: vec![Vec::new(); outlines.len()].into(),
         ..Morph::default()
     };
-    for piece in rings::pieces(&plane, features) {
+    for polygon in rings::polygons(&plane, features) {
         let first = morph.points.first().map_or(0, Vec::len) as u32;
-        for (all, own) in morph.points.iter_mut().zip(&piece.points) {
+        for (all, own) in morph.points.iter_mut().zip(&polygon.points) {
             all.extend(own);
         }
-        let border = holes::join(&piece.points, &piece.rings[0], &piece.rings[1..]);
-        let triangles = triangles::triangulate(&piece.points, &border);
+        let border = holes::join(&polygon.points, &polygon.rings[0], &polygon.rings[1..]);
+        let triangles = triangles::triangulate(&polygon.points, &border);
         let moved = triangles.iter().map(|triangle| triangle.map(|i| i + first));
         morph.triangles.extend(moved);
-        let moved = piece
+        let moved = polygon
             .rings
             .iter()
             .map(|ring| ring.iter().map(|i| i + first));
         morph.rings.extend(moved.map(Iterator::collect::<Vec<u32>>));
     }
-    plane.to_drawing(&mut morph.points);
+    plane.to_drawing(&mut morph.points.raw);
     morph
 }
 

@@ -45,7 +45,7 @@ pub(super) struct Plane {
 
 /// A polygon of a region with its holes.
 #[derive(Debug)]
-pub(super) struct Piece {
+pub(super) struct MorphedPolygon {
     /// In each view, in the frame of [`Plane`].
     pub(super) points: Vec<Vec<DVec2>>,
     /// The border and the holes.
@@ -166,7 +166,7 @@ struct Feature {
 }
 
 /// The region's polygons, each with corresponding points in all views.
-pub(super) fn pieces(plane: &Plane, features: Vec<Vec<DVec2>>) -> Vec<Piece> {
+pub(super) fn polygons(plane: &Plane, features: Vec<Vec<DVec2>>) -> Vec<MorphedPolygon> {
     let features: Vec<Feature> = (features.into_iter())
         .map(|points| {
             let each = points.iter().zip(&plane.views);
@@ -191,12 +191,12 @@ pub(super) fn pieces(plane: &Plane, features: Vec<Vec<DVec2>>) -> Vec<Piece> {
         })
         .collect();
     let groups = pair(&items);
-    let each = groups.iter().map(|group| piece(plane, group, &features));
+    let each = groups.iter().map(|group| polygon(plane, group, &features));
     each.collect()
 }
 
 /// One polygon: `group` has its index in each view.
-fn piece(plane: &Plane, group: &[Option<usize>], features: &[Feature]) -> Piece {
+fn polygon(plane: &Plane, group: &[Option<usize>], features: &[Feature]) -> MorphedPolygon {
     let count = group.len();
     let borders: Vec<Option<&Ring>> = (0..count)
         .map(|view| group[view].map(|index| &plane.views[view][index][0]))
@@ -261,7 +261,7 @@ fn piece(plane: &Plane, group: &[Option<usize>], features: &[Feature]) -> Piece 
             all.extend(kept.iter().map(|i| own[*i]));
         }
     }
-    Piece {
+    MorphedPolygon {
         points,
         rings: indices,
     }

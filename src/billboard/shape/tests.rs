@@ -163,7 +163,7 @@ fn corners_belong_to_corners() {
         }
         let morph = morph(&pair.outlines, &[]);
         let extent = bounds(&pair.outlines[1]).map(|(low, high)| (high - low).max_element());
-        for (a, b) in morph.points[0].iter().zip(&morph.points[1]) {
+        for (a, b) in morph.points.raw[0].iter().zip(&morph.points.raw[1]) {
             let distance = pair.map.transform_point2(*a).distance(*b);
             assert!(distance < 1e-3 * extent.unwrap(), "{} {index}", pair.name);
             count += 1;
@@ -177,7 +177,7 @@ fn a_view_that_is_the_same_changes_nothing() {
     for index in 0..40 {
         let [one, _] = pair(index).outlines;
         let morph = morph(&[one.clone(), one], &[]);
-        for (a, b) in morph.points[0].iter().zip(&morph.points[1]) {
+        for (a, b) in morph.points.raw[0].iter().zip(&morph.points.raw[1]) {
             assert!(a.distance(*b) < 1e-6, "{index}: {a} {b}");
         }
     }
@@ -193,7 +193,11 @@ fn many_points_are_split_into_parts() {
     };
     let outlines = [wheel(900, 0.0), wheel(700, 0.4)];
     let morph = morph(&outlines, &[]);
-    assert!(morph.points[0].len() > 300, "{}", morph.points[0].len());
+    assert!(
+        morph.points.raw[0].len() > 300,
+        "{}",
+        morph.points.raw[0].len()
+    );
     assert_reproduced(&morph, &outlines, "wheel");
     for t in BLENDS {
         let error = coverage_error(&morph, &[1.0 - t, t]);
@@ -216,7 +220,11 @@ fn parts_do_not_reach_across_gaps() {
     };
     let outlines = [horseshoe(1.0), horseshoe(0.8)];
     let morph = morph(&outlines, &[]);
-    assert!(morph.points[0].len() > 260, "{}", morph.points[0].len());
+    assert!(
+        morph.points.raw[0].len() > 260,
+        "{}",
+        morph.points.raw[0].len()
+    );
     for t in BLENDS {
         let error = coverage_error(&morph, &[1.0 - t, t]);
         assert!(error < 1e-3, "at {t}: {error}");
@@ -233,7 +241,11 @@ fn smooth_contours_share_points() {
         )])
     };
     let morph = morph(&[disc(500), disc(431)], &[]);
-    assert!(morph.points[0].len() <= 128, "{}", morph.points[0].len());
+    assert!(
+        morph.points.raw[0].len() <= 128,
+        "{}",
+        morph.points.raw[0].len()
+    );
 }
 
 #[test]

@@ -8,10 +8,11 @@ mod body;
 mod random;
 
 use glam::{DMat3, DVec2, DVec3};
+use typed_index_collections::{TiSlice, TiVec};
 
 pub(in crate::billboard) use body::character;
 
-use crate::billboard::region::{Direction, Region, View};
+use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::geometry::{FillRule, Outline, Ring, area, bounds, intersect, resolve_overlaps, union};
 
 /// Points around an ellipse.
@@ -65,10 +66,10 @@ pub(in crate::billboard) struct Drawn {
     /// The drawing.
     pub view: View,
     /// The item that each region shows.
-    pub items: Vec<usize>,
+    pub items: TiVec<RegionId, usize>,
     /// The share of each region's bounding box that is hidden: 1 − intersection over union of its box with that of the whole
     /// surface.
-    pub hidden: Vec<f64>,
+    pub hidden: TiVec<RegionId, f64>,
 }
 
 /// The two directions from which the character of a seed is drawn: 45° apart for about half of the seeds.
@@ -111,10 +112,10 @@ impl Character {
         let mut drawn = Drawn {
             view: View {
                 direction,
-                regions: Vec::new(),
+                regions: TiVec::new(),
             },
-            items: Vec::new(),
-            hidden: Vec::new(),
+            items: TiVec::new(),
+            hidden: TiVec::new(),
         };
         for (rank, &solid) in order.iter().enumerate() {
             let nearer: Vec<_> = order[rank + 1..].iter().map(|i| &silhouettes[*i]).collect();
@@ -284,15 +285,15 @@ fn filled(outline: &Outline, scale: f64) -> Outline {
 }
 
 /// Finds each region's container.
-fn nest(regions: &mut [Region]) {
-    let boxes: Vec<_> = regions.iter().map(|r| bounds(&r.outline)).collect();
-    let areas: Vec<_> = regions.iter().map(|r| area(&r.outline)).collect();
-    for i in 0..regions.len() {
+fn nest(regions: &mut TiSlice<RegionId, Region>) {
+    let boxes: TiVec<RegionId, _> = regions.iter().map(|r| bounds(&r.outline)).collect();
+    let areas: TiVec<RegionId, _> = regions.iter().map(|r| area(&r.outline)).collect();
+    for i in boxes.keys() {
         let Some((low, high)) = boxes[i] else {
             continue;
         };
         let margin = (high - low) * 0.05;
-        let around = |j: &usize| {
+        let around = |j: &RegionId| {
             areas[*j] > areas[i]
                 && boxes[*j].is_some_and(|(l, h)| {
                     l.cmple(low + margin).all() && h.cmpge(high - margin).all()
@@ -300,7 +301,8 @@ fn nest(regions: &mut [Region]) {
                 && area(&intersect(&regions[i].outline, &regions[*j].outline))
                     > CONTAINED * areas[i]
         };
-        let container = (0..regions.len())
+        let container = boxes
+            .keys()
             .filter(around)
             .min_by(|a, b| areas[*a].total_cmp(&areas[*b]));
         regions[i].container = container;

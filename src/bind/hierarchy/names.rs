@@ -3,7 +3,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Context;
-use crate::bind::bindings::{DrawingString, NamedBy, PartKind, Place};
+use crate::bind::bindings::{DrawingString, NamedBy, PartKind, StringHolder};
 use crate::bind::matching::Matched;
 use crate::bind::names::{OwnName, of_element};
 use crate::diagnostic::{Code, Diagnostic};
@@ -34,9 +34,9 @@ pub(super) fn of_strings(drawing: &Drawing, matched: &Matched) -> Vec<OwnName> {
                 by: NamedBy::String,
             });
         }
-        let group = match string.place {
-            Place::Group(group) => Some(group),
-            Place::Label(_) | Place::Shape(_) => None,
+        let group = match string.holder {
+            StringHolder::Group(group) => Some(group),
+            StringHolder::Label(_) | StringHolder::Shape(_) => None,
         };
         let element = group.map_or(
             &drawing.shapes[matched.parts[part].shape].element,

@@ -8,7 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::fills::Fills;
 use super::wrappers::is_filled;
-use crate::bind::bindings::Place;
+use crate::bind::bindings::StringHolder;
 use crate::lang::is_name_char;
 use crate::source::Text;
 use crate::svg::{Drawing, Label};
@@ -37,15 +37,18 @@ pub(super) fn is_bare_name(text: &str) -> bool {
 
 /// Whether the names in the descriptions of a drawing without any sign of the language are names of parts: distinct words, each of a
 /// filled shape, or of a group that directly holds one.
-pub(super) fn descriptions_name_parts(drawing: &Drawing, names: &[(Place, Arc<Text>)]) -> bool {
+pub(super) fn descriptions_name_parts(
+    drawing: &Drawing,
+    names: &[(StringHolder, Arc<Text>)],
+) -> bool {
     let holding = drawing.shapes.iter().filter(|shape| is_filled(shape));
     let holding: FxHashSet<usize> = holding.map(|shape| shape.group).collect();
     let mut seen = FxHashSet::default();
-    names.iter().all(|(place, text)| {
-        let has_part = match place {
-            Place::Shape(shape) => is_filled(&drawing.shapes[*shape]),
-            Place::Group(group) => holding.contains(group),
-            Place::Label(_) => false,
+    names.iter().all(|(holder, text)| {
+        let has_part = match holder {
+            StringHolder::Shape(shape) => is_filled(&drawing.shapes[*shape]),
+            StringHolder::Group(group) => holding.contains(group),
+            StringHolder::Label(_) => false,
         };
         has_part && seen.insert(text.as_str().trim())
     })

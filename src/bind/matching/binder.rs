@@ -15,7 +15,7 @@ use super::parts::MatchedPart;
 use super::settings::BindRule;
 use super::stacking::Stacking;
 use super::strings::ReadString;
-use crate::bind::bindings::{Binding, BoundBy, Place, StringId};
+use crate::bind::bindings::{Binding, BoundBy, StringHolder, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::memo::{Bits, Memo};
@@ -128,11 +128,11 @@ impl<'a> Binder<'a> {
     /// Rule 1: descriptions belong to their element.
     fn descriptions(&mut self) {
         for string in self.strings.keys() {
-            let part = match self.strings[string].place {
+            let part = match self.strings[string].holder {
                 _ if !self.strings[string].wants_part() => continue,
-                Place::Label(_) => continue,
-                Place::Shape(shape) => self.part_of_shape[shape],
-                Place::Group(group) => match self.node_groups.roles[group] {
+                StringHolder::Label(_) => continue,
+                StringHolder::Shape(shape) => self.part_of_shape[shape],
+                StringHolder::Group(group) => match self.node_groups.roles[group] {
                     GroupRole::Transparent => None,
                     _ => self.back_most[group],
                 },
@@ -225,12 +225,12 @@ impl<'a> Binder<'a> {
             return;
         }
         let place = |(scope, string): &(Scope, StringId)| {
-            let (points, em) = match self.strings[*string].place {
-                Place::Label(label) => {
+            let (points, em) = match self.strings[*string].holder {
+                StringHolder::Label(label) => {
                     let label = &self.drawing.labels[label].0;
                     (label.position.points, label.font_size)
                 }
-                Place::Shape(_) | Place::Group(_) => Default::default(),
+                StringHolder::Shape(_) | StringHolder::Group(_) => Default::default(),
             };
             let led_to = leaders.points.get(string);
             let points = led_to.map_or(points, |point| [*point; 3]);
@@ -283,10 +283,11 @@ impl<'a> Binder<'a> {
     /// Which strings may name a main part: those of its container, or all outside of containers; `None` if none may.
     fn scope_of(&self, part: usize, is_free: bool) -> Option<Scope> {
         let MatchedPart { string, source, .. } = self.parts[part];
-        let scope = match is_free {
+        let scope = if is_free {
             // Parts in a tile layer are reserved for the strings in it.
-            true => (!self.node_groups.in_layer[source]).then_some(None),
-            false => self.node_groups.container[source].map(Some),
+            (!self.node_groups.in_layer[source]).then_some(None)
+        } else {
+            self.node_groups.container[source].map(Some)
         };
         scope.filter(|_| string.is_none())
     }
@@ -335,9 +336,9 @@ impl<'a> Binder<'a> {
         candidates: &[usize],
         mode: DistanceMode,
     ) -> Vec<Match> {
-        let corner = |(_, string): &(Scope, StringId)| match self.strings[*string].place {
-            Place::Label(label) => self.drawing.labels[label].0.position.corner,
-            Place::Shape(_) | Place::Group(_) => glam::DVec2::ZERO,
+        let corner = |(_, string): &(Scope, StringId)| match self.strings[*string].holder {
+            StringHolder::Label(label) => self.drawing.labels[label].0.position.corner,
+            StringHolder::Shape(_) | StringHolder::Group(_) => glam::DVec2::ZERO,
         };
         let target = |part: &usize| nearest::Target::of(&self.parts[*part]);
         let problem = nearest::AssignmentProblem {
@@ -383,8 +384,8 @@ impl<'a> Binder<'a> {
     fn waiting_label(&self, string: StringId) -> Option<usize> {
         let is_bound = self.bound[string].binding.is_some();
         let string = &self.strings[string];
-        match string.place {
-            Place::Label(label) if string.wants_part() && !is_bound => Some(label),
+        match string.holder {
+            StringHolder::Label(label) if string.wants_part() && !is_bound => Some(label),
             _ => None,
         }
     }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use typed_index_collections::TiSlice;
 
 use super::strings::ReadString;
-use crate::bind::bindings::{Bindings, DrawingString, Place, StringId};
+use crate::bind::bindings::{Bindings, DrawingString, StringHolder, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang;
 use crate::lang::ast::Annotation;
@@ -111,11 +111,11 @@ fn spread(drawing: &Drawing, layer: &mut [Option<usize>]) {
 }
 
 /// Index of the group that holds a string.
-pub(in crate::bind) fn group_of(drawing: &Drawing, place: Place) -> usize {
-    match place {
-        Place::Label(label) => drawing.labels[label].1,
-        Place::Shape(shape) => drawing.shapes[shape].group,
-        Place::Group(group) => group,
+pub(in crate::bind) fn group_of(drawing: &Drawing, holder: StringHolder) -> usize {
+    match holder {
+        StringHolder::Label(label) => drawing.labels[label].1,
+        StringHolder::Shape(shape) => drawing.shapes[shape].group,
+        StringHolder::Group(group) => group,
     }
 }
 
@@ -134,7 +134,7 @@ pub(super) fn find(
         let Some(kind) = LayerKind::of(&string.annotation) else {
             continue;
         };
-        let group = group_of(drawing, string.place);
+        let group = group_of(drawing, string.holder);
         if let Some(first) = layer[group].filter(|_| kind.holds_content()) {
             let other: &Layer = &layers[first];
             let element = &drawing.groups[group].element;
@@ -159,8 +159,8 @@ pub(super) fn find(
             layer[group] = Some(layers.len());
         }
         let name = annotation.name.as_ref().map(|name| name.text.clone());
-        let named_by = match string.place {
-            Place::Shape(shape) => &drawing.shapes[shape].element,
+        let named_by = match string.holder {
+            StringHolder::Shape(shape) => &drawing.shapes[shape].element,
             _ => &drawing.groups[group].element,
         };
         let name = name.unwrap_or_else(|| match named_by.own_name() {
@@ -247,7 +247,7 @@ impl Layers {
         drawing: &Drawing,
         string: &DrawingString,
     ) -> bool {
-        let Place::Shape(shape) = string.place else {
+        let StringHolder::Shape(shape) = string.holder else {
             return false;
         };
         string.annotation == Annotation::Unused && self.hold_picture(drawing, shape)
@@ -277,7 +277,7 @@ impl Bindings {
 
     /// Index of the view that a string is in.
     pub fn view_of_string(&self, drawing: &Drawing, string: StringId) -> Option<usize> {
-        self.view_of_group(group_of(drawing, self.strings[string].place))
+        self.view_of_group(group_of(drawing, self.strings[string].holder))
     }
 
     /// Whether a shape is a picture in a tile layer or a view, and so no part.

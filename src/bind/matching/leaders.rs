@@ -10,7 +10,7 @@ use super::fills::Fills;
 use super::node_groups::NodeGroups;
 use super::stacking::ground_count;
 use super::strings::ReadString;
-use crate::bind::bindings::{Bindings, Place, StringId};
+use crate::bind::bindings::{Bindings, StringHolder, StringId};
 use crate::geometry::{BoxTree, area_around, indexed_box};
 use crate::svg::{Drawing, Shape};
 
@@ -98,7 +98,7 @@ impl Bindings {
     /// The points on the page, user units, of which one is meant by a string's place: the end of its leader, or the beginning, the
     /// middle and the end of its text. `None` for a string that is no text.
     pub fn points_of_string(&self, drawing: &Drawing, string: StringId) -> Option<[DVec2; 3]> {
-        let Place::Label(label) = self.strings[string].place else {
+        let StringHolder::Label(label) = self.strings[string].holder else {
             return None;
         };
         let led_to = self.leaders.points.get(&string).map(|point| [*point; 3]);
@@ -150,7 +150,7 @@ impl<'a> Labels<'a> {
         let mut reach = 0.0_f64;
         let mut boxes = Vec::new();
         for (index, string) in strings.iter_enumerated() {
-            if let Place::Label(label) = string.place
+            if let StringHolder::Label(label) = string.holder
                 && string.means_a_place()
             {
                 let label = &drawing.labels[label].0;
@@ -169,9 +169,9 @@ impl<'a> Labels<'a> {
     }
 
     fn em(&self, string: StringId) -> f64 {
-        match self.strings[string].place {
-            Place::Label(label) => self.drawing.labels[label].0.font_size,
-            Place::Shape(_) | Place::Group(_) => 0.0,
+        match self.strings[string].holder {
+            StringHolder::Label(label) => self.drawing.labels[label].0.font_size,
+            StringHolder::Shape(_) | StringHolder::Group(_) => 0.0,
         }
     }
 
@@ -197,8 +197,8 @@ impl<'a> Labels<'a> {
         };
         let string = |id: &str| {
             let mut strings = self.strings.iter_enumerated();
-            let found = strings.find(|(_, string)| match string.place {
-                Place::Label(label) => {
+            let found = strings.find(|(_, string)| match string.holder {
+                StringHolder::Label(label) => {
                     string.means_a_place() && self.drawing.labels[label].0.id.as_deref() == Some(id)
                 }
                 _ => false,

@@ -130,7 +130,7 @@ pub(in crate::bind) fn find(
 /// A string with what it is bound to.
 fn joined(read: strings::ReadString, bound: Bound) -> DrawingString {
     let strings::ReadString {
-        place,
+        holder,
         text,
         annotation,
         settings,
@@ -141,7 +141,7 @@ fn joined(read: strings::ReadString, bound: Bound) -> DrawingString {
         scope,
     } = bound;
     DrawingString {
-        place,
+        holder,
         text,
         annotation,
         settings,

@@ -14,7 +14,7 @@ use super::parts::MatchedPart;
 use super::settings::Strokes;
 use super::strings::ReadString;
 use super::wrappers;
-use crate::bind::bindings::{Place, StringId};
+use crate::bind::bindings::{StringHolder, StringId};
 use crate::memo::Memo;
 use crate::svg::{Drawing, GroupKind, Shape};
 
@@ -72,7 +72,7 @@ impl NodeGroups {
         let holds_shape = holding(drawing, |_| true);
         let mut counts = vec![0_usize; drawing.groups.len()];
         for string in strings.iter().filter(|string| string.wants_part()) {
-            if let Place::Label(label) = string.place {
+            if let StringHolder::Label(label) = string.holder {
                 let mut group = drawing.labels[label].1;
                 // Texts that are grouped by themselves are strings of what that group is in.
                 while !holds_shape[group] && drawing.groups[group].kind == GroupKind::Group {
@@ -278,13 +278,13 @@ fn described_lines(drawing: &Drawing, strings: &TiSlice<StringId, ReadString>) -
     let filled = holding(drawing, wrappers::is_filled);
     let mut has_string = vec![false; drawing.groups.len()];
     for string in strings.iter().filter(|string| string.wants_part()) {
-        let group = match string.place {
-            Place::Shape(shape) => {
+        let group = match string.holder {
+            StringHolder::Shape(shape) => {
                 described[shape] = true;
                 continue;
             }
-            Place::Group(group) => group,
-            Place::Label(label) => drawing.labels[label].1,
+            StringHolder::Group(group) => group,
+            StringHolder::Label(label) => drawing.labels[label].1,
         };
         has_string[group] |= drawing.groups[group].kind == GroupKind::Group && !filled[group];
     }

@@ -9,7 +9,7 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::bare_names;
 use super::layers::LayerKind;
 use super::settings::DrawingSettings;
-use crate::bind::bindings::{Place, StringId};
+use crate::bind::bindings::{StringHolder, StringId};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix, few_or_one, listed};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
@@ -35,7 +35,7 @@ pub(super) struct Strings {
 /// A string before it is bound.
 #[derive(Debug)]
 pub(super) struct ReadString {
-    pub(super) place: Place,
+    pub(super) holder: StringHolder,
     pub(super) text: Arc<Text>,
     pub(super) annotation: Annotation,
     pub(super) settings: Vec<Setting>,
@@ -81,14 +81,14 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
             .labels
             .iter()
             .enumerate()
-            .map(|(index, (label, _))| (Place::Label(index), Arc::clone(&label.text))),
+            .map(|(index, (label, _))| (StringHolder::Label(index), Arc::clone(&label.text))),
     );
     texts.sort_by_key(|(_, text)| text.whole());
     let parsed: Vec<_> = texts
         .into_par_iter()
         .with_min_len(GRAIN)
-        .map(|(place, text)| {
-            let kind = if matches!(place, Place::Label(_)) {
+        .map(|(holder, text)| {
+            let kind = if matches!(holder, StringHolder::Label(_)) {
                 lang::Container::Text
             } else {
                 lang::Container::Desc
@@ -99,19 +99,19 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
                 _ => lang::parse(&text, kind),
             };
             if pieces.len() > 1 {
-                findings.push(several(drawing, place, &text, &pieces));
+                findings.push(several(drawing, holder, &text, &pieces));
             }
-            (place, text, annotation, findings)
+            (holder, text, annotation, findings)
         })
         .collect();
     let mut captions = Vec::new();
     let mut annotations = Vec::with_capacity(parsed.len());
-    for (place, text, annotation, findings) in parsed {
+    for (holder, text, annotation, findings) in parsed {
         diagnostics.extend(findings);
         if annotation == Annotation::Caption {
             captions.push(Arc::clone(&text));
         }
-        annotations.push((place, text, annotation));
+        annotations.push((holder, text, annotation));
     }
     let words = || {
         listed(
@@ -138,11 +138,11 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
     let (all, findings): (Vec<ReadString>, Vec<Vec<Diagnostic>>) = annotations
         .into_par_iter()
         .with_min_len(GRAIN)
-        .map(|(place, text, annotation)| {
+        .map(|(holder, text, annotation)| {
             let mut findings = Vec::new();
             let settings = lang::settings(&text, &annotation, &variables, &mut findings);
             let string = ReadString {
-                place,
+                holder,
                 text,
                 annotation,
                 settings,
@@ -166,20 +166,20 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
 ///
 /// Office programs describe every element by its kind (`Drawing`, `Group`, `Slide`). So names alone count only if the drawing has
 /// signs elsewhere (`signed`), or if they can name parts: all are distinct, and none is about a group without shapes of its own.
-fn descriptions(drawing: &Drawing, signed: bool) -> Vec<(Place, Arc<Text>)> {
+fn descriptions(drawing: &Drawing, signed: bool) -> Vec<(StringHolder, Arc<Text>)> {
     let shapes = drawing.shapes.iter().enumerate();
-    let shapes = shapes.map(|(index, shape)| (Place::Shape(index), &shape.element.desc));
+    let shapes = shapes.map(|(index, shape)| (StringHolder::Shape(index), &shape.element.desc));
     let groups = drawing.groups.iter().enumerate();
-    let groups = groups.map(|(index, group)| (Place::Group(index), &group.element.desc));
+    let groups = groups.map(|(index, group)| (StringHolder::Group(index), &group.element.desc));
     let (strings, others): (Vec<_>, Vec<_>) = shapes
         .chain(groups)
-        .filter_map(|(place, desc)| Some((place, Arc::clone(desc.as_ref()?))))
+        .filter_map(|(holder, desc)| Some((holder, Arc::clone(desc.as_ref()?))))
         .partition(|(_, text)| lang::describes(text.as_str()));
     let mut names = others;
-    names.retain(|(place, text)| {
+    names.retain(|(holder, text)| {
         // The description of the whole file is seldom about its only part.
         let is_root =
-            matches!(place, Place::Group(group) if drawing.groups[*group].kind == GroupKind::Root);
+            matches!(holder, StringHolder::Group(group) if drawing.groups[*group].kind == GroupKind::Root);
         !is_root && bare_names::is_bare_name(text.as_str())
     });
     if !signed && strings.is_empty() && !bare_names::descriptions_name_parts(drawing, &names) {
@@ -189,7 +189,12 @@ fn descriptions(drawing: &Drawing, signed: bool) -> Vec<(Place, Arc<Text>)> {
 }
 
 /// Reports a text that holds several strings, of which only the first is read, with a fix that splits it.
-fn several(drawing: &Drawing, place: Place, text: &Text, pieces: &[Range<usize>]) -> Diagnostic {
+fn several(
+    drawing: &Drawing,
+    holder: StringHolder,
+    text: &Text,
+    pieces: &[Range<usize>],
+) -> Diagnostic {
     let strings = pieces
         .iter()
         .map(|piece| format!("`{}`", shortened(&text.as_str()[piece.clone()])));
@@ -200,12 +205,12 @@ fn several(drawing: &Drawing, place: Place, text: &Text, pieces: &[Range<usize>]
     );
     let finding = Diagnostic::new(Code::UnexpectedSign, text.span(pieces[1].clone()), message)
         .label("another string begins here");
-    let (help, fix) = match place {
-        Place::Label(label) => (
+    let (help, fix) = match holder {
+        StringHolder::Label(label) => (
             "cut the other strings out, and paste each into a text of its own (in Inkscape, click beside the text first)",
             split(&drawing.labels[label].0, pieces),
         ),
-        Place::Shape(_) | Place::Group(_) => (
+        StringHolder::Shape(_) | StringHolder::Group(_) => (
             "a description holds one string: write the others into the descriptions of their own shapes",
             None,
         ),
@@ -233,7 +238,7 @@ fn split(label: &Label, pieces: &[Range<usize>]) -> Option<Fix> {
         if !text.can_replace(cut.clone()) {
             return None;
         }
-        let spans = text.pieces(cut).into_iter();
+        let spans = text.spans(cut).into_iter();
         edits.extend(spans.filter(|span| span.end > span.start).map(|span| Edit {
             span,
             text: String::new(),

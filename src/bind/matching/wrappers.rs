@@ -9,7 +9,7 @@ use typed_index_collections::TiSlice;
 
 use super::strings::ReadString;
 use crate::anatomy::{self, Role};
-use crate::bind::bindings::{Place, StringId};
+use crate::bind::bindings::{StringHolder, StringId};
 use crate::bind::names::{self, written_by_a_person};
 use crate::geometry::{area, bounds};
 use crate::svg::{Drawing, Element, GroupKind, PaintKey, Shape};
@@ -184,7 +184,7 @@ fn backgrounds(
         let group = drawing.shapes[shape].group;
         let described = strings
             .iter()
-            .any(|string| string.place == Place::Shape(shape));
+            .any(|string| string.holder == StringHolder::Shape(shape));
         if rest.is_empty()
             || in_map(group)
             || described

@@ -27,7 +27,7 @@ pub fn locate(drawing: &Drawing, diagnostics: &mut [Diagnostic]) {
                 let short = place.strip_suffix(" of the page").unwrap_or(place);
                 diagnostic.message.contains(short)
             };
-            diagnostic.place = place.filter(|place| !is_said(place));
+            diagnostic.on_page = place.filter(|place| !is_said(place));
         }
     };
     for (label, _) in &drawing.labels {

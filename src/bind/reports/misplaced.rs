@@ -21,7 +21,7 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
             Annotation::Defaults(attributes) => (attributes, "a `%` string"),
             _ => continue,
         };
-        let group = group_of(drawing, string.place);
+        let group = group_of(drawing, string.holder);
         let view = matched.layers.of_group_and_kind(group, LayerKind::View);
         let in_view = view.is_some();
         let of_view = attributes.iter().filter(|attribute| {

@@ -1,6 +1,6 @@
 //! Strings without a part, and why there is none for them.
 
-use crate::bind::bindings::{DrawingString, Place};
+use crate::bind::bindings::{DrawingString, StringHolder};
 use crate::bind::matching::{Matched, wants_part};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::lang::ast::Annotation;
@@ -15,10 +15,10 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
         if !unbound || matched.layers.leave_picture_out(drawing, string) {
             continue;
         }
-        match string.place {
-            Place::Label(_) => waiting.push(string),
-            Place::Shape(shape) => diagnostics.push(of_shape(drawing, string, shape)),
-            Place::Group(group) => diagnostics.push(of_group(drawing, string, group)),
+        match string.holder {
+            StringHolder::Label(_) => waiting.push(string),
+            StringHolder::Shape(shape) => diagnostics.push(of_shape(drawing, string, shape)),
+            StringHolder::Group(group) => diagnostics.push(of_group(drawing, string, group)),
         }
     }
     let Some(first) = waiting.first() else {

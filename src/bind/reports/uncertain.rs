@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::bind::bindings::{BoundBy, DrawingString, PartKind, Place};
+use crate::bind::bindings::{BoundBy, DrawingString, PartKind, StringHolder};
 use crate::bind::matching::Matched;
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::Annotation;
@@ -38,10 +38,13 @@ fn hint(drawing: &Drawing, matched: &Matched, string: &DrawingString) -> Option<
     };
     let mut hint = Diagnostic::new(Code::Uncertain, string.text.whole(), message)
         .related(
-            place(drawing, matched, binding.part),
+            part_span(drawing, matched, binding.part),
             "the shape that it is bound to",
         )
-        .related(place(drawing, matched, rival), "the shape that it may mean")
+        .related(
+            part_span(drawing, matched, rival),
+            "the shape that it may mean",
+        )
         .help(match binding.by {
             BoundBy::Leader => "let the line end inside the shape that the string means",
             _ => "move the string onto the shape that it means, or group the two",
@@ -60,7 +63,7 @@ fn hint(drawing: &Drawing, matched: &Matched, string: &DrawingString) -> Option<
     Some(hint)
 }
 
-fn place(drawing: &Drawing, matched: &Matched, part: usize) -> Span {
+fn part_span(drawing: &Drawing, matched: &Matched, part: usize) -> Span {
     drawing.shapes[matched.parts[part].shape].element.span
 }
 
@@ -78,7 +81,7 @@ fn element<'a>(drawing: &'a Drawing, matched: &Matched, part: usize) -> &'a Elem
 
 /// The edits that make a text the description of an element. A legend in a description would be the part's own string.
 fn described(drawing: &Drawing, string: &DrawingString, element: &Element) -> Option<Vec<Edit>> {
-    let Place::Label(label) = string.place else {
+    let StringHolder::Label(label) = string.holder else {
         return None;
     };
     if matches!(string.annotation, Annotation::Legend(_)) {

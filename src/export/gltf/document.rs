@@ -187,7 +187,11 @@ fn json_node(node: &scene::Node) -> JsonNode {
             let extension = match view_dependent {
                 scene::ViewDependent::Bend => json!({ "bend": {} }),
                 scene::ViewDependent::Turn(Turn { views, between }) => {
-                    json!({ "turn": { "views": views, "between": between } })
+                    let sets = between.iter();
+                    let between: Vec<Vec<usize>> = sets
+                        .map(|set| set.iter().copied().map(usize::from).collect())
+                        .collect();
+                    json!({ "turn": { "views": views.raw, "between": between } })
                 }
                 scene::ViewDependent::Region(places) => {
                     let places: Vec<[f32; 3]> =

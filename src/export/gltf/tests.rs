@@ -8,8 +8,8 @@ use typed_index_collections::ti_vec;
 use super::*;
 use crate::export::{self, SeekableOutput};
 use crate::scene::{
-    AlphaMode, Filter, Image, Material, MediaType, Mesh, Node, NodeId, Piece, Primitive,
-    Provenance, Surface, Texture, TextureUse, ViewDependent, Wrap,
+    AlphaMode, Filter, Image, Material, MediaType, Mesh, Node, NodeId, Primitive, Provenance,
+    Surface, SurfacePatch, Texture, TextureUse, ViewDependent, Wrap,
 };
 
 mod animated;
@@ -30,15 +30,15 @@ fn bytes(scene: &Scene, exporter: &dyn Exporter) -> Vec<u8> {
 
 fn primitive(surface: Surface, material: usize) -> Primitive {
     Primitive {
-        pieces: vec![surface.into()],
+        patches: vec![surface.into()],
         material: material.into(),
     }
 }
 
 /// The surface of a primitive, to be made invalid.
 fn first_surface(scene: &mut Scene) -> &mut Surface {
-    match &mut scene.meshes.raw[0].primitives[0].pieces[0] {
-        Piece::Surface(surface) => surface,
+    match &mut scene.meshes.raw[0].primitives[0].patches[0] {
+        SurfacePatch::Surface(surface) => surface,
         _ => panic!("these scenes have surfaces only"),
     }
 }

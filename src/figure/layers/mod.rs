@@ -3,9 +3,9 @@
 
 mod buried;
 mod lifting;
+mod node_depths;
 mod nodes;
 mod overlaps;
-mod placement;
 mod shapes;
 mod wraps;
 
@@ -20,9 +20,9 @@ use crate::scene::WorldTransform;
 use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
 
 use buried::Search;
+use node_depths::{Figure, NodeDepths, backdrops};
 use nodes::Nodes;
 use overlaps::{Overlap, Scratch, overlaps, ranks};
-use placement::{Figure, Placement, backdrops};
 use shapes::{Shape, shapes};
 
 pub(super) use buried::{Buried, report};
@@ -153,8 +153,8 @@ impl Layers {
             .iter()
             .map(|part| context.bindings.attributes(*part).stack())
             .collect();
-        let placement = if is_one {
-            Placement {
+        let node_depths = if is_one {
+            NodeDepths {
                 depths: vec![0.0; nodes.len()],
                 reasons: vec![Reason::Plane; nodes.len()],
             }
@@ -187,7 +187,7 @@ impl Layers {
             nodes: &nodes,
             overlaps: &overlaps,
             covers: &covers,
-            depths: &placement.depths,
+            depths: &node_depths.depths,
             steps: &steps,
             is_one,
         };
@@ -199,8 +199,8 @@ impl Layers {
         let node = |part: usize| {
             let node = nodes.of_part[part]?;
             Some(NodeDepth {
-                depth: placement.depths[node],
-                reason: placement.reasons[node],
+                depth: node_depths.depths[node],
+                reason: node_depths.reasons[node],
             })
         };
         let layers = lifting.arrange(

@@ -137,7 +137,7 @@ fn a_head_without_a_name_on_a_neck() {
     );
 }
 
-/// A spider seen from above: abdomen, thorax and head from top to bottom, eight legs of two pieces on the thorax.
+/// A spider seen from above: abdomen, thorax and head from top to bottom, eight legs of two segments on the thorax.
 fn spider() -> Vec<Row<'static>> {
     const LEGS: [(&str, &str, &str, &str, f64, f64); 4] = [
         ("r0", "s0", "l0", "m0", 40.0, 90.0),
@@ -169,8 +169,8 @@ fn a_spider_faces_the_viewer_on_eight_legs() {
     let mut expected: Vec<String> = ["body 1", "body", "head"].map(str::to_owned).into();
     for pair in ["", " 1", " 2", " 3"] {
         for side in ["right", "left"] {
-            for piece in ["upper", "lower"] {
-                expected.push(format!("{side} leg {piece}{pair}"));
+            for segment in ["upper", "lower"] {
+                expected.push(format!("{side} leg {segment}{pair}"));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::labels::{Class, Label, Piece, Side, label_figure};
+use crate::labels::{Class, Label, LimbSegment, Side, label_figure};
 use crate::labels::{Figure, FigurePart};
 
 /// A part: its name, what it hangs on, its joint, its tip, and half its width.
@@ -40,13 +40,13 @@ pub(crate) fn short(label: &Option<Label>) -> String {
     let mut words = Vec::new();
     words.extend(label.side.map(Side::name));
     words.push(label.class.name());
-    words.extend(match label.piece {
-        Piece::Whole => None,
-        Piece::Collar => Some("collar"),
-        Piece::Upper => Some("upper"),
-        Piece::Lower => Some("lower"),
-        Piece::End => Some("end"),
-        Piece::Beyond => Some("beyond"),
+    words.extend(match label.segment {
+        LimbSegment::Whole => None,
+        LimbSegment::Collar => Some("collar"),
+        LimbSegment::Upper => Some("upper"),
+        LimbSegment::Lower => Some("lower"),
+        LimbSegment::End => Some("end"),
+        LimbSegment::Beyond => Some("beyond"),
     });
     let mut text = words.join(" ");
     if label.pair > 0 {
@@ -75,7 +75,7 @@ pub(super) fn check(rows: &[Row<'_>], expected: &[&str]) {
     }
 }
 
-/// The thesis' human: trunk in two, limbs of one piece, legs without telling names.
+/// The thesis' human: trunk in two, limbs of one segment, legs without telling names.
 const HUMAN: [Row<'static>; 7] = [
     ("Lbody", "", [50.0, 60.0], [50.0, 45.0], 12.0),
     ("U-1", "Lbody", [42.0, 45.0], [40.0, 0.0], 5.0),

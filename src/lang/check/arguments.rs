@@ -199,10 +199,11 @@ impl Checker<'_> {
             1 => format!("`{}`", callee.name),
             _ => format!("`{}` of `{}`", parameter.name, callee.name),
         };
-        let message = match is_usable {
-            true => format!("{owner} cannot be {value}"),
+        let message = if is_usable {
+            format!("{owner} cannot be {value}")
+        } else {
             // Up to 300 digits otherwise.
-            false => format!("{owner} cannot be {value:e}"),
+            format!("{owner} cannot be {value:e}")
         };
         let expected = if is_usable || !bounds.contains(value) {
             bounds.describe()

@@ -205,7 +205,7 @@ fn orbiting() -> Model {
     scene.add(NewNode {
         mesh: Some(Mesh {
             primitives: vec![Primitive {
-                pieces: vec![ball.into()],
+                patches: vec![ball.into()],
                 material,
             }],
         }),

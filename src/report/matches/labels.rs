@@ -34,7 +34,7 @@ struct Middle {
 }
 
 /// A number in the picture.
-struct Placed {
+struct NumberBox {
     middle: [f32; 2],
     /// Half its width and height.
     half: [f32; 2],
@@ -75,7 +75,7 @@ impl Labels {
     /// Writes the numbers of all regions that are visible and have room for them.
     pub(super) fn write(&self, pixmap: &mut Pixmap) {
         let middles = self.middles();
-        let mut placed: Vec<Placed> = Vec::new();
+        let mut boxes: Vec<NumberBox> = Vec::new();
         let mut beside: Vec<(u32, Middle)> = Vec::new();
         for track in &self.tracks {
             let Some(middle) = middles.get(*track as usize).copied().flatten() else {
@@ -89,17 +89,17 @@ impl Labels {
                 continue;
             }
             digits::write(pixmap, &text, middle.at, height);
-            placed.push(Placed::new(&text, middle.at, height));
+            boxes.push(NumberBox::new(&text, middle.at, height));
         }
         for (track, middle) in beside {
             let text = number(track);
-            let Some(at) = self.free_place(&text, middle, &placed) else {
+            let Some(at) = self.free_place(&text, middle, &boxes) else {
                 continue;
             };
-            let own = Placed::new(&text, at, LEAST_DIGITS);
+            let own = NumberBox::new(&text, at, LEAST_DIGITS);
             lead(pixmap, middle.at, own.side_towards(middle.at));
             digits::write(pixmap, &text, at, LEAST_DIGITS);
-            placed.push(own);
+            boxes.push(own);
         }
     }
 
@@ -160,7 +160,7 @@ impl Labels {
     }
 
     /// A place near a region where a number lies on a single region or on the paper, and on no other number.
-    fn free_place(&self, text: &str, region: Middle, placed: &[Placed]) -> Option<[f32; 2]> {
+    fn free_place(&self, text: &str, region: Middle, boxes: &[NumberBox]) -> Option<[f32; 2]> {
         let directions = (0..DIRECTIONS).map(|index| {
             let turn = index as f32 / DIRECTIONS as f32 * std::f32::consts::TAU;
             turn.sin_cos()
@@ -172,13 +172,13 @@ impl Labels {
                 .map(move |(y, x)| [region.at[0] + x * far, region.at[1] + y * far])
         });
         places.into_iter().find(|at| {
-            let own = Placed::new(text, *at, LEAST_DIGITS);
-            placed.iter().all(|other| !own.overlaps(other)) && self.is_even(&own)
+            let own = NumberBox::new(text, *at, LEAST_DIGITS);
+            boxes.iter().all(|other| !own.overlaps(other)) && self.is_even(&own)
         })
     }
 
     /// Whether all pixels of a box show the same.
-    fn is_even(&self, place: &Placed) -> bool {
+    fn is_even(&self, place: &NumberBox) -> bool {
         let edge = |axis: usize, sign: f32| place.middle[axis] + sign * place.half[axis];
         let inside = (0..2)
             .all(|axis| edge(axis, -1.0) >= 0.0 && edge(axis, 1.0) < self.size[axis] as f32 - 1.0);
@@ -194,7 +194,7 @@ impl Labels {
     }
 }
 
-impl Placed {
+impl NumberBox {
     fn new(text: &str, middle: [f32; 2], height: f32) -> Self {
         let half = [digits::width(text, height), height].map(|side| side / 2.0 + ROOM);
         Self { middle, half }

@@ -13,8 +13,9 @@ use resvg::tiny_skia::{
     Color, FillRule, FilterQuality, Mask, Paint, Path, PathBuilder, Pattern, Pixmap, PixmapPaint,
     SpreadMode, Stroke, Transform,
 };
+use typed_index_collections::TiVec;
 
-use crate::billboard::{Character, TrackId, View};
+use crate::billboard::{Character, RegionId, TrackId, View, ViewId};
 use crate::geometry::Outline;
 
 /// The height of a view, if there is room, pixels.
@@ -82,8 +83,8 @@ pub fn picture_of_matches(characters: &[Character]) -> Option<RgbaImage> {
 
 /// The views of a character that show something.
 fn cells(character: &Character) -> Vec<Cell<'_>> {
-    let views = character.views.iter().enumerate();
-    let cell = |(index, view): (usize, &'_ View)| {
+    let views = character.views.iter_enumerated();
+    let cell = |(index, view): (ViewId, &'_ View)| {
         let (low, high) = view.bounds()?;
         let size = high - low;
         let is_drawable = size.is_finite() && size.max_element() > 0.0;
@@ -119,7 +120,7 @@ fn cell_height(height: f64) -> u32 {
 /// A view, and what of the drawing it shows.
 struct Cell<'a> {
     character: &'a Character,
-    view: usize,
+    view: ViewId,
     /// The corner and the size of the box around its regions, drawing units.
     low: DVec2,
     size: DVec2,
@@ -195,9 +196,9 @@ impl Cell<'_> {
     }
 
     /// Per region of the view its track.
-    fn tracks(&self) -> Vec<Option<TrackId>> {
+    fn tracks(&self) -> TiVec<RegionId, Option<TrackId>> {
         let count = self.character.views[self.view].regions.len();
-        let mut tracks = vec![None; count];
+        let mut tracks = TiVec::from(vec![None; count]);
         for (index, track) in self.character.matching.tracks.iter_enumerated() {
             if let Some(region) = track.regions[self.view] {
                 tracks[region] = Some(index);

@@ -1,15 +1,15 @@
-//! Arms of one piece on motions that live from the elbow.
+//! Arms of one segment on motions that live from the elbow.
 
 use super::{Follow, Matching, Problem};
-use crate::labels::{Anatomy, Class, Limb, Piece};
+use crate::labels::{Anatomy, Class, Limb, LimbSegment};
 use crate::mocap::{Clip, Pose};
 
 /// How many frames of a clip are looked at.
 const FRAMES: usize = 64;
-/// The end of an arm of one piece may be this far from where it should be, in the median, as a share of the arm's length.
+/// The end of an arm of one segment may be this far from where it should be, in the median, as a share of the arm's length.
 const MAX_ERROR: f64 = 0.25;
 
-/// The arms of one piece whose ends would be far from the actor's hands: the drawn arm is always stretched, the actor's elbow is
+/// The arms of one segment whose ends would be far from the actor's hands: the drawn arm is always stretched, the actor's elbow is
 /// bent. `anatomy` belongs to the clip's skeleton.
 pub fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> Vec<Problem> {
     let is_stretched = |part: &usize| {
@@ -17,7 +17,9 @@ pub fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> Vec<Pro
         let follow = part.drive.map(|drive| drive.follow);
         let label = part.label.as_ref();
         follow == Some(Follow::Direction)
-            && label.is_some_and(|label| (label.class, label.piece) == (Class::Arm, Piece::Whole))
+            && label.is_some_and(|label| {
+                (label.class, label.segment) == (Class::Arm, LimbSegment::Whole)
+            })
     };
     let arms: Vec<usize> = (0..matching.parts.len()).filter(is_stretched).collect();
     if arms.is_empty() || clip.frames() == 0 {

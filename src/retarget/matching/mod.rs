@@ -12,7 +12,7 @@ use typed_index_collections::TiSlice;
 
 use crate::labels::Figure;
 use crate::labels::{
-    Anatomy, Carry, Class, Facing, Label, LabeledFigure, Limb, Piece, Side, Tip, label_drawn,
+    Anatomy, Carry, Class, Facing, Label, LabeledFigure, Limb, LimbSegment, Side, Tip, label_drawn,
 };
 use crate::mocap::{JointId, Skeleton, Transform};
 pub use elbows::bent_arms;
@@ -62,7 +62,7 @@ pub enum Follow {
     /// It turns by as much as the joint has turned from its rest, starting from the drawn pose: trunk, neck, head. If there is a
     /// tip, as for a limb that is splayed, it turns like the chain from the joint to the tip, from where that is on average.
     Change,
-    /// Like a change, but it leans by as much as the line from the hips to the middle of the shoulders: a trunk of one piece.
+    /// Like a change, but it leans by as much as the line from the hips to the middle of the shoulders: a trunk of one segment.
     Trunk {
         /// The joint of the hips.
         hips: JointId,
@@ -137,7 +137,7 @@ pub enum Problem {
         /// The parts that it would drive.
         parts: Vec<usize>,
     },
-    /// An arm is drawn in one piece, and the motion bends its elbow so much that the arm's end is far from where it should be.
+    /// An arm is drawn in one segment, and the motion bends its elbow so much that the arm's end is far from where it should be.
     BentArm {
         /// The part.
         part: usize,
@@ -150,12 +150,12 @@ pub enum Problem {
 
 /// Matches a figure with a skeleton: parts and joints with equal labels belong together; `Bone` overrides.
 ///
-/// A limb of one piece follows the whole chain, shoulder to wrist or hip to ankle, and takes a hand or foot along. Of two
-/// pieces one follows the upper and one the lower bone; a third is the hand or foot. Pairs of legs are counted from the hind end.
+/// A limb of one segment follows the whole chain, shoulder to wrist or hip to ankle, and takes a hand or foot along. Of two
+/// segments one follows the upper and one the lower bone; a third is the hand or foot. Pairs of legs are counted from the hind end.
 /// If the skeleton has one pair, every second pair follows the other side's leg; if it has more, each pair follows its own, and
-/// those beyond follow the other side's legs, beginning with the hind ones again. Arms never swap sides. A trunk of one piece
+/// those beyond follow the other side's legs, beginning with the hind ones again. Arms never swap sides. A trunk of one segment
 /// turns with the chest, to which head and arms are attached, and leans with the line from the hips to the shoulders; several
-/// pieces are spread over the spine, the topmost on the chest. Hips follow the hips. Splayed limbs keep their drawn pose and
+/// segments are spread over the spine, the topmost on the chest. Hips follow the hips. Splayed limbs keep their drawn pose and
 /// follow only the change, unless `Carry` says otherwise. `anatomy` belongs to the skeleton.
 pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
     let LabeledFigure {
@@ -240,9 +240,9 @@ pub fn joints_named(skeleton: &Skeleton, name: &str) -> Vec<JointId> {
 struct Matcher<'a> {
     skeleton: &'a Skeleton,
     anatomy: &'a Anatomy,
-    /// How many pieces the figure's trunk, neck and tail have.
-    pieces: [usize; 3],
-    /// The limbs of one piece: class, side and pair.
+    /// How many segments the figure's trunk, neck and tail have.
+    segments: [usize; 3],
+    /// The limbs of one segment: class, side and pair.
     whole: BTreeSet<(Class, Option<Side>, usize)>,
 }
 
@@ -258,11 +258,11 @@ impl<'a> Matcher<'a> {
         Self {
             skeleton,
             anatomy,
-            pieces: [Class::Body, Class::Neck, Class::Tail].map(count),
+            segments: [Class::Body, Class::Neck, Class::Tail].map(count),
             whole: labels
                 .iter()
                 .flatten()
-                .filter(|label| label.class.is_limb() && label.piece == Piece::Whole)
+                .filter(|label| label.class.is_limb() && label.segment == LimbSegment::Whole)
                 .map(|label| (label.class, label.side, label.pair))
                 .collect(),
         }
@@ -275,7 +275,7 @@ impl<'a> Matcher<'a> {
         lacking: &mut Vec<Problem>,
     ) -> Result<(Drive, String), String> {
         let anatomy = self.anatomy;
-        let [body, neck, tail] = self.pieces;
+        let [body, neck, tail] = self.segments;
         let joint = match label.class {
             Class::Arm | Class::Leg => return self.limb(part, label, lacking),
             Class::Head => anatomy.head.or(anatomy.neck.last().copied()),
@@ -311,7 +311,7 @@ impl<'a> Matcher<'a> {
     ) -> Result<(Drive, String), String> {
         let why = &label.why;
         let own = label.side.ok_or_else(|| why.clone())?;
-        let is_last = matches!(label.piece, Piece::End | Piece::Beyond);
+        let is_last = matches!(label.segment, LimbSegment::End | LimbSegment::Beyond);
         if is_last && self.whole.contains(&(label.class, label.side, label.pair)) {
             return Err(format!("{why}; it follows a limb of one piece"));
         }
@@ -330,8 +330,12 @@ impl<'a> Matcher<'a> {
                 label.class.name()
             ));
         };
-        let (joint, tip) = bone(limb, label.piece)
-            .ok_or_else(|| format!("{why}; the motion has no {}", label.piece.name(label.class)))?;
+        let (joint, tip) = bone(limb, label.segment).ok_or_else(|| {
+            format!(
+                "{why}; the motion has no {}",
+                label.segment.name(label.class)
+            )
+        })?;
         let mut why = why.clone();
         if crossed {
             why += match pairs {
@@ -378,23 +382,23 @@ impl<'a> Matcher<'a> {
     }
 }
 
-/// The joint of a chain that drives one of several pieces; the last piece gets the last joint.
-fn spread(chain: &[JointId], piece: usize, pieces: usize) -> Option<JointId> {
-    let place = ((piece + 1) * chain.len()).div_ceil(pieces.max(1));
+/// The joint of a chain that drives one of several segments; the last segment gets the last joint.
+fn spread(chain: &[JointId], segment: usize, segments: usize) -> Option<JointId> {
+    let place = ((segment + 1) * chain.len()).div_ceil(segments.max(1));
     chain.get(place.checked_sub(1)?).copied()
 }
 
-/// Where the bone or chain that drives a piece begins and ends. Toes, and a hand or foot without a bone, turn with their joint.
-fn bone(limb: &Limb, piece: Piece) -> Option<(JointId, Option<Tip>)> {
+/// Where the bone or chain that drives a segment begins and ends. Toes, and a hand or foot without a bone, turn with their joint.
+fn bone(limb: &Limb, segment: LimbSegment) -> Option<(JointId, Option<Tip>)> {
     let [lower, end] = [limb.lower, limb.end].map(|joint| joint.map(Tip::Joint));
     let pointing = |joint: Option<JointId>, tip: Option<Tip>| Some((joint?, Some(tip?)));
-    match piece {
-        Piece::Collar => pointing(limb.collar, Some(Tip::Joint(limb.upper))),
-        Piece::Whole => pointing(Some(limb.upper), end.or(limb.tip)),
-        Piece::Upper => pointing(Some(limb.upper), lower.or(end).or(limb.tip)),
-        Piece::Lower => pointing(limb.lower, end.or(limb.tip)),
-        Piece::End => Some((limb.end?, limb.tip)),
-        Piece::Beyond => Some((limb.toe?, None)),
+    match segment {
+        LimbSegment::Collar => pointing(limb.collar, Some(Tip::Joint(limb.upper))),
+        LimbSegment::Whole => pointing(Some(limb.upper), end.or(limb.tip)),
+        LimbSegment::Upper => pointing(Some(limb.upper), lower.or(end).or(limb.tip)),
+        LimbSegment::Lower => pointing(limb.lower, end.or(limb.tip)),
+        LimbSegment::End => Some((limb.end?, limb.tip)),
+        LimbSegment::Beyond => Some((limb.toe?, None)),
     }
 }
 

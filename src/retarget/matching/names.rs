@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
 use super::{Drive, Follow, Problem, bone};
-use crate::labels::{Anatomy, Class, JointTree, Piece, Tip, plain_names};
+use crate::labels::{Anatomy, Class, JointTree, LimbSegment, Tip, plain_names};
 use crate::mocap::{JointId, Skeleton};
 
 /// How many names are suggested for an unknown one.
@@ -111,11 +111,16 @@ impl<'a> Names<'a> {
 
     /// The end of a joint's bone: as its limb has it, else where its longest chain continues.
     fn own_bone(&self, joint: JointId, anatomy: &Anatomy) -> Option<Tip> {
-        let pieces = [Piece::Collar, Piece::Upper, Piece::Lower, Piece::End];
+        let segments = [
+            LimbSegment::Collar,
+            LimbSegment::Upper,
+            LimbSegment::Lower,
+            LimbSegment::End,
+        ];
         let of_limbs = anatomy
             .limbs
             .iter()
-            .flat_map(|limb| pieces.map(|piece| bone(limb, piece)));
+            .flat_map(|limb| segments.map(|segment| bone(limb, segment)));
         of_limbs
             .flatten()
             .find(|(from, _)| *from == joint)

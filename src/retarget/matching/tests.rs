@@ -89,7 +89,7 @@ fn limbs_in_pieces_follow_their_bones() {
         "LeftHip > LeftKnee",
         "LeftKnee > LeftAnkle",
         "RightShoulder > RightWrist",
-        // An arm of one piece takes its hand along.
+        // An arm of one segment takes its hand along.
         "-",
     ];
     check(&human, &boxing(), &expected);

@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 use glam::DVec2;
 use robust::{Coord, orient2d};
 
-use search::Place;
+use search::PointLocation;
 
 /// In place of a half-edge or a triangle that does not exist.
 const NONE: u32 = u32::MAX;
@@ -128,12 +128,12 @@ impl Delaunay {
     /// Adds a point and returns its number, or that of a point in the same place; `None` outside the outline. The search for its
     /// place begins at the point `near`.
     pub(super) fn insert(&mut self, at: DVec2, near: u32) -> Option<u32> {
-        let place = self.find(at, self.vertices[near as usize].edge);
+        let location = self.find(at, self.vertices[near as usize].edge);
         let is_inside = |edge: u32| self.is_inside[triangle(edge)];
         let vertex = self.vertices.len() as u32;
-        match place {
-            Place::At(known) => return Some(known),
-            Place::In(edge) if is_inside(edge) => {
+        match location {
+            PointLocation::At(known) => return Some(known),
+            PointLocation::In(edge) if is_inside(edge) => {
                 self.vertices.push(Vertex {
                     at,
                     edge,
@@ -141,7 +141,7 @@ impl Delaunay {
                 });
                 self.split_triangle(edge & !3, vertex);
             }
-            Place::On(edge) if is_inside(edge) || is_inside(self.edge(edge).twin) => {
+            PointLocation::On(edge) if is_inside(edge) || is_inside(self.edge(edge).twin) => {
                 self.vertices.push(Vertex {
                     at,
                     edge,
@@ -149,7 +149,7 @@ impl Delaunay {
                 });
                 self.split_edge(edge, vertex);
             }
-            Place::In(_) | Place::On(_) => return None,
+            PointLocation::In(_) | PointLocation::On(_) => return None,
         }
         self.restore::<false>();
         Some(vertex)
@@ -161,8 +161,8 @@ impl Delaunay {
         let mut crossed = Vec::new();
         while from != to {
             let edge = match self.towards(from, to) {
-                Place::On(edge) | Place::At(edge) => edge,
-                Place::In(first) => {
+                PointLocation::On(edge) | PointLocation::At(edge) => edge,
+                PointLocation::In(first) => {
                     let Some(end) = self.crossed(from, to, first, &mut crossed) else {
                         return false;
                     };

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::LayForm;
-use super::ground::{Level, Place, Target};
+use super::ground::{BodyInFrame, Level, Target};
 use crate::solid::heights::Heights;
 use crate::solid::inflate::Mesh;
 
@@ -239,8 +239,8 @@ impl<'a> Cover<'a> {
                 (self.at(corner).front - own).abs()
             })
         };
-        for place in target.ground.visible() {
-            let corners = place.corners([low, high], Place::front_heights);
+        for body in target.ground.visible() {
+            let corners = body.corners([low, high], BodyInFrame::front_heights);
             corners.for_each(|corner| add(corner, &apart));
         }
         let around = || target.ground.wraps.iter().chain(&target.ground.behind);
@@ -249,8 +249,8 @@ impl<'a> Cover<'a> {
                 let own = self.interpolated(corner, |level| level.back)?;
                 Some((self.at(corner).back - own).abs())
             };
-            for place in around() {
-                let corners = place.corners([low, high], Place::back_heights);
+            for body in around() {
+                let corners = body.corners([low, high], BodyInFrame::back_heights);
                 corners.for_each(|corner| add(corner, &apart));
             }
         }

@@ -208,8 +208,8 @@ fn border(rings: &[Vec<DVec2>], target: &Target<'_>, tolerance: f64) -> Points {
             let to = ring[(index + 1) % ring.len()];
             crossings.clear();
             if points.points.len() < MAX_BORDER {
-                for place in target.ground.visible() {
-                    place.crossings(*from, to, &mut crossings);
+                for body in target.ground.visible() {
+                    body.crossings(*from, to, &mut crossings);
                 }
             }
             if crossings.is_empty() {

@@ -4,15 +4,15 @@ use glam::{DAffine2, DVec2};
 
 use super::cover::flat;
 use super::rim::Rim;
-use super::{Lay, LayForm, Placed};
+use super::{BodyHeights, Lay, LayForm};
 use crate::geometry::{EdgeRanges, Intervals, LINES, Outline, Scanlines, bounds};
 use crate::solid::Solid;
 use crate::solid::heights::Heights;
 use crate::solid::inflate::Mesh;
 
 /// A body that another one lies on or around, as seen from that.
-pub(super) struct Place {
-    pub(super) placed: Placed,
+pub(super) struct BodyInFrame {
+    pub(super) body: BodyHeights,
     /// From the frame of the other one.
     pub(super) to: DAffine2,
     pub(super) is_given: bool,
@@ -22,30 +22,30 @@ pub(super) struct Place {
 /// What a solid lies on, around and behind.
 pub(super) struct Ground {
     /// The topmost first.
-    below: Vec<Place>,
+    below: Vec<BodyInFrame>,
     /// Those of them that are volumes, and those that others do not hide from the front.
     volumes: Vec<usize>,
     visible: Vec<usize>,
-    pub(super) wraps: Vec<Place>,
-    pub(super) behind: Vec<Place>,
+    pub(super) wraps: Vec<BodyInFrame>,
+    pub(super) behind: Vec<BodyInFrame>,
 }
 
-impl Place {
+impl BodyInFrame {
     /// The front over a point, where the body is, and the number of the triangle there.
     fn front(&self, point: DVec2) -> Option<(f64, u32)> {
-        self.placed.front(self.to.transform_point2(point))
+        self.body.front(self.to.transform_point2(point))
     }
 
     fn back(&self, point: DVec2) -> Option<f64> {
-        self.placed.back(self.to.transform_point2(point))
+        self.body.back(self.to.transform_point2(point))
     }
 
     pub(super) fn front_heights(&self) -> &Heights {
-        &self.placed.heights.front
+        &self.body.heights.front
     }
 
     pub(super) fn back_heights(&self) -> &Heights {
-        self.placed.heights.back()
+        self.body.heights.back()
     }
 
     /// Where a line crosses edges of the front, as shares of its length: in no order, some of them several times.
@@ -70,9 +70,9 @@ impl Place {
 impl Ground {
     /// What a solid with this outline lies on, the topmost first, around and behind.
     pub(super) fn new(
-        below: Vec<Place>,
-        wraps: Vec<Place>,
-        behind: Vec<Place>,
+        below: Vec<BodyInFrame>,
+        wraps: Vec<BodyInFrame>,
+        behind: Vec<BodyInFrame>,
         outline: &Outline,
     ) -> Self {
         let volumes = (0..below.len()).filter(|index| !below[*index].is_detail);
@@ -86,15 +86,15 @@ impl Ground {
     }
 
     /// Those that it lies on and that others do not hide from the front.
-    pub(super) fn visible(&self) -> impl Iterator<Item = &Place> {
+    pub(super) fn visible(&self) -> impl Iterator<Item = &BodyInFrame> {
         self.visible.iter().map(|index| &self.below[*index])
     }
 
     /// The front of what lies below a point.
     pub(super) fn front(&self, point: DVec2) -> Option<f64> {
         let mut highest = Highest::default();
-        for place in &self.below {
-            highest.add(place, place.front(point));
+        for body in &self.below {
+            highest.add(body, body.front(point));
             if highest.is_final {
                 break;
             }
@@ -106,14 +106,14 @@ impl Ground {
     fn below(&self, point: DVec2, bulge: f64) -> Option<Below> {
         let (mut all, mut volumes) = (Highest::default(), Highest::default());
         let mut triangle = None;
-        for (index, place) in self.below.iter().enumerate() {
-            if place.is_detail && all.is_final {
+        for (index, body) in self.below.iter().enumerate() {
+            if body.is_detail && all.is_final {
                 continue;
             }
-            let found = place.front(point);
-            all.add(place, found);
-            if !place.is_detail {
-                volumes.add(place, found);
+            let found = body.front(point);
+            all.add(body, found);
+            if !body.is_detail {
+                volumes.add(body, found);
             }
             if volumes.is_final || (all.is_final && bulge == 0.0) {
                 triangle = found.filter(|_| index == 0).map(|(_, triangle)| triangle);
@@ -137,13 +137,13 @@ impl Ground {
 
     /// The depth of the nearest border of what lies directly below.
     fn nearest(&self, point: DVec2) -> Option<f64> {
-        let nearest = |place: &Place| {
-            let Placed {
+        let nearest = |body: &BodyInFrame| {
+            let BodyHeights {
                 heights,
                 depth,
                 factor,
-            } = &place.placed;
-            let height = heights.front.nearest(place.to.transform_point2(point))?;
+            } = &body.body;
+            let height = heights.front.nearest(body.to.transform_point2(point))?;
             Some(depth + factor * height)
         };
         self.volumes
@@ -152,7 +152,7 @@ impl Ground {
     }
 }
 
-/// The highest front over a point, of places that are added in their order, the topmost first.
+/// The highest front over a point, of bodies that are added in their order, the topmost first.
 #[derive(Default)]
 struct Highest {
     front: Option<f64>,
@@ -161,18 +161,18 @@ struct Highest {
 }
 
 impl Highest {
-    /// Adds a place with its front over the point.
-    fn add(&mut self, place: &Place, front: Option<(f64, u32)>) {
+    /// Adds a body with its front over the point.
+    fn add(&mut self, body: &BodyInFrame, front: Option<(f64, u32)>) {
         if let Some((front, _)) = front.filter(|_| !self.is_final) {
             self.front = Some(self.front.map_or(front, |highest| highest.max(front)));
             // What is not given comes out in front of all that is below it itself.
-            self.is_final = !place.is_given;
+            self.is_final = !body.is_given;
         }
     }
 }
 
-/// Those of the places below an outline, the topmost first, that can be seen from the front, as far as a number of points tell.
-fn visible(below: &[Place], outline: &Outline) -> Vec<usize> {
+/// Those of the bodies below an outline, the topmost first, that can be seen from the front, as far as a number of points tell.
+fn visible(below: &[BodyInFrame], outline: &Outline) -> Vec<usize> {
     if below.len() < 2 {
         return (0..below.len()).collect();
     }
@@ -188,12 +188,12 @@ fn visible(below: &[Place], outline: &Outline) -> Vec<usize> {
         points.push(DVec2::new(x, lines.place(line)))
     });
     let mut visible = Vec::new();
-    for (index, place) in below.iter().enumerate() {
+    for (index, body) in below.iter().enumerate() {
         let mut is_visible = false;
         points.retain(|point| {
-            let is_over = place.front(*point).is_some();
+            let is_over = body.front(*point).is_some();
             is_visible |= is_over;
-            !is_over || place.is_given
+            !is_over || body.is_given
         });
         if is_visible {
             visible.push(index);
@@ -207,7 +207,7 @@ pub(super) enum Own<'a> {
     /// A line has no heights of its own.
     Line,
     /// One whose heights are looked up.
-    Placed(Placed),
+    Body(BodyHeights),
     /// One whose heights are known over every mesh of its outline, with the factor by which they are multiplied.
     Field(&'a Solid, f64),
 }
@@ -253,7 +253,7 @@ impl Target<'_> {
     pub(super) fn reach(&self, point: DVec2) -> Option<[f64; 2]> {
         match &self.own {
             Own::Line => Some([0.0; 2]),
-            Own::Placed(own) => Some(own.reach(point)),
+            Own::Body(own) => Some(own.reach(point)),
             Own::Field(..) => None,
         }
     }
@@ -353,8 +353,8 @@ impl Target<'_> {
                 ]
             }
         };
-        let behind = |places: &[Place]| {
-            let backs = places.iter().filter_map(|place| place.back(point));
+        let behind = |bodies: &[BodyInFrame]| {
+            let backs = bodies.iter().filter_map(|body| body.back(point));
             backs.reduce(f64::min)
         };
         let around = behind(&self.ground.wraps);

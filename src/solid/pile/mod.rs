@@ -21,7 +21,7 @@ use super::{Sides, Solid};
 use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 use field::Field;
-use ground::{Ground, Own, Place, Target};
+use ground::{BodyInFrame, Ground, Own, Target};
 use rim::Rim;
 
 pub use recent::{RecentHeights, SolidHeights};
@@ -121,14 +121,14 @@ pub enum LayForm {
 
 /// The heights of a body, and where its plane is.
 #[derive(Debug, Clone)]
-pub(super) struct Placed {
+pub(super) struct BodyHeights {
     heights: BothHeights,
     /// Added to the heights, which are multiplied by the factor before.
     depth: f64,
     factor: f64,
 }
 
-impl Placed {
+impl BodyHeights {
     /// Heights of a body that is lifted, which are depths already.
     fn lifted(heights: BothHeights) -> Self {
         Self {
@@ -215,7 +215,7 @@ impl Pile {
 
     /// A hash of all that the surface of a body is made from; those of earlier bodies, and of the solids by themselves, are known.
     fn key_of(&self, body: usize) -> u128 {
-        let place = |hasher: &mut dyn Hasher, index: usize| {
+        let hash_position = |hasher: &mut dyn Hasher, index: usize| {
             let Body {
                 solid: _,
                 to_plane,
@@ -234,7 +234,7 @@ impl Pile {
             hasher.write_u8((*is_detail).into());
         };
         long_hash(|hasher| {
-            place(hasher, body);
+            hash_position(hasher, body);
             let Some(lay) = &self.bodies[body].lay else {
                 return;
             };
@@ -267,15 +267,15 @@ impl Pile {
                 }
             }
             for later in behind {
-                place(hasher, *later);
+                hash_position(hasher, *later);
             }
         })
     }
 
     /// A body as it is by itself, its plane at its depth.
-    fn unlifted(&self, index: usize) -> Placed {
+    fn unlifted(&self, index: usize) -> BodyHeights {
         let body = &self.bodies[index];
-        Placed {
+        BodyHeights {
             heights: self.recent.of_solid(self.solids[index], &body.solid),
             depth: body.depth,
             factor: body.flattened,
@@ -283,7 +283,7 @@ impl Pile {
     }
 
     /// Makes a body that others lie on, and all that it lies on, and adds where they are.
-    fn place(&self, body: usize, known: &mut FxHashMap<usize, Placed>) {
+    fn place(&self, body: usize, known: &mut FxHashMap<usize, BodyHeights>) {
         // Not by recursion, as piles can be higher than a stack is deep.
         let mut open = vec![body];
         while let Some(&top) = open.last() {
@@ -302,30 +302,31 @@ impl Pile {
                 (open.len() == before).then(|| self.recent.field(key, || self.field(top, known)))
             });
             if let Some(field) = field {
-                let lifted = field.map(|field| Placed::lifted(self.recent.of_field(key, &field)));
+                let lifted =
+                    field.map(|field| BodyHeights::lifted(self.recent.of_field(key, &field)));
                 known.insert(top, lifted.unwrap_or_else(|| self.unlifted(top)));
             }
         }
     }
 
     /// The height fields of a body that is lifted by others, whose heights are known; `None` if nothing lifts it after all.
-    fn field(&self, index: usize, known: &FxHashMap<usize, Placed>) -> Option<Field> {
+    fn field(&self, index: usize, known: &FxHashMap<usize, BodyHeights>) -> Option<Field> {
         let body = &self.bodies[index];
         let lay = body.lay.as_ref()?;
-        let place = |other: &usize, placed: Placed| Place {
-            placed,
+        let in_frame = |other: &usize, heights: BodyHeights| BodyInFrame {
+            body: heights,
             to: self.bodies[*other].to_plane.inverse() * body.to_plane,
             is_given: self.bodies[*other].is_given,
             is_detail: self.bodies[*other].is_detail,
         };
-        let lies_on = |other: &usize| place(other, known[other].clone());
+        let lies_on = |other: &usize| in_frame(other, known[other].clone());
         let behind = lay.behind.iter();
         let outline = self.outline(body);
         let ground = Ground::new(
             lay.below.iter().rev().map(lies_on).collect(),
             lay.wraps.iter().map(lies_on).collect(),
             behind
-                .map(|other| place(other, self.unlifted(*other)))
+                .map(|other| in_frame(other, self.unlifted(*other)))
                 .collect(),
             &outline,
         );
@@ -333,11 +334,11 @@ impl Pile {
             own: match lay.form {
                 LayForm::Ink => Own::Line,
                 // Whether a volume is lifted at all is known before its mesh.
-                LayForm::Volume => Own::Placed(self.unlifted(index)),
+                LayForm::Volume => Own::Body(self.unlifted(index)),
                 _ if lay.bulge > 0.0 && body.solid.profile.height_field().is_some() => {
                     Own::Field(&body.solid, body.flattened)
                 }
-                _ => Own::Placed(self.unlifted(index)),
+                _ => Own::Body(self.unlifted(index)),
             },
             depth: body.depth,
             lay,

@@ -21,7 +21,7 @@ const MAX_SAMPLES: f64 = 8192.0;
 /// A front, depth in the drawing.
 type Sample = GeomWithData<[f64; 2], f64>;
 /// The index of the volume that a point lies on.
-type Place = GeomWithData<[f64; 2], Option<usize>>;
+type VolumeSample = GeomWithData<[f64; 2], Option<usize>>;
 
 /// The front of a hoop, where a line is one.
 #[derive(Debug)]
@@ -48,34 +48,38 @@ impl Rim {
             return None;
         }
         let mut on = Vec::new();
-        let mut places = Vec::new();
+        let mut volume_samples = Vec::new();
         for [from, to] in edges() {
             let count = (from.distance(to) / apart).ceil().max(1.0);
             for index in 0..count as usize {
                 let point = from.lerp(to, index as f64 / count);
-                places.push(Place::new(point.to_array(), ground.top(point)));
+                volume_samples.push(VolumeSample::new(point.to_array(), ground.top(point)));
                 if let Some(front) = ground.front(point) {
                     on.push(Sample::new(point.to_array(), front + step));
                 }
             }
         }
-        let first = places.first()?.data;
-        if places.iter().all(|place| place.data == first) {
+        let first = volume_samples.first()?.data;
+        if volume_samples
+            .iter()
+            .all(|volume_sample| volume_sample.data == first)
+        {
             return None;
         }
         let on = RTree::bulk_load(on);
-        let places = RTree::bulk_load(places);
+        let volume_samples = RTree::bulk_load(volume_samples);
         let within = reach * reach;
-        let sample = |place: &Place| {
-            let mut near = places.locate_within_distance(*place.geom(), width * width);
-            if near.all(|other| other.data == place.data) {
+        let sample = |volume_sample: &VolumeSample| {
+            let mut near =
+                volume_samples.locate_within_distance(*volume_sample.geom(), width * width);
+            if near.all(|other| other.data == volume_sample.data) {
                 return None;
             }
-            let near = on.locate_within_distance(*place.geom(), within);
+            let near = on.locate_within_distance(*volume_sample.geom(), within);
             let highest = near.map(|sample| sample.data).reduce(f64::max)?;
-            Some(Sample::new(*place.geom(), highest))
+            Some(Sample::new(*volume_sample.geom(), highest))
         };
-        let samples: Vec<Sample> = places.iter().filter_map(sample).collect();
+        let samples: Vec<Sample> = volume_samples.iter().filter_map(sample).collect();
         (!samples.is_empty()).then(|| Self {
             samples: RTree::bulk_load(samples),
             reach,

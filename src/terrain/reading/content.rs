@@ -6,7 +6,7 @@ use rustc_hash::FxHashSet;
 use super::grid::Grid;
 use super::materials::{Painted, Paints};
 use super::raster::{Item, MAX_PAINTS, Picture, paint_code};
-use crate::bind::{Bindings, PartKind, Place};
+use crate::bind::{Bindings, PartKind, StringHolder};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
@@ -43,8 +43,8 @@ pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
     let unused = bindings.strings.iter();
     let unused = unused.filter(|string| string.annotation == Annotation::Unused);
     let left_out: FxHashSet<usize> = unused
-        .filter_map(|string| match string.place {
-            Place::Shape(shape) => Some(shape),
+        .filter_map(|string| match string.holder {
+            StringHolder::Shape(shape) => Some(shape),
             _ => None,
         })
         .collect();

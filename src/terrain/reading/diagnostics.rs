@@ -267,13 +267,10 @@ pub(super) fn off_grid(
     }
     let (_, first) = found.first()?;
     let name = &bindings.layers[layer].name;
-    let message = match found.len() == count {
-        true if count == 1 => format!("the shape in `{name}` is off the grid"),
-        true => format!("all {count} rectangles in `{name}` are off the grid"),
-        false => format!(
-            "{} of {count} rectangles in `{name}` are off the grid",
-            found.len()
-        ),
+    let message = match found.len() {
+        1 if count == 1 => format!("the shape in `{name}` is off the grid"),
+        off if off == count => format!("all {count} rectangles in `{name}` are off the grid"),
+        off => format!("{off} of {count} rectangles in `{name}` are off the grid"),
     };
     let help = match (found.len() == count, common.flatten()) {
         (true, Some(_)) => {

@@ -22,7 +22,7 @@ pub(super) const MAX_PAINTS: usize = 1 << 24;
 /// Cells in a band.
 const BAND: usize = 1 << 20;
 /// The side of what is drawn at once, cells: the rasteriser's arithmetic is exact up to that size.
-const PIECE: usize = 4096;
+const SECTION: usize = 4096;
 
 /// The code of a paint.
 pub(super) fn paint_code(index: usize) -> Code {
@@ -109,7 +109,7 @@ pub(super) struct Canvas<'a> {
 
 impl<'a> Canvas<'a> {
     pub(super) fn new(grid: Grid, items: Vec<Item<'a>>) -> Self {
-        let height = (BAND / grid.columns.max(1)).clamp(1, PIECE);
+        let height = (BAND / grid.columns.max(1)).clamp(1, SECTION);
         let mut bands = vec![Vec::new(); grid.rows.div_ceil(height)];
         for (index, item) in items.iter().enumerate() {
             let [columns, rows] = item.reach(&grid);
@@ -176,17 +176,17 @@ impl Band<'_> {
     pub(super) fn draw(&self, mut each: impl FnMut(usize, usize, &[Code])) {
         let columns = self.canvas.grid.columns;
         let mut codes = Vec::new();
-        for left in (0..columns).step_by(PIECE) {
-            let width = PIECE.min(columns - left);
+        for left in (0..columns).step_by(SECTION) {
+            let width = SECTION.min(columns - left);
             codes.clear();
             codes.resize(width * self.rows, NOTHING);
-            let mut piece = Piece {
+            let mut section = BandSection {
                 codes: &mut codes,
                 corner: [left, self.first],
                 size: [width, self.rows],
             };
             for item in self.items {
-                piece.draw(&self.canvas.items[*item as usize], &self.canvas.grid);
+                section.draw(&self.canvas.items[*item as usize], &self.canvas.grid);
             }
             for (row, codes) in codes.chunks(width).enumerate() {
                 let place = row * columns + left;
@@ -197,13 +197,13 @@ impl Band<'_> {
 }
 
 /// A part of a band.
-struct Piece<'a> {
+struct BandSection<'a> {
     codes: &'a mut [Code],
     corner: [usize; 2],
     size: [usize; 2],
 }
 
-impl Piece<'_> {
+impl BandSection<'_> {
     fn draw(&mut self, item: &Item<'_>, grid: &Grid) {
         let [left, top] = self.corner;
         let [width, height] = self.size;
@@ -267,7 +267,7 @@ impl Piece<'_> {
         }
     }
 
-    /// An outline in pixels of the piece.
+    /// An outline in pixels of the section.
     fn path(&self, outline: &Outline, grid: &Grid) -> Option<Path> {
         let corner = self.corner.map(|at| at as f64);
         let mut path = PathBuilder::new();

@@ -25,7 +25,7 @@ use corners::Corners;
 use greedy::Rect;
 use mesh::Mesh;
 
-/// The triangles of all solids: per material the pieces of its surface, in tiles, about the map's middle at height 0.
+/// The triangles of all solids: per material the parts of its surface, in tiles, about the map's middle at height 0.
 /// `factor` is the ratio of a roof's height to its depth, `radius` the radius of bevels.
 pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8, Vec<Surface>)> {
     let grid = &context.grid;

@@ -63,7 +63,7 @@ fn every_outline_can_be_drawn() {
             assert_valid(&mesh, 2);
             for (view, line) in points.iter().enumerate() {
                 let line = [&line[..], &line[..1]].concat();
-                for width in half_widths(&mesh.points[view], &line) {
+                for width in half_widths(&mesh.points.raw[view], &line) {
                     assert!(width < 1.06, "{} {index}: {width}", pair.name);
                 }
                 // At corners the edges overlap on the inner side, and the outer one is round.
@@ -119,7 +119,7 @@ fn inner_lines_have_round_ends() {
     let matched = match_lines(&[straight.clone(), straight]);
     let mesh = line_mesh(&matched, &[10.0, 0.0], Ends::Free);
     assert_valid(&mesh, 2);
-    let (low, high) = mesh.points[0]
+    let (low, high) = mesh.points.raw[0]
         .iter()
         .fold((DVec2::MAX, DVec2::MIN), |(low, high), p| {
             (low.min(*p), high.max(*p))
@@ -142,7 +142,7 @@ fn a_corner_keeps_its_points_where_it_is_straight() {
     let mesh = line_mesh(&points, &[8.0, 8.0], Ends::Free);
     assert_valid(&mesh, 2);
     for (view, line) in points.iter().enumerate() {
-        for width in half_widths(&mesh.points[view], line) {
+        for width in half_widths(&mesh.points.raw[view], line) {
             assert!(width < 4.0 * 1.42, "{width}");
         }
         let area = ring_area(&mesh, &only(view, 2));
@@ -151,7 +151,7 @@ fn a_corner_keeps_its_points_where_it_is_straight() {
     }
     // The outer side of the corner is an arc.
     let corner = DVec2::new(50.0, 0.0);
-    let on_arc = mesh.points[0]
+    let on_arc = mesh.points.raw[0]
         .iter()
         .filter(|p| (p.distance(corner) - 4.0).abs() < 1e-9);
     assert!(on_arc.count() >= 4);

@@ -56,7 +56,7 @@ fn holes_stay_holes() {
     // Each hole keeps its place.
     for ring in &morph.rings[1..] {
         let middle = |view: usize| {
-            let points = ring.iter().map(|i| morph.points[view][*i as usize]);
+            let points = ring.iter().map(|i| morph.points.raw[view][*i as usize]);
             points.sum::<DVec2>() / ring.len() as f64
         };
         let moved = (middle(0) * DVec2::new(0.7, 1.0)).distance(middle(1));
@@ -105,11 +105,11 @@ fn holes_without_a_partner_shrink_to_a_point_inside() {
         assert_covered(&morph, 2);
         let shrunk = morph.rings.iter().filter_map(|ring| {
             let view = (0..2).find(|view| {
-                let points = &morph.points[*view];
+                let points = &morph.points.raw[*view];
                 ring.iter()
                     .all(|i| points[*i as usize] == points[ring[0] as usize])
             })?;
-            Some((view, morph.points[view][ring[0] as usize]))
+            Some((view, morph.points.raw[view][ring[0] as usize]))
         });
         let shrunk: Vec<(usize, DVec2)> = shrunk.collect();
         assert_eq!(shrunk.len(), 2);
@@ -142,7 +142,7 @@ fn polygons_are_paired_by_place_and_size() {
     assert_reproduced(&morph, &outlines, "row");
     assert_covered(&morph, 2);
     let middle = |ring: &Vec<u32>, view: usize| {
-        let points = ring.iter().map(|i| morph.points[view][*i as usize]);
+        let points = ring.iter().map(|i| morph.points.raw[view][*i as usize]);
         points.sum::<DVec2>() / ring.len() as f64
     };
     let moves: Vec<f64> = (morph.rings.iter())
@@ -194,13 +194,17 @@ fn a_view_without_the_region_has_a_point() {
     assert_valid(&morph, 3);
     assert_reproduced(
         &Morph {
-            points: morph.points[1..].to_vec(),
+            points: morph.points.raw[1..].to_vec().into(),
             ..morph.clone()
         },
         &[first, second],
         "two of three",
     );
-    assert!(morph.points[0].iter().all(|p| *p == morph.points[0][0]));
+    assert!(
+        morph.points.raw[0]
+            .iter()
+            .all(|p| *p == morph.points.raw[0][0])
+    );
 }
 
 fn named(points: &[(&str, f64, f64)]) -> Vec<(String, DVec2)> {
@@ -211,7 +215,7 @@ fn named(points: &[(&str, f64, f64)]) -> Vec<(String, DVec2)> {
 
 /// Where the point of the first view that is nearest to `from` is in the second.
 fn carried(morph: &Morph, from: DVec2) -> (f64, DVec2) {
-    let each = morph.points[0].iter().zip(&morph.points[1]);
+    let each = morph.points.raw[0].iter().zip(&morph.points.raw[1]);
     let distances = each.map(|(a, b)| (a.distance(from), *b));
     distances.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap()
 }
@@ -266,7 +270,7 @@ fn features_improve_smooth_contours() {
             let second = (0..named).map(|i| (i.to_string(), pair.map.transform_point2(at(i))));
             let morph = morph(&pair.outlines, &[first.collect(), second.collect()]);
             let extent = bounds(&pair.outlines[1]).map(|(low, high)| (high - low).max_element());
-            for (a, b) in morph.points[0].iter().zip(&morph.points[1]) {
+            for (a, b) in morph.points.raw[0].iter().zip(&morph.points.raw[1]) {
                 sum += pair.map.transform_point2(*a).distance(*b) / extent.unwrap();
                 count += 1.0;
             }

@@ -4,15 +4,17 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use rayon::prelude::*;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::labels::{Labels, Overlaps, Shape};
 use crate::billboard::matching::{Track, match_regions};
-use crate::billboard::place::{Frame, Placed, frames, place};
-use crate::billboard::region::{Direction, Region, View};
+use crate::billboard::place::{Frame, TrackPosition, frames, place};
+use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::billboard::shape::{Morph, morph};
 use crate::billboard::tests::generated::{Character, Drawn, character};
 use crate::billboard::turn::between;
 use crate::geometry::Ring;
+use crate::scene::ViewId;
 
 /// How many characters are measured.
 const CHARACTERS: u64 = 200;
@@ -73,21 +75,26 @@ fn drawn_picture(drawn: &Drawn, frame: &Frame) -> Labels {
 
 /// The picture of the model of two drawings from a direction. A region's label is its item in the first drawing that shows it.
 fn model_picture(drawn: &[Drawn; 2], frame: &Frame, direction: Direction) -> Labels {
-    let views: Vec<View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
+    let views: TiVec<ViewId, View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
     // Regions are matched without knowing where the middle is. Then the true one is used, for nothing else tells where the two
     // pictures of the character lie beside each other.
     let tracks = match_regions(&views, &frames(&views)).tracks;
 
-    let placed = place(&views, &[*frame; 2], &tracks, &[]);
-    let directions: Vec<Direction> = views.iter().map(|view| view.direction).collect();
+    let placed = place(
+        &views,
+        TiSlice::from_ref(&[*frame; 2]),
+        &tracks,
+        TiSlice::from_ref(&[]),
+    );
+    let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
     let turn = between(&directions);
     let weights = turn.weights([direction.theta, direction.phi]);
-    let shape = |(track, placed): (&Track, &Placed)| {
+    let shape = |(track, placed): (&Track, &TrackPosition)| {
         let morph = shape_of(track, &views);
-        let at = turn.place(&weights, &placed.in_views);
+        let at = turn.position(&weights, &placed.in_views);
         let point = |index: &u32| {
             let mut point = at.truncate();
-            for (view, weight) in weights.iter().enumerate() {
+            for (view, weight) in weights.iter_enumerated() {
                 let [right, up, _] = directions[view].axes();
                 let place = placed.in_views[view];
                 let middle = DVec2::new(place.dot(right), place.dot(up));
@@ -120,8 +127,8 @@ fn model_picture(drawn: &[Drawn; 2], frame: &Frame, direction: Direction) -> Lab
 }
 
 /// The shape of a track.
-fn shape_of(track: &Track, views: &[View]) -> Morph {
-    let outline = |(region, view): (&Option<usize>, &View)| {
+fn shape_of(track: &Track, views: &TiSlice<ViewId, View>) -> Morph {
+    let outline = |(region, view): (&Option<RegionId>, &View)| {
         region.map_or_else(Arc::default, |r| Arc::clone(&view.regions[r].outline))
     };
     let outlines: Vec<_> = track.regions.iter().zip(views).map(outline).collect();

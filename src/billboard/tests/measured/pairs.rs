@@ -10,19 +10,23 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec2;
+use typed_index_collections::TiVec;
 
 use crate::billboard::character::Character;
 use crate::billboard::matching::by_similarity::most_similar;
-use crate::billboard::matching::match_regions;
+use crate::billboard::matching::{Track, match_regions};
 use crate::billboard::place::frames;
-use crate::billboard::region::View;
+use crate::billboard::region::{RegionId, View};
 use crate::billboard::tests::generated::{character, directions};
 use crate::compile::{Compiled, Options, compile};
 use crate::geometry::contains;
 use crate::resolver::{LinkError, Resolver};
+use crate::scene::ViewId;
 
 /// How many generated characters are measured.
 const CHARACTERS: u64 = 200;
+/// The views of two pictures.
+const BOTH: [ViewId; 2] = [ViewId::FIRST, ViewId::SECOND];
 /// Around the table in the manual.
 const START: &str = "<!-- matched -->";
 const END: &str = "<!-- /matched -->";
@@ -148,18 +152,21 @@ struct Row {
 
 impl Row {
     /// Compares both methods. `answers` gives the regions of two views that show the same thing.
-    fn new(name: String, views: [&View; 2], answers: &[[usize; 2]]) -> Self {
-        let mut views = views.map(View::clone);
+    fn new(name: String, views: [&View; 2], answers: &[[RegionId; 2]]) -> Self {
+        let mut views = TiVec::from(views.map(View::clone).to_vec());
         for region in views.iter_mut().flat_map(|view| &mut view.regions) {
             // Names and equal labels would decide.
             region.name = None;
         }
         let frames = frames(&views);
-        let similar = most_similar([&views[0], &views[1]], [&frames[0], &frames[1]]);
+        let similar = most_similar(
+            BOTH.map(|view| &views[view]),
+            BOTH.map(|view| &frames[view]),
+        );
         let tracks = match_regions(&views, &frames).tracks;
-        let is_track = |[a, b]: &&[usize; 2]| {
-            let mut with = tracks.iter().filter(|t| t.regions[0] == Some(*a));
-            with.any(|track| track.regions[1] == Some(*b))
+        let is_track = |pair: &&[RegionId; 2]| {
+            let is_in = |track: &Track| BOTH.map(|view| track.regions[view]) == pair.map(Some);
+            tracks.iter().any(is_in)
         };
         Self {
             name,
@@ -206,20 +213,21 @@ impl Resolver for Files<'_> {
 }
 
 /// The region in front at a point of a view, drawing units.
-fn at(view: &View, point: [f64; 2]) -> usize {
-    let mut regions = view.regions.iter();
-    let is_there = regions.rposition(|region| contains(&region.outline, DVec2::from(point)));
+fn at(view: &View, point: [f64; 2]) -> RegionId {
+    let is_there = view
+        .regions
+        .rposition(|region| contains(&region.outline, DVec2::from(point)));
     is_there.unwrap_or_else(|| panic!("nothing at {point:?}"))
 }
 
 /// The answers that points give: each region at most once.
-fn by_points(views: [&View; 2], points: Answers) -> Vec<[usize; 2]> {
+fn by_points(views: [&View; 2], points: Answers) -> Vec<[RegionId; 2]> {
     let answers = points
         .iter()
         .map(|pair| [0, 1].map(|i| at(views[i], pair[i])));
-    let answers: Vec<[usize; 2]> = answers.collect();
+    let answers: Vec<[RegionId; 2]> = answers.collect();
     for side in [0, 1] {
-        let mut regions: Vec<usize> = answers.iter().map(|pair| pair[side]).collect();
+        let mut regions: Vec<RegionId> = answers.iter().map(|pair| pair[side]).collect();
         regions.sort_unstable();
         regions.dedup();
         assert_eq!(regions.len(), points.len(), "two points in one region");
@@ -228,7 +236,7 @@ fn by_points(views: [&View; 2], points: Answers) -> Vec<[usize; 2]> {
 }
 
 /// The answers that ids give: `lear-0` and `lear-1` are the same ear.
-fn by_ids(compiled: &Compiled, character: &Character, views: [usize; 2]) -> Vec<[usize; 2]> {
+fn by_ids(compiled: &Compiled, character: &Character, views: [ViewId; 2]) -> Vec<[RegionId; 2]> {
     let ids = views.map(|view| {
         let tracks = character.matching.tracks.iter().zip(&character.regions);
         let ids = tracks.filter_map(|(track, model)| {
@@ -239,7 +247,7 @@ fn by_ids(compiled: &Compiled, character: &Character, views: [usize; 2]) -> Vec<
         });
         ids.collect::<Vec<_>>()
     });
-    let pair = |(own, region): &(String, usize)| {
+    let pair = |(own, region): &(String, RegionId)| {
         let other = ids[1].iter().find(|(other, _)| other == own)?;
         Some([*region, other.1])
     };
@@ -255,11 +263,12 @@ fn examples() -> Vec<Row> {
         let [character] = &compiled.characters[..] else {
             panic!("{name} is one character");
         };
-        for last in 1..character.views.len() {
-            let [a, b] = [0, last].map(|view| &character.views[view]);
+        for last in character.views.keys().skip(1) {
+            let both = [ViewId::FIRST, last];
+            let [a, b] = both.map(|view| &character.views[view]);
             let answers = match name {
                 "bird" => by_points([a, b], BIRD),
-                _ => by_ids(&compiled, character, [0, last]),
+                _ => by_ids(&compiled, character, both),
             };
             let theta = b.direction.theta;
             let from = if theta == 0.0 { ", from above" } else { "" };
@@ -287,7 +296,7 @@ fn pictures() -> Vec<Row> {
         let [character] = &compiled.characters[..] else {
             panic!("{}: {:?}", pictures.name, compiled.diagnostics);
         };
-        let views = [0, 1].map(|view| &character.views[view]);
+        let views = BOTH.map(|view| &character.views[view]);
         let answers = by_points(views, pictures.answers);
         Row::new(pictures.name.to_owned(), views, &answers)
     };
@@ -299,11 +308,11 @@ fn generated() -> Vec<Row> {
         let character = character(seed);
         let drawn = directions(seed).map(|direction| character.true_view(direction));
         let [first, second] = &drawn;
-        let same = |(region, item): (usize, &usize)| {
-            let other = second.items.iter().position(|other| other == item)?;
+        let same = |(region, item): (RegionId, &usize)| {
+            let other = second.items.position(|other| other == item)?;
             Some([region, other])
         };
-        let answers: Vec<_> = first.items.iter().enumerate().filter_map(same).collect();
+        let answers: Vec<_> = first.items.iter_enumerated().filter_map(same).collect();
         let views = [&first.view, &second.view];
         Row::new(format!("seed {seed}"), views, &answers)
     };

@@ -43,11 +43,7 @@ fn hint(
         drawing, bindings, ..
     } = context;
     let given = bindings.given_depth(found.first()?.given)?;
-    let name = |part: usize| match bindings.parts[part].is_automatic() {
-        // Nobody knows an automatic name.
-        true => drawing.describe(bindings.parts[part].shape),
-        false => bindings.describe(drawing, part),
-    };
+    let name = |part: usize| bindings.describe_as_drawn(drawing, part);
     let mut others: Vec<usize> = found.iter().map(|found| found.other).collect();
     others.sort_unstable();
     others.dedup();

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{Delaunay, NONE, next, orientation, previous};
 
 /// Where a point lies.
-pub(super) enum Place {
+pub(super) enum PointLocation {
     /// In the triangle of a half-edge.
     In(u32),
     /// On a half-edge.
@@ -15,7 +15,7 @@ pub(super) enum Place {
 
 impl Delaunay {
     /// Walks from triangle to triangle towards a point.
-    pub(super) fn find(&self, point: DVec2, start: u32) -> Place {
+    pub(super) fn find(&self, point: DVec2, start: u32) -> PointLocation {
         let mut edge = start;
         let side = self.side(edge, point);
         // Whether the point is on the edge that the walk has come over.
@@ -35,9 +35,9 @@ impl Delaunay {
             } else if sides[1] < 0.0 {
                 edge = self.edge(other).twin;
             } else if is_on_edge || sides[0] == 0.0 || sides[1] == 0.0 {
-                return self.place(point, edge);
+                return self.location_in(point, edge);
             } else {
-                return Place::In(edge);
+                return PointLocation::In(edge);
             }
             is_on_edge = false;
         }
@@ -47,21 +47,21 @@ impl Delaunay {
                 .all(|side| self.side(*side, point) >= 0.0)
         };
         let mut triangles = (0..self.is_inside.len() as u32).map(|i| 4 * i);
-        self.place(point, triangles.find(contains).unwrap_or(edge))
+        self.location_in(point, triangles.find(contains).unwrap_or(edge))
     }
 
     /// Where in a triangle a point lies.
-    fn place(&self, point: DVec2, edge: u32) -> Place {
+    fn location_in(&self, point: DVec2, edge: u32) -> PointLocation {
         let edges = [edge, next(edge), previous(edge)];
         let Some(zero) = edges
             .into_iter()
             .find(|edge| self.side(*edge, point) == 0.0)
         else {
-            return Place::In(edge);
+            return PointLocation::In(edge);
         };
         let corners = edges.map(|edge| self.edge(edge).from);
         let corner = corners.into_iter().find(|corner| self.at(*corner) == point);
-        corner.map_or(Place::On(zero), Place::At)
+        corner.map_or(PointLocation::On(zero), PointLocation::At)
     }
 
     /// The half-edges that start at a point, counter-clockwise; of a corner of the square only some.
@@ -80,10 +80,10 @@ impl Delaunay {
             .find(|edge| self.edge(next(*edge)).from == to)
     }
 
-    /// What is between two points: an edge, the first edge in the way if it is in `Place::In`, or an edge to a point in the way.
-    pub(super) fn towards(&self, from: u32, to: u32) -> Place {
+    /// What is between two points: an edge, the first edge in the way if it is in `PointLocation::In`, or an edge to a point in the way.
+    pub(super) fn towards(&self, from: u32, to: u32) -> PointLocation {
         if let Some(edge) = self.between(from, to) {
-            return Place::At(edge);
+            return PointLocation::At(edge);
         }
         let (start, end) = (self.at(from), self.at(to));
         for edge in self.around_vertex(from) {
@@ -92,13 +92,13 @@ impl Delaunay {
             let left = self.at(self.edge(next(opposite)).from);
             let side = orientation(start, end, right);
             if side == 0.0 && (right - start).dot(end - start) > 0.0 {
-                return Place::On(edge);
+                return PointLocation::On(edge);
             }
             if side < 0.0 && orientation(start, end, left) > 0.0 {
-                return Place::In(opposite);
+                return PointLocation::In(opposite);
             }
         }
         // Not reached: the triangles around a point leave no gap.
-        Place::At(self.vertices[from as usize].edge)
+        PointLocation::At(self.vertices[from as usize].edge)
     }
 }

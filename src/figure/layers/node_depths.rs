@@ -28,7 +28,7 @@ const ALIKE: std::ops::Range<f64> = 0.4..2.5;
 const PARALLEL: f64 = 0.7;
 
 /// The nodes' depths with their reasons.
-pub(super) struct Placement {
+pub(super) struct NodeDepths {
     /// Per node its depth, drawing units.
     pub(super) depths: Vec<f64>,
     pub(super) reasons: Vec<Reason>,
@@ -65,7 +65,7 @@ pub(super) fn backdrops(
     found
 }
 
-/// What placement is computed from.
+/// What the depths of nodes are computed from.
 pub(super) struct Figure<'a> {
     pub(super) parts: &'a [Part],
     pub(super) shapes: &'a [Shape],
@@ -86,7 +86,7 @@ struct Unit {
 
 impl Figure<'_> {
     /// The depths of all nodes.
-    pub(super) fn place(&self) -> Placement {
+    pub(super) fn place(&self) -> NodeDepths {
         let nodes = self.nodes;
         let unit_of = self.units();
         let units = self.measure(&unit_of);
@@ -145,7 +145,7 @@ impl Figure<'_> {
                 };
             }
         }
-        Placement { depths, reasons }
+        NodeDepths { depths, reasons }
     }
 
     /// Per node the one with which it keeps its distance.

@@ -1,8 +1,8 @@
-//! The limbs of a figure, and which piece of its limb each part is.
+//! The limbs of a figure, and which segment of its limb each part is.
 
 use super::figure::PartDraft;
 use super::part_tree::PartTree;
-use super::{Class, Piece};
+use super::{Class, LimbSegment};
 use crate::anatomy::Term;
 
 /// A limb of a figure.
@@ -77,7 +77,7 @@ pub(super) fn splayed(tree: &PartTree<'_>, limbs: &[Limb], drafts: &[PartDraft])
     splayed
 }
 
-/// Sets which piece of its limb each part is. Parts that are hands or feet by name stay so: an arm with a hand is a whole arm
+/// Sets which segment of its limb each part is. Parts that are hands or feet by name stay so: an arm with a hand is a whole arm
 /// and a hand, not an upper arm and a forearm. A shoulder that carries an arm is the collar bone.
 pub(super) fn name(tree: &PartTree<'_>, limbs: &[Limb], drafts: &mut [PartDraft]) {
     for limb in limbs {
@@ -103,24 +103,24 @@ pub(super) fn name(tree: &PartTree<'_>, limbs: &[Limb], drafts: &mut [PartDraft]
             .map(|(_, depth)| *depth)
             .min();
         for (part, depth) in &limb.parts {
-            drafts[*part].piece = Some(if *depth < first {
-                Piece::Collar
+            drafts[*part].segment = Some(if *depth < first {
+                LimbSegment::Collar
             } else {
-                piece(*depth - first, deepest - first, end.map(|end| end - first))
+                segment(*depth - first, deepest - first, end.map(|end| end - first))
             });
         }
     }
 }
 
-fn piece(depth: usize, deepest: usize, end: Option<usize>) -> Piece {
+fn segment(depth: usize, deepest: usize, end: Option<usize>) -> LimbSegment {
     match (depth, end) {
-        (0, Some(1)) => Piece::Whole,
-        (0, None) if deepest == 0 => Piece::Whole,
-        (0, _) => Piece::Upper,
-        (depth, Some(end)) if depth == end => Piece::End,
-        (1, Some(2..) | None) => Piece::Lower,
-        (2, None) => Piece::End,
-        _ => Piece::Beyond,
+        (0, Some(1)) => LimbSegment::Whole,
+        (0, None) if deepest == 0 => LimbSegment::Whole,
+        (0, _) => LimbSegment::Upper,
+        (depth, Some(end)) if depth == end => LimbSegment::End,
+        (1, Some(2..) | None) => LimbSegment::Lower,
+        (2, None) => LimbSegment::End,
+        _ => LimbSegment::Beyond,
     }
 }
 
