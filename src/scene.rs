@@ -25,6 +25,7 @@ pub use camera::{Camera, CameraProjection};
 pub use deferred::SurfaceSource;
 pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPatch, TooManyJoints};
 pub use turn::{Turn, ViewId, direction, view_axes};
+#[doc(no_inline)]
 pub use typed_index_collections::TiVec;
 pub use world::WorldTransform;
 
