@@ -8,6 +8,7 @@ use std::{fmt::Write as _, fs};
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::diagnostic::Code;
 use okoshi::internals::source::escape_xml;
+use okoshi::internals::svg::GroupId;
 use okoshi::resolver::MemoryResolver;
 use serde::Deserialize;
 
@@ -111,7 +112,7 @@ fn bound_to(compiled: &Compiled, id: &str) -> (Vec<String>, bool) {
     let shape = &drawing.shapes[bindings.parts[binding.part].shape];
     let mut ids: Vec<String> = shape.element.id.iter().cloned().collect();
     let mut group = shape.group;
-    while group != 0 {
+    while group != GroupId::ROOT {
         ids.extend(drawing.groups[group].element.id.clone());
         group = drawing.groups[group].parent;
     }
@@ -197,10 +198,9 @@ fn fixes_settle_what_is_uncertain() {
                 assert_eq!(hint.fixes.len(), 2, "{}: {}", laid.art, hint.message);
                 for (fix, meant) in hint.fixes.iter().zip(&hint.related) {
                     let element = |compiled: &Compiled, start: usize| {
-                        let shapes = compiled.drawing.shapes.iter();
-                        shapes
-                            .map(|shape| &shape.element)
-                            .position(|element| element.span.start == start)
+                        let mut shapes = compiled.drawing.shapes.iter_enumerated();
+                        let found = shapes.find(|(_, shape)| shape.element.span.start == start);
+                        found.map(|(shape, _)| shape)
                     };
                     let shape = element(&compiled, meant.span.start).expect("a shape");
                     let mut after = svg.clone();

@@ -313,6 +313,7 @@ const USES: &[(&str, &[&str])] = &[
         &[
             "diagnostic",
             "geometry",
+            "index",
             "resolver",
             "scene",
             "source",

@@ -23,7 +23,7 @@ use crate::geometry::Outline;
 use crate::lang::keyword::Keyword;
 use crate::memo::Memo;
 use crate::scene::{Turn, ViewId, view_axes};
-use crate::svg::Drawing;
+use crate::svg::{Drawing, ShapeId};
 
 /// How far the line along a border lies in front of its region, heights. Less than regions are apart.
 const LINE_STEP: f64 = 0.0004;
@@ -60,8 +60,8 @@ pub struct RegionModel {
     pub positions: TiVec<ViewId, DVec3>,
     /// The area, the line along its border in front of it, and its backing behind the whole character.
     pub meshes: Vec<RegionMesh>,
-    /// Index of the shape that it is in the first view that shows it, or of the picture that it is in.
-    pub shape: usize,
+    /// The shape that it is in the first view that shows it, or of the picture that it is in.
+    pub shape: Option<ShapeId>,
     /// Index of its part there, if it has one: regions of pictures have none.
     pub part: Option<usize>,
     /// The first view that shows it.
@@ -69,7 +69,7 @@ pub struct RegionModel {
     /// Per view whether it is hidden there (`Hidden`).
     pub is_hidden: TiVec<ViewId, bool>,
     /// Per view the shape or picture, where the view shows it.
-    pub shapes: TiVec<ViewId, Option<usize>>,
+    pub shapes: TiVec<ViewId, Option<ShapeId>>,
 }
 
 /// A mesh in one colour.
@@ -298,7 +298,7 @@ impl Sources<'_> {
             color: first.map_or([0.0; 4], |first| region(first).color),
             positions: self.positions(),
             meshes,
-            shape: first.map_or(0, |first| drawn(first).shape),
+            shape: first.map(|first| drawn(first).shape),
             part: first.and_then(|first| drawn(first).part),
             first_view: first.map_or(ViewId::FIRST, |first| first.view),
             is_hidden,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use image::DynamicImage;
 use rayon::prelude::*;
-use typed_index_collections::{TiSlice, TiVec};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::diagnostics::too_many;
 use super::features::{self, FeaturePoint};
@@ -21,7 +21,7 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
 use crate::memo::Memo;
 use crate::scene::ViewId;
-use crate::svg::{Drawing, LARGE};
+use crate::svg::{Drawing, LARGE, ShapeId};
 
 /// Pixels along the longer side of an SVG picture in a view.
 pub(super) const SVG_SIDE: u32 = 1024;
@@ -45,10 +45,10 @@ pub(super) struct DrawnView {
 }
 
 /// What the drawing says of a region, besides its outline.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Drawn {
-    /// Index of the shape that it is, or of the picture that shows it.
-    pub(super) shape: usize,
+    /// The shape that it is, or the picture that shows it.
+    pub(super) shape: ShapeId,
     /// Index of its part, if it has one.
     pub(super) part: Option<usize>,
     /// The line along its border.
@@ -106,7 +106,7 @@ pub(super) fn read(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<DrawnView> {
     let direction = direction(bindings, layer)?;
-    let mut parts = vec![None; drawing.shapes.len()];
+    let mut parts: TiVec<ShapeId, _> = ti_vec![None; drawing.shapes.len()];
     for (index, part) in bindings.parts.iter().enumerate() {
         if part.kind == PartKind::Region {
             parts[part.shape] = Some(index);
@@ -114,7 +114,7 @@ pub(super) fn read(
     }
     // What the view does not show lies behind all that it shows.
     let (mut hidden, mut regions) = (Vec::new(), Vec::new());
-    for (index, shape) in drawing.shapes.iter().enumerate() {
+    for (index, shape) in drawing.shapes.iter_enumerated() {
         if bindings.view_of_group(shape.group) != Some(layer) || bindings.is_leader(index) {
             continue;
         }
@@ -165,7 +165,7 @@ pub(super) fn read(
 fn of_shape(
     drawing: &Drawing,
     bindings: &Bindings,
-    index: usize,
+    index: ShapeId,
     part: Option<usize>,
 ) -> Option<(Region, Drawn)> {
     let shape = &drawing.shapes[index];
@@ -238,7 +238,7 @@ pub(super) fn segmented(pixels: Result<DynamicImage, (Code, String)>) -> Segment
 /// The regions of a picture; the first one will have this number among those of its view.
 fn of_picture(
     drawing: &Drawing,
-    index: usize,
+    index: ShapeId,
     first: usize,
     memo: &Memo,
 ) -> Result<Vec<(Region, Drawn)>, (Code, String)> {
@@ -270,8 +270,12 @@ fn of_picture(
     let inner = inner.map(|line| (region(&line.outline, line.color, line.region), None));
     let drawn = |line| Drawn {
         shape: index,
+        part: None,
         line,
-        ..Drawn::default()
+        open_line: None,
+        depth: None,
+        label: None,
+        is_hidden: false,
     };
     Ok(regions
         .chain(inner)

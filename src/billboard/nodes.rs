@@ -132,7 +132,8 @@ fn add_one(
                 rotation: DQuat::IDENTITY,
                 view_dependent: Some(ViewDependent::Region(places)),
                 provenance: Some(Provenance {
-                    element: drawing.shapes[region.shape].element.id.clone(),
+                    element: (region.shape)
+                        .and_then(|shape| drawing.shapes[shape].element.id.clone()),
                     string,
                 }),
                 ..Node::default()

@@ -10,7 +10,7 @@ use crate::lang::Variables;
 use crate::lang::ast::Annotation;
 use crate::lang::value::Setting;
 use crate::source::Text;
-use crate::svg::{Drawing, Element, Paint};
+use crate::svg::{Drawing, Element, GroupId, Paint, ShapeId};
 
 use super::attributes::Legend;
 use super::matching::{DrawingSettings, Layers, Leaders};
@@ -53,9 +53,9 @@ pub enum StringHolder {
     /// A text: index into [`Drawing::labels`].
     Label(usize),
     /// The description of a shape.
-    Shape(usize),
+    Shape(ShapeId),
     /// The description of a group.
-    Group(usize),
+    Group(GroupId),
 }
 
 /// The rule by which a string was bound to its part.
@@ -90,13 +90,13 @@ pub enum NamedBy {
     String,
     /// The label of its shape, or of a group that it is the main part of.
     Label {
-        /// Index of the group.
-        group: Option<usize>,
+        /// The group.
+        group: Option<GroupId>,
     },
     /// The `id` of its shape, or of a group that it is the main part of.
     Id {
-        /// Index of the group.
-        group: Option<usize>,
+        /// The group.
+        group: Option<GroupId>,
     },
     /// The program, in document order.
     Automatic,
@@ -139,7 +139,7 @@ pub struct DrawingString {
     /// Another part that is almost as near.
     pub runner_up: Option<usize>,
     /// The container to whose children the string is restricted.
-    pub(super) scope: Option<usize>,
+    pub(super) scope: Option<GroupId>,
 }
 
 /// The kind of a part.
@@ -182,8 +182,8 @@ pub struct Part {
     pub named_by: NamedBy,
     /// Its kind.
     pub kind: PartKind,
-    /// Index of its shape in the drawing.
-    pub shape: usize,
+    /// Its shape.
+    pub shape: ShapeId,
     /// Whether its area is the shape's stroke rather than its fill.
     pub is_stroke: bool,
     /// For ink, a stroke that lies on another part, the index of that part, which comes before it.
@@ -223,7 +223,7 @@ impl Part {
 }
 
 /// The paint of a shape's fill, or of its stroke.
-pub(super) fn paint(drawing: &Drawing, shape: usize, is_stroke: bool) -> &Paint {
+pub(super) fn paint(drawing: &Drawing, shape: ShapeId, is_stroke: bool) -> &Paint {
     let shape = &drawing.shapes[shape];
     match &shape.stroke {
         Some(stroke) if is_stroke => &stroke.paint,

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::bindings::Bindings;
 use super::names::written_by_a_person;
 use crate::geometry::{self, Measure, Outline, Ring, measure, remove_collinear};
-use crate::svg::{Drawing, Element, GroupKind, PaintKey, Shape, oklab};
+use crate::svg::{Drawing, Element, GroupId, GroupKind, PaintKey, Shape, ShapeId, oklab};
 
 /// The words for colours, each with colours that people call so.
 #[rustfmt::skip]
@@ -62,7 +62,7 @@ impl Bindings {
 }
 
 /// A part with this name and shape for people.
-pub(super) fn describe(drawing: &Drawing, name: &str, shape: usize) -> String {
+pub(super) fn describe(drawing: &Drawing, name: &str, shape: ShapeId) -> String {
     if name.is_empty() {
         drawing.describe(shape)
     } else {
@@ -72,12 +72,12 @@ pub(super) fn describe(drawing: &Drawing, name: &str, shape: usize) -> String {
 
 impl Drawing {
     /// A shape for people: its label, or an id that a person wrote, or what it looks like and where it is.
-    pub fn describe(&self, shape: usize) -> String {
+    pub fn describe(&self, shape: ShapeId) -> String {
         self.shapes[shape].describe(self.page)
     }
 
     /// A group for people: its label, or an id that a person wrote, or what kind of group it is.
-    pub fn describe_group(&self, group: usize) -> String {
+    pub fn describe_group(&self, group: GroupId) -> String {
         let group = &self.groups[group];
         match (group.element.given_name(), group.kind) {
             (Some(name), GroupKind::Layer) => format!("the layer {name}"),

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::bindings::NamedBy;
 use super::words::{PROGRAM_WORDS, PROGRAM_WORDS_WITH_NUMBERS};
-use crate::svg::Element;
+use crate::svg::{Element, GroupId};
 
 /// Longer labels are texts, not names; in characters.
 const MAX_NAME: usize = 64;
@@ -125,7 +125,7 @@ fn is_random(word: &str) -> bool {
 }
 
 /// The name that an element has from a person: its label, else its id.
-pub(super) fn of_element(element: &Element, group: Option<usize>) -> Option<OwnName> {
+pub(super) fn of_element(element: &Element, group: Option<GroupId>) -> Option<OwnName> {
     let by_label = element.label.as_deref().and_then(written_by_a_person);
     let by_label = by_label.map(|name| (name, NamedBy::Label { group }));
     let (name, by) = by_label.or_else(|| {

@@ -4,6 +4,7 @@ use super::*;
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::Code;
 use crate::resolver::MemoryResolver;
+use crate::svg::ShapeId;
 use glam::{DQuat, DVec2, DVec3};
 
 /// Compiles a page of 200 by 200 with these elements.
@@ -279,7 +280,7 @@ fn group_strings_make_layers_of_tiles_and_regions() {
         let string = &bindings.strings[layer.string];
         string.binding.is_none() && !matching::wants_part(&string.annotation)
     }));
-    let group_of = |shape: usize| compiled.drawing.shapes[shape].group;
+    let group_of = |shape: usize| compiled.drawing.shapes[ShapeId::from(shape)].group;
     let in_layers = in_layers_of_pixels(&compiled.drawing);
     assert!(in_layers[group_of(0)] && in_layers[group_of(1)] && !in_layers[group_of(2)]);
     assert_eq!(bindings.tile_layer_of_group(group_of(0)), Some(0));

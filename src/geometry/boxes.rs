@@ -7,13 +7,13 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 /// A bounding box, with the index of what is in it.
-pub(crate) type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, usize>;
+pub(crate) type IndexedBox<I> = GeomWithData<Rectangle<[f64; 2]>, I>;
 
 /// A spatial index of bounding boxes.
-pub(crate) type BoxTree = RTree<IndexedBox>;
+pub(crate) type BoxTree<I> = RTree<IndexedBox<I>>;
 
 /// The bounding box from `low` to `high`, with an index.
-pub(crate) fn indexed_box((low, high): (DVec2, DVec2), index: usize) -> IndexedBox {
+pub(crate) fn indexed_box<I>((low, high): (DVec2, DVec2), index: I) -> IndexedBox<I> {
     let corners = Rectangle::from_corners(low.to_array(), high.to_array());
     GeomWithData::new(corners, index)
 }
@@ -32,7 +32,7 @@ type OrderedBox = GeomWithData<Rectangle<[f64; 3]>, usize>;
 /// Bounding boxes in an order, to find those before another one.
 pub(crate) struct OrderedBoxes {
     boxes: Vec<(DVec2, DVec2)>,
-    tree: BoxTree,
+    tree: BoxTree<usize>,
     /// Needed only where many boxes meet.
     ordered: OnceLock<RTree<OrderedBox>>,
 }

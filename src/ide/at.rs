@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::Analysis;
 use crate::bind::{DrawingString, StringId};
 use crate::lang::ast::{Annotation, Attribute};
+use crate::svg::ShapeId;
 
 /// The item at an offset of a drawing.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +22,7 @@ pub enum At {
     /// The name of a shape's tag: `<rect`.
     Tag {
         /// Index of the shape in the drawing.
-        shape: usize,
+        shape: ShapeId,
         /// Index of its part, if it has one.
         part: Option<usize>,
     },
@@ -69,8 +70,7 @@ impl Analysis {
                 token,
             });
         }
-        let mut shapes = self.drawing().shapes.iter();
-        let shape = shapes.position(|shape| {
+        let shape = self.drawing().shapes.position(|shape| {
             shape.element.span.touches(offset) && shape.element.span.start < shape.element.span.end
         })?;
         let part = self.part_of_shape(shape);
@@ -94,7 +94,7 @@ impl Analysis {
     }
 
     /// The part of a shape; the fill if fill and border are two.
-    pub(super) fn part_of_shape(&self, shape: usize) -> Option<usize> {
+    pub(super) fn part_of_shape(&self, shape: ShapeId) -> Option<usize> {
         let mut parts = self.bindings().parts.iter();
         parts.position(|part| part.shape == shape)
     }

@@ -11,6 +11,7 @@ use crate::diagnostic::{Code, Edit};
 use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
+use crate::svg::ShapeId;
 
 /// A region that can become the partner of another one.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +26,7 @@ struct Choice<'a> {
 impl Analysis {
     /// Actions for a region without a partner: it and the region that fits it best get one name. The first choice is a region that
     /// has no partner either; another one that fits better is offered, too, although its partner would be left alone.
-    pub(super) fn name_both(&self, shape: usize) -> Vec<Action> {
+    pub(super) fn name_both(&self, shape: ShapeId) -> Vec<Action> {
         let regions = self.regions_of_shape(shape);
         let [region] = regions.as_slice() else {
             // Regions of a picture have no element that could have a name.
@@ -132,7 +133,7 @@ impl Analysis {
     }
 
     /// The shape of a region that can be named: no picture, and no clone, whose original has other copies.
-    fn shape_to_name(&self, region: Region<'_>) -> Option<usize> {
+    fn shape_to_name(&self, region: Region<'_>) -> Option<ShapeId> {
         let shape = region.shape()?;
         let found = &self.drawing().shapes[shape];
         let alike = self.drawing().shapes.iter();
@@ -179,7 +180,7 @@ impl Analysis {
         Some(edits)
     }
 
-    fn named_by_string(&self, shape: usize, name: &str) -> Option<Vec<Edit>> {
+    fn named_by_string(&self, shape: ShapeId, name: &str) -> Option<Vec<Edit>> {
         let new = quoted_if_needed(name, NamePlace::Head);
         let element = &self.drawing().shapes[shape].element;
         let mut parts = self.bindings().parts.iter();

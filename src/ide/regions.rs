@@ -9,6 +9,7 @@ use crate::billboard::{
 };
 use crate::bind::{LayerKind, StringId};
 use crate::source::Span;
+use crate::svg::ShapeId;
 
 /// The most regions of a view that are listed; the rest is only counted.
 const MAX_LISTED: usize = 12;
@@ -25,8 +26,8 @@ pub(super) struct Region<'a> {
 }
 
 impl<'a> Region<'a> {
-    /// Index of its shape, or of the picture that shows it.
-    pub(super) fn shape(self) -> Option<usize> {
+    /// Its shape, or the picture that shows it.
+    pub(super) fn shape(self) -> Option<ShapeId> {
         self.character.regions[self.track()?].shapes[self.at.view]
     }
 
@@ -85,7 +86,7 @@ fn angles(character: &Character, view: ViewId) -> String {
 
 impl Analysis {
     /// The regions that a shape is, or shows if it is a picture. None for shapes outside of characters.
-    pub(super) fn regions_of_shape(&self, shape: usize) -> Vec<Region<'_>> {
+    pub(super) fn regions_of_shape(&self, shape: ShapeId) -> Vec<Region<'_>> {
         let mut found = Vec::new();
         for character in &self.compiled.characters {
             let tracks = character.regions.iter().zip(&character.matching.tracks);
@@ -103,7 +104,7 @@ impl Analysis {
     }
 
     /// The partners of a region that is a shape, with how well they fit, or why it has none.
-    pub(super) fn region_card(&self, shape: usize) -> Option<String> {
+    pub(super) fn region_card(&self, shape: ShapeId) -> Option<String> {
         let regions = self.regions_of_shape(shape);
         let [region] = regions.as_slice() else {
             return None;
@@ -248,7 +249,7 @@ impl Analysis {
     }
 
     /// Describes the regions of a picture in a view, and their partners. `None` for what is no such picture.
-    pub(super) fn picture_card(&self, shape: usize) -> Option<String> {
+    pub(super) fn picture_card(&self, shape: ShapeId) -> Option<String> {
         self.drawing().shapes[shape].picture.as_ref()?;
         let regions = self.regions_of_shape(shape);
         let first = *regions.first()?;
@@ -293,7 +294,7 @@ impl Analysis {
     }
 
     /// Where the partners of a shape's regions are: their strings, or the tags of their shapes.
-    pub(super) fn partners_of_shape(&self, shape: usize) -> Vec<Span> {
+    pub(super) fn partners_of_shape(&self, shape: ShapeId) -> Vec<Span> {
         let regions = self.regions_of_shape(shape).into_iter();
         let partners = regions.flat_map(Region::partners);
         let mut found: Vec<Span> = Vec::new();

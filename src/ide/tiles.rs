@@ -9,6 +9,7 @@ use super::Analysis;
 use super::hover::escaped;
 use crate::bind::StringId;
 use crate::geometry::contains;
+use crate::svg::ShapeId;
 use crate::terrain::{Layer, Tile};
 
 /// The most cells that are examined for a hover; of larger shapes only the first.
@@ -50,7 +51,7 @@ impl Analysis {
     }
 
     /// Describes the tiles that a shape paints: their kinds, heights and groups. `None` if it paints none.
-    pub(super) fn tiles_card(&self, shape: usize) -> Option<String> {
+    pub(super) fn tiles_card(&self, shape: ShapeId) -> Option<String> {
         let layers = self.compiled().layers.iter();
         let mut all =
             layers.flat_map(|layer| layer.sources.iter().map(move |tiles| (layer, tiles)));

@@ -9,7 +9,7 @@ use crate::bind::{Bindings, Part, PartKind};
 use crate::compile::Compiled;
 use crate::geometry::Outline;
 use crate::resolver::Resolver;
-use crate::svg::{self, Drawing, LeftOut};
+use crate::svg::{self, Drawing, LeftOut, ShapeId};
 
 /// Shapes with less opacity are not seen.
 const CLEAR: f64 = 1.0 / 255.0;
@@ -104,7 +104,7 @@ fn owners_of_parts(compiled: &Compiled, regions: &FxHashMap<usize, usize>) -> Ve
 }
 
 /// The index of the tile map that a shape belongs to.
-fn layer_of(compiled: &Compiled, shape: usize) -> Option<usize> {
+fn layer_of(compiled: &Compiled, shape: ShapeId) -> Option<usize> {
     let group = compiled.drawing.shapes[shape].group;
     let layer = compiled.bindings.tile_layer_of_group(group)?;
     let string = compiled.bindings.layers[layer].string;
@@ -127,7 +127,7 @@ fn left_out(
         is_clone: bool,
     }
     let mut elements: FxHashMap<usize, Built> = FxHashMap::default();
-    for (index, shape) in drawing.shapes.iter().enumerate() {
+    for (index, shape) in drawing.shapes.iter_enumerated() {
         let built = elements.entry(shape.element.span.start).or_default();
         // A picture that is a map is no part.
         built.fill |= bindings.is_picture_of_layer(drawing, index);

@@ -11,7 +11,7 @@ use crate::geometry::{
 };
 use crate::lang::value::Origin;
 use crate::rig::{FigureGroup, find_figures};
-use crate::svg::Drawing;
+use crate::svg::{Drawing, ShapeId};
 
 /// A part stays on its parent's piece if at least this share of it is drawn there ...
 const LIES_ON: f64 = 0.9;
@@ -121,7 +121,7 @@ impl Cutter<'_> {
             let form = bindings.form(**member);
             bindings.attributes(form).shape().kind != "none"
         };
-        let shapes: Vec<usize> = self
+        let shapes: Vec<ShapeId> = self
             .members
             .get(&part)?
             .iter()

@@ -54,17 +54,18 @@ fn region<'a>(
 ) -> BillboardRegion<'a> {
     let model = &character.regions[index];
     let track = &character.matching.tracks[index];
-    let member = |shape: &Option<usize>| {
+    let shapes = model.shapes.iter();
+    let members = shapes.map(|shape| {
         let shape = &compiled.drawing.shapes[(*shape)?];
         let id = shape.element.id.as_deref();
         id.filter(|_| shape.picture.is_none())
-    };
+    });
     let number = |region: &Option<RegionId>| Some(usize::from((*region)?) + 1);
     let pairs = character.matching.pairs.iter();
     let own = pairs.filter(|pair| track.regions[pair.second.view] == Some(pair.second.id));
     BillboardRegion {
         name: &model.name,
-        members: model.shapes.iter().map(member).collect(),
+        members: members.collect(),
         numbers: track.regions.iter().map(number).collect(),
         similarity: own.map(|pair| pair.similarity).reduce(f64::min),
         position: model.positions[ViewId::FIRST].to_array(),
@@ -81,10 +82,13 @@ pub fn characters<'a>(compiled: &'a Compiled) -> Vec<Part<'a>> {
             element: compiled.drawing.groups[layer.group].element.id.as_deref(),
             ..Part::plain(&character.name, "character", frame.center)
         });
-        parts.extend(character.regions.iter().map(|region| Part {
-            parent: Some(&character.name),
-            element: compiled.drawing.shapes[region.shape].element.id.as_deref(),
-            ..Part::plain(&region.name, "region", middle(character, region))
+        parts.extend(character.regions.iter().map(|region| {
+            Part {
+                parent: Some(&character.name),
+                element: (region.shape)
+                    .and_then(|shape| compiled.drawing.shapes[shape].element.id.as_deref()),
+                ..Part::plain(&region.name, "region", middle(character, region))
+            }
         }));
     }
     parts

@@ -60,7 +60,7 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
             joint,
             tip,
             bounds,
-            drawing_order: part.shape,
+            drawing_order: part.shape.into(),
             bones,
             carry: bindings.attributes(index).carry().map(carry),
         }

@@ -33,6 +33,7 @@ mod walk;
 use std::sync::Arc;
 
 use glam::DVec2;
+use typed_index_collections::TiVec;
 
 pub(crate) use entities::character;
 pub use excerpts::{Excerpts, excerpts};
@@ -48,9 +49,25 @@ pub use unseen::{ConvertedText, Hidden, Unseen};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Outline;
+use crate::index::index_type;
 use crate::resolver::Resolver;
 use crate::source::{Span, Text};
 use crate::texture::PaintServer;
+
+index_type!(
+    /// A shape of a drawing, in paint order.
+    pub ShapeId
+);
+
+index_type!(
+    /// A group of a drawing. It comes after the group that contains it.
+    pub GroupId
+);
+
+impl GroupId {
+    /// The outermost `<svg>`.
+    pub const ROOT: Self = Self(0);
+}
 
 /// A drawing.
 #[derive(Debug, Clone, Default)]
@@ -58,15 +75,15 @@ pub struct Drawing {
     /// Minimum corner and size of the page.
     pub page: (DVec2, DVec2),
     /// The groups; the first is the outermost `<svg>`, and a group comes after the group that contains it.
-    pub groups: Vec<Group>,
+    pub groups: TiVec<GroupId, Group>,
     /// The shapes in paint order, back-most first.
-    pub shapes: Vec<Shape>,
-    /// The texts in document order, each with the index of its group.
-    pub labels: Vec<(Label, usize)>,
+    pub shapes: TiVec<ShapeId, Shape>,
+    /// The texts in document order, each with its group.
+    pub labels: Vec<(Label, GroupId)>,
     /// What the drawing holds but does not show.
     pub unseen: Unseen,
     /// Per group whether its pictures are read pixel by pixel (see [`PixelGroups`]); `None` if there are no pictures.
-    pub pixel_groups: Option<Vec<bool>>,
+    pub pixel_groups: Option<TiVec<GroupId, bool>>,
 }
 
 /// The kinds of groups.
@@ -83,8 +100,8 @@ pub enum GroupKind {
 /// A group of the drawing.
 #[derive(Debug, Clone)]
 pub struct Group {
-    /// Index of the group that contains it; the first group contains itself.
-    pub parent: usize,
+    /// The group that contains it; the first group contains itself.
+    pub parent: GroupId,
     /// Its kind.
     pub kind: GroupKind,
     /// The rectangle that it is clipped to, user units, if its clip is one: minimum and maximum corner.
@@ -146,8 +163,8 @@ pub enum PaintKey {
 pub struct Shape {
     /// Its number among all visible paths and pictures of the file, in paint order; what is not built counts too.
     pub leaf: usize,
-    /// Index of the innermost group that contains it.
-    pub group: usize,
+    /// The innermost group that contains it.
+    pub group: GroupId,
     /// Its element; for the content of a clone, the clone.
     pub element: Element,
     /// Its filled area; empty for lines. Parts and solids share it.
@@ -176,7 +193,7 @@ pub struct Line {
 
 /// A function that says, per group, whether its pictures are read pixel by pixel. Such pictures are not traced: their
 /// outlines and textures would take longer to make than everything else about them.
-pub type PixelGroups<'a> = &'a (dyn Fn(&Drawing) -> Vec<bool> + Sync);
+pub type PixelGroups<'a> = &'a (dyn Fn(&Drawing) -> TiVec<GroupId, bool> + Sync);
 
 /// Reads a drawing. `tolerance` is how far a flattened curve may deviate, as a share of its shape's larger extent;
 /// `pixel_groups` is called only if there are pictures.

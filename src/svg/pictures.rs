@@ -5,14 +5,19 @@ use std::sync::Arc;
 use glam::DVec2;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiSlice;
 
 use super::image::{PictureSource, Traced};
-use super::{Drawing, Paint, Shape};
+use super::{Drawing, GroupId, Paint, Shape};
 use crate::diagnostic::{Code, Diagnostic};
 
 /// Gives pictures their outlines and paints, except in groups that are marked in `left`. A picture that cannot be
 /// read is reported and removed from the drawing.
-pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn trace(
+    drawing: &mut Drawing,
+    left: &TiSlice<GroupId, bool>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     let page = drawing.page;
     let pictures = drawing.shapes.iter().map(|shape| {
         let picture = shape.picture.clone();
@@ -22,7 +27,12 @@ pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<
     let (files, file_of) = files(&pictures);
     let files: Vec<Result<Traced, (Code, String)>> =
         files.into_par_iter().map(PictureSource::trace).collect();
-    let shapes = drawing.shapes.par_iter_mut().zip(&pictures).zip(file_of);
+    let shapes = drawing
+        .shapes
+        .raw
+        .par_iter_mut()
+        .zip(&pictures)
+        .zip(file_of);
     let traced: Vec<(bool, Option<Diagnostic>)> = shapes
         .map(|((shape, picture), file)| match picture {
             Some(picture) => one(picture, &files[file], shape, page),

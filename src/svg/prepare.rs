@@ -383,7 +383,7 @@ mod tests {
             text,
             0.001,
             &crate::resolver::MemoryResolver::default(),
-            &|_| vec![],
+            &|_| vec![].into(),
         );
         assert!(drawing.shapes.is_empty());
         assert_eq!(diagnostics.len(), 1, "{diagnostics:?}");

@@ -6,6 +6,7 @@ use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
 
 use super::elements::{Ids, element, labels};
 use super::fit::ImageViewports;
@@ -16,7 +17,9 @@ use super::style::Styles;
 use super::tangles::Tangles;
 use super::unsolid::Who;
 use super::walk::{Leaf, Task, Walk};
-use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth, unseen};
+use super::{
+    Drawing, Element, GroupId, Paint, PaintKey, PictureSource, Shape, ShapeId, growth, unseen,
+};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{FillRule, Outline, resolve_crossings, resolve_overlaps};
 use crate::resolver::Resolver;
@@ -63,8 +66,8 @@ pub(super) fn read(
         prepared,
         root: document.root_element(),
         by_id,
-        group_of: vec![usize::MAX; document.descendants().count() + 1],
-        groups: Vec::new(),
+        group_of: vec![None; document.descendants().count() + 1],
+        groups: TiVec::new(),
         frames: FxHashMap::default(),
         tasks: Vec::new(),
         leaves: 0,
@@ -117,12 +120,12 @@ pub(super) fn read(
         })
         .collect();
     context.tangles.check(&context, &tasks)?;
-    let mut shape_of_node: FxHashMap<NodeId, usize> = FxHashMap::default();
+    let mut shape_of_node: FxHashMap<NodeId, ShapeId> = FxHashMap::default();
     if !unsolid.is_empty() {
         let drawn = tasks.iter().zip(&made).filter(|(_, shape)| shape.is_some());
         let drawn = drawn
             .enumerate()
-            .map(|(index, (task, _))| (task.xml, index));
+            .map(|(index, (task, _))| (task.xml, index.into()));
         shape_of_node.extend(drawn);
     }
     drop(tasks);
@@ -131,7 +134,7 @@ pub(super) fn read(
     let mut found = found.into_inner().unwrap_or_default();
     found.sort_by_key(|(index, _)| *index);
     report_losses(found.into_iter().map(|(_, loss)| loss), diagnostics);
-    let mut shapes = Vec::with_capacity(made.len());
+    let mut shapes = TiVec::with_capacity(made.len());
     made.into_iter().for_each(|shape| shapes.extend(shape));
     let drawing = Drawing {
         page: (offset, size),
@@ -141,9 +144,10 @@ pub(super) fn read(
         unseen,
         pixel_groups: None,
     };
+    let last_group = drawing.groups.last_key().unwrap_or(GroupId::ROOT);
     let who = |node: NodeId| match shape_of_node.get(&node) {
         Some(shape) => Who::Shape(*shape),
-        None => Who::Group(group_of[node.get_usize()].min(drawing.groups.len() - 1)),
+        None => Who::Group(group_of[node.get_usize()].unwrap_or(last_group)),
     };
     for (feature, nodes) in unsolid {
         let users: Vec<Who> = nodes.into_iter().map(who).collect();

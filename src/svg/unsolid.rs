@@ -1,6 +1,6 @@
 //! Features of SVG that have no meaning for solids.
 
-use super::Drawing;
+use super::{Drawing, GroupId, ShapeId};
 use crate::diagnostic::{Code, Diagnostic, listed};
 use crate::source::Span;
 
@@ -14,11 +14,11 @@ pub(super) enum Feature {
     Marker,
 }
 
-/// What uses a feature: the index of a shape or a group.
+/// What uses a feature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Who {
-    Shape(usize),
-    Group(usize),
+    Shape(ShapeId),
+    Group(GroupId),
 }
 
 impl Feature {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
 
 use super::clip::Clip;
 use super::elements::{Ids, element};
@@ -12,7 +13,7 @@ use super::paths::affine;
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::unsolid::Feature;
-use super::{Group, GroupKind};
+use super::{Group, GroupId, GroupKind};
 use crate::geometry::Outline;
 
 /// A usvg node that becomes a shape.
@@ -21,7 +22,7 @@ pub(super) struct Task<'a> {
     /// See [`Shape::leaf`](super::Shape::leaf).
     pub(super) leaf: usize,
     pub(super) xml: NodeId,
-    pub(super) group: usize,
+    pub(super) group: GroupId,
     pub(super) opacity: f64,
     pub(super) clips: Option<Arc<Vec<Clip>>>,
 }
@@ -44,9 +45,9 @@ pub(super) struct Walk<'a, 'input> {
     pub(super) prepared: &'a Prepared,
     pub(super) root: Node<'a, 'input>,
     pub(super) by_id: Ids<'a>,
-    /// For each XML node, the group that it is or is in; `usize::MAX` if unknown.
-    pub(super) group_of: Vec<usize>,
-    pub(super) groups: Vec<Group>,
+    /// For each XML node, the group that it is or is in; `None` if unknown.
+    pub(super) group_of: Vec<Option<GroupId>>,
+    pub(super) groups: TiVec<GroupId, Group>,
     /// The rectangles that elements are clipped to.
     pub(super) frames: FxHashMap<NodeId, (DVec2, DVec2)>,
     pub(super) tasks: Vec<Task<'a>>,
@@ -62,27 +63,27 @@ pub(super) struct Walk<'a, 'input> {
 
 impl<'a> Walk<'a, '_> {
     /// The group that an element is, or the innermost group that contains it.
-    pub(super) fn group(&mut self, node: Node<'_, '_>) -> usize {
+    pub(super) fn group(&mut self, node: Node<'_, '_>) -> GroupId {
         let slot = node.id().get_usize();
-        if self.group_of[slot] != usize::MAX {
-            return self.group_of[slot];
+        if let Some(known) = self.group_of[slot] {
+            return known;
         }
         let parent = node.parent_element().map(|parent| self.group(parent));
-        let index = match group_kind(node) {
-            None => parent.unwrap_or(0),
+        let around = parent.unwrap_or(GroupId::ROOT);
+        let group = match group_kind(node) {
+            None => around,
             Some(kind) => {
                 let element = element(node, self.prepared);
-                self.groups.push(Group {
-                    parent: parent.unwrap_or(0),
+                self.groups.push_and_get_key(Group {
+                    parent: around,
                     kind,
                     frame: self.frames.get(&node.id()).copied(),
                     element,
-                });
-                self.groups.len() - 1
+                })
             }
         };
-        self.group_of[slot] = index;
-        index
+        self.group_of[slot] = Some(group);
+        group
     }
 
     pub(super) fn children(

@@ -15,6 +15,7 @@ use okoshi::compile::Compiled;
 use okoshi::internals::labels::{Anatomy, Class, Limb, LimbSegment, Side, Tip, label_clip};
 use okoshi::internals::mocap::bvh::{self, Decimals};
 use okoshi::internals::mocap::{Clip, JointId, Skeleton};
+use okoshi::internals::svg::GroupId;
 use okoshi::resolver::MemoryResolver;
 
 use crate::common::compiled;
@@ -219,12 +220,12 @@ fn bone(limb: &Limb, segment: LimbSegment) -> (Option<JointId>, Option<JointId>)
 /// What drives the part with an id, the reason, and its index in the bindings.
 fn found(compiled: &Compiled, id: &str) -> (Found, String) {
     let drawing = &compiled.drawing;
-    let inside = |mut group: usize| {
+    let inside = |mut group: GroupId| {
         loop {
             if drawing.groups[group].element.id.as_deref() == Some(id) {
                 return true;
             }
-            if group == 0 {
+            if group == GroupId::ROOT {
                 return false;
             }
             group = drawing.groups[group].parent;

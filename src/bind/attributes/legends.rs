@@ -9,7 +9,7 @@ use crate::bind::matching::{Matched, MatchedPart};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Setting;
-use crate::svg::{Drawing, PaintKey};
+use crate::svg::{Drawing, PaintKey, ShapeId};
 
 /// A legend: the attributes of all parts and tiles of a paint.
 #[derive(Debug)]
@@ -18,8 +18,8 @@ pub struct Legend {
     pub paint: PaintKey,
     /// Its settings, each with its string.
     pub settings: Vec<(StringId, Setting)>,
-    /// Index of the shape beside which it stands.
-    pub swatch: usize,
+    /// The shape beside which it stands.
+    pub swatch: ShapeId,
     /// Its string, the first one if there are several.
     pub string: StringId,
     /// Whether a part or a drawn tile has the paint. Colours in pictures of tile layers do not count.

@@ -11,7 +11,7 @@ use super::wrappers::is_filled;
 use crate::bind::bindings::StringHolder;
 use crate::lang::is_name_char;
 use crate::source::Text;
-use crate::svg::{Drawing, Label};
+use crate::svg::{Drawing, GroupId, Label};
 
 /// The fewest names that make a drawing annotated: a single word is a title or a signature.
 const FEWEST: usize = 2;
@@ -42,7 +42,7 @@ pub(super) fn descriptions_name_parts(
     names: &[(StringHolder, Arc<Text>)],
 ) -> bool {
     let holding = drawing.shapes.iter().filter(|shape| is_filled(shape));
-    let holding: FxHashSet<usize> = holding.map(|shape| shape.group).collect();
+    let holding: FxHashSet<GroupId> = holding.map(|shape| shape.group).collect();
     let mut seen = FxHashSet::default();
     names.iter().all(|(holder, text)| {
         let has_part = match holder {
@@ -69,7 +69,7 @@ pub(super) fn name_parts(drawing: &Drawing) -> bool {
     if !distinct || seen.is_empty() || labels.len() < FEWEST || is_lettering(&seen) {
         return false;
     }
-    let fills = Fills::from(drawing, 0);
+    let fills = Fills::in_front(drawing, 0);
     let lines = drawing
         .shapes
         .iter()

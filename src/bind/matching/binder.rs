@@ -19,7 +19,7 @@ use crate::bind::bindings::{Binding, BoundBy, StringHolder, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::memo::{Bits, Memo};
-use crate::svg::Drawing;
+use crate::svg::{Drawing, GroupId, ShapeId};
 
 /// How often groups are opened for the texts in them: as deep as a person nests groups. Deeper ones stay closed.
 const MAX_OPENINGS: usize = 32;
@@ -65,9 +65,9 @@ pub(super) struct Binder<'a> {
     /// How the parts cover each other, once it has been asked for.
     stacking: OnceLock<Arc<Stacking>>,
     /// Per group its back-most part.
-    back_most: Vec<Option<usize>>,
+    back_most: TiVec<GroupId, Option<usize>>,
     /// Per shape its first part.
-    part_of_shape: Vec<Option<usize>>,
+    part_of_shape: TiVec<ShapeId, Option<usize>>,
 }
 
 impl<'a> Binder<'a> {
@@ -80,8 +80,8 @@ impl<'a> Binder<'a> {
         memo: &'a Memo,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
-        let mut back_most = vec![None; drawing.groups.len()];
-        let mut part_of_shape = vec![None; drawing.shapes.len()];
+        let mut back_most: TiVec<GroupId, _> = ti_vec![None; drawing.groups.len()];
+        let mut part_of_shape: TiVec<ShapeId, _> = ti_vec![None; drawing.shapes.len()];
         let is_ink = |part: &MatchedPart| part.host.is_some();
         let all = parts.iter().enumerate();
         for (index, part) in all.filter(|(_, part)| !is_ink(part)) {
@@ -266,7 +266,7 @@ impl<'a> Binder<'a> {
 
     /// Opens the groups of main parts.
     fn open(&mut self, mains: &[usize]) {
-        let mut members: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
+        let mut members: BTreeMap<usize, Vec<(usize, GroupId)>> = BTreeMap::new();
         for part in &self.parts {
             if mains.binary_search(&part.main).is_ok() {
                 let group = self.drawing.shapes[part.shape].group;

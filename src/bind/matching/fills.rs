@@ -3,18 +3,18 @@
 use glam::DVec2;
 
 use crate::geometry::{BoxTree, area_around, bounds, contains, distance_squared, indexed_box};
-use crate::svg::Drawing;
+use crate::svg::{Drawing, ShapeId};
 
 /// Filled shapes by their place.
 pub(super) struct Fills<'a> {
     drawing: &'a Drawing,
-    boxes: BoxTree,
+    boxes: BoxTree<ShapeId>,
 }
 
 impl<'a> Fills<'a> {
-    /// The filled shapes from index `first` on.
-    pub(super) fn from(drawing: &'a Drawing, first: usize) -> Self {
-        let shapes = drawing.shapes.iter().enumerate().skip(first);
+    /// The filled shapes in front of the `behind` back-most ones.
+    pub(super) fn in_front(drawing: &'a Drawing, behind: usize) -> Self {
+        let shapes = drawing.shapes.iter_enumerated().skip(behind);
         let boxes =
             shapes.filter_map(|(index, shape)| Some(indexed_box(bounds(&shape.outline)?, index)));
         Self {
@@ -24,7 +24,7 @@ impl<'a> Fills<'a> {
     }
 
     /// The topmost shape at a point.
-    pub(super) fn topmost(&self, point: DVec2) -> Option<usize> {
+    pub(super) fn topmost(&self, point: DVec2) -> Option<ShapeId> {
         let found = self.boxes.locate_all_at_point([point.x, point.y]);
         let shapes = found.map(|found| found.data);
         shapes

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use rstar::primitives::Line;
 use rstar::{AABB, PointDistance, RTree};
 use rustc_hash::FxHashMap;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::node_groups::PartSource;
 use super::parts::MatchedPart;
@@ -18,7 +19,7 @@ use crate::geometry::{
     BoxTree, Measure, Outline, area_around, bounds, crosses, distance_squared, indexed_box,
 };
 use crate::memo::{Long, Memo, Same};
-use crate::svg::{Drawing, Shape, StrokeSource};
+use crate::svg::{Drawing, Shape, ShapeId, StrokeSource};
 use crate::threads::GRAIN;
 
 /// How far beside a shape a point of a stroke may lie, in widths of the stroke.
@@ -58,11 +59,11 @@ enum Role {
 /// on a filled one.
 pub(super) fn hosts(
     drawing: &Drawing,
-    is_free: impl Fn(usize) -> bool,
-    is_host: impl Fn(usize) -> bool,
+    is_free: impl Fn(ShapeId) -> bool,
+    is_host: impl Fn(ShapeId) -> bool,
     memo: &Memo,
-) -> Arc<[Option<usize>]> {
-    let role = |(index, shape): (usize, &Shape)| {
+) -> Arc<TiVec<ShapeId, Option<ShapeId>>> {
+    let role = |(index, shape): (ShapeId, &Shape)| {
         let filled = !shape.outline.polygons.is_empty();
         match &shape.stroke {
             _ if filled && is_host(index) => Role::Host(Same(Arc::clone(&shape.outline))),
@@ -70,27 +71,27 @@ pub(super) fn hosts(
             _ => Role::Neither,
         }
     };
-    let shapes = drawing.shapes.iter().enumerate().map(role).collect();
+    let shapes = drawing.shapes.iter_enumerated().map(role).collect();
     memo.get(Question { shapes }, Question::answer)
 }
 
 impl Question {
-    fn answer(&self) -> Arc<[Option<usize>]> {
-        let roles = &self.shapes.0;
+    fn answer(&self) -> Arc<TiVec<ShapeId, Option<ShapeId>>> {
+        let roles: &TiSlice<ShapeId, Role> = TiSlice::from_ref(&self.shapes.0);
         if !roles.iter().any(|role| matches!(role, Role::Ink(_))) {
-            return vec![None; roles.len()].into();
+            return Arc::new(ti_vec![None; roles.len()]);
         }
         let area = |role: &Role| match role {
             Role::Host(outline) => Area::new(Arc::clone(&outline.0)),
             _ => None,
         };
-        let areas: Vec<Option<Area>> = roles.iter().map(area).collect();
-        let boxes = areas.iter().enumerate().filter_map(|(index, area)| {
+        let areas: TiVec<ShapeId, Option<Area>> = roles.iter().map(area).collect();
+        let boxes = areas.iter_enumerated().filter_map(|(index, area)| {
             let [low, high] = area.as_ref()?.bounds;
             Some(indexed_box((low, high), index))
         });
         let tree = BoxTree::bulk_load(boxes.collect());
-        let host = |(index, role): (usize, &Role)| match role {
+        let host = |index: ShapeId| match &roles[index] {
             Role::Ink(stroke) => {
                 let width = stroke.0.width();
                 let points = along(&stroke.0, TOLERANCE * width);
@@ -98,8 +99,9 @@ impl Question {
             }
             _ => None,
         };
-        let roles = roles.par_iter().enumerate().with_min_len(GRAIN);
-        roles.map(host).collect::<Vec<_>>().into()
+        let shapes = (0..roles.len()).into_par_iter().with_min_len(GRAIN);
+        let hosts: Vec<_> = shapes.map(|shape| host(shape.into())).collect();
+        Arc::new(hosts.into())
     }
 }
 
@@ -136,17 +138,17 @@ fn along(stroke: &StrokeSource, tolerance: f64) -> Vec<DVec2> {
 fn host(
     points: &[DVec2],
     reach: f64,
-    before: usize,
-    areas: &[Option<Area>],
-    tree: &BoxTree,
-) -> Option<usize> {
+    before: ShapeId,
+    areas: &TiSlice<ShapeId, Option<Area>>,
+    tree: &BoxTree<ShapeId>,
+) -> Option<ShapeId> {
     let first = points.first()?;
     let (low, high) = points.iter().fold((*first, *first), |(low, high), point| {
         (low.min(*point), high.max(*point))
     });
     let near = area_around((low, high), reach);
     let count = |share: f64| (share * points.len() as f64).ceil() as usize;
-    let is_large_enough = |index: &usize| {
+    let is_large_enough = |index: &ShapeId| {
         let Some(area) = &areas[*index] else {
             return false;
         };
@@ -157,7 +159,7 @@ fn host(
         };
         points.iter().filter(around).count() >= count(LEAST)
     };
-    let mut found: Vec<usize> = tree
+    let mut found: Vec<ShapeId> = tree
         .locate_in_envelope_intersecting(near)
         .map(|area| area.data)
         .filter(|index| *index < before)
@@ -249,7 +251,7 @@ fn edges(outline: &Outline) -> RTree<Line<[f64; 2]>> {
 pub(super) fn attach(
     drawn: impl Iterator<Item = (PartSource, Arc<Outline>, Measure)>,
 ) -> Vec<MatchedPart> {
-    let mut part_of_shape: FxHashMap<usize, usize> = FxHashMap::default();
+    let mut part_of_shape: FxHashMap<ShapeId, usize> = FxHashMap::default();
     let mut attached: Vec<MatchedPart> = Vec::new();
     for (source, outline, measure) in drawn {
         let index = attached.len();

@@ -6,7 +6,7 @@ use super::layers::{LayerKind, Layers};
 use super::parts::MatchedPart;
 use crate::bind::bindings::{DrawingString, PartKind, StringId};
 use crate::lang::ast::Annotation;
-use crate::svg::Drawing;
+use crate::svg::{Drawing, ShapeId};
 
 /// The kind of every part. `backgrounds` says of each shape whether it is a background, unless a string names it.
 pub(super) fn classify(
@@ -14,7 +14,7 @@ pub(super) fn classify(
     strings: &TiSlice<StringId, DrawingString>,
     parts: &[MatchedPart],
     layers: &Layers,
-    backgrounds: &[bool],
+    backgrounds: &TiSlice<ShapeId, bool>,
 ) -> Vec<PartKind> {
     let kind = |(index, part): (usize, &MatchedPart)| {
         let is_main = part.main == index;

@@ -1,7 +1,7 @@
 //! Layers: groups with a string of their own, such as a map of tiles.
 
 use rayon::prelude::*;
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::strings::ReadString;
 use crate::bind::bindings::{Bindings, DrawingString, StringHolder, StringId};
@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::lang;
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
-use crate::svg::{Drawing, PaintKey};
+use crate::svg::{Drawing, GroupId, PaintKey, ShapeId};
 use crate::threads::GRAIN;
 
 /// What a string makes of its group.
@@ -42,8 +42,8 @@ pub struct Layer {
     pub name: String,
     /// Its string.
     pub string: StringId,
-    /// Index of its group.
-    pub group: usize,
+    /// Its group.
+    pub group: GroupId,
 }
 
 /// The layers of a drawing, in the order of their strings.
@@ -51,7 +51,7 @@ pub struct Layer {
 pub struct Layers {
     all: Vec<Layer>,
     /// Per group the innermost tile layer or view that it is, or is in; empty if there are no layers.
-    of_group: Vec<Option<usize>>,
+    of_group: TiVec<GroupId, Option<usize>>,
 }
 
 impl LayerKind {
@@ -75,7 +75,7 @@ impl LayerKind {
 }
 
 /// Whether each group is a layer whose pictures are read pixel by pixel, or in one.
-pub fn in_layers_of_pixels(drawing: &Drawing) -> Vec<bool> {
+pub fn in_layers_of_pixels(drawing: &Drawing) -> TiVec<GroupId, bool> {
     let is_layer = |text, place| {
         let (annotation, _) = lang::parse(text, place);
         LayerKind::of(&annotation).is_some_and(LayerKind::holds_content)
@@ -84,8 +84,8 @@ pub fn in_layers_of_pixels(drawing: &Drawing) -> Vec<bool> {
     let of_labels = labels.filter_map(|(label, group)| {
         is_layer(&label.text, lang::Container::Text).then_some(*group)
     });
-    let mut layer_groups: Vec<usize> = of_labels.collect();
-    let groups = drawing.groups.iter().enumerate();
+    let mut layer_groups: Vec<GroupId> = of_labels.collect();
+    let groups = drawing.groups.iter_enumerated();
     let groups = groups.map(|(index, group)| (&group.element, index));
     let shapes = drawing.shapes.iter();
     let shapes = shapes.map(|shape| (&shape.element, shape.group));
@@ -95,23 +95,23 @@ pub fn in_layers_of_pixels(drawing: &Drawing) -> Vec<bool> {
             layer_groups.extend(is_layer(text, lang::Container::Desc).then_some(group));
         }
     }
-    let mut layer = vec![None; drawing.groups.len()];
+    let mut layer = ti_vec![None; drawing.groups.len()];
     for group in layer_groups {
-        layer[group] = Some(0);
+        layer[group] = Some(());
     }
     spread(drawing, &mut layer);
     layer.iter().map(Option::is_some).collect()
 }
 
 /// Gives every group without a layer of its own the layer of the group around it.
-fn spread(drawing: &Drawing, layer: &mut [Option<usize>]) {
-    for (index, group) in drawing.groups.iter().enumerate() {
+fn spread<L: Copy>(drawing: &Drawing, layer: &mut TiSlice<GroupId, Option<L>>) {
+    for (index, group) in drawing.groups.iter_enumerated() {
         layer[index] = layer[index].or(layer[group.parent]);
     }
 }
 
-/// Index of the group that holds a string.
-pub(in crate::bind) fn group_of(drawing: &Drawing, holder: StringHolder) -> usize {
+/// The group that holds a string.
+pub(in crate::bind) fn group_of(drawing: &Drawing, holder: StringHolder) -> GroupId {
     match holder {
         StringHolder::Label(label) => drawing.labels[label].1,
         StringHolder::Shape(shape) => drawing.shapes[shape].group,
@@ -125,7 +125,7 @@ pub(super) fn find(
     strings: &TiSlice<StringId, ReadString>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Layers {
-    let mut layer: Vec<Option<usize>> = vec![None; drawing.groups.len()];
+    let mut layer: TiVec<GroupId, Option<usize>> = ti_vec![None; drawing.groups.len()];
     let mut layers: Vec<Layer> = Vec::new();
     for (index, string) in strings.iter_enumerated() {
         let Annotation::Part(annotation) = &string.annotation else {
@@ -220,14 +220,14 @@ impl Layers {
     }
 
     /// Index of the innermost tile layer or view that a group is, or is in.
-    pub(in crate::bind) fn of_group(&self, group: usize) -> Option<usize> {
+    pub(in crate::bind) fn of_group(&self, group: GroupId) -> Option<usize> {
         self.of_group.get(group).copied().flatten()
     }
 
     /// The same, if that is of a kind.
     pub(in crate::bind) fn of_group_and_kind(
         &self,
-        group: usize,
+        group: GroupId,
         kind: LayerKind,
     ) -> Option<usize> {
         let layer = self.of_group(group);
@@ -235,7 +235,7 @@ impl Layers {
     }
 
     /// Whether a shape is a picture in a tile layer or a view, and so no part.
-    pub(in crate::bind) fn hold_picture(&self, drawing: &Drawing, shape: usize) -> bool {
+    pub(in crate::bind) fn hold_picture(&self, drawing: &Drawing, shape: ShapeId) -> bool {
         let shape = &drawing.shapes[shape];
         let is_picture = matches!(shape.paint.key, PaintKey::Picture(_));
         is_picture && self.of_group(shape.group).is_some()
@@ -266,12 +266,12 @@ impl Bindings {
     }
 
     /// Index of the tile layer that a group is, or is in.
-    pub fn tile_layer_of_group(&self, group: usize) -> Option<usize> {
+    pub fn tile_layer_of_group(&self, group: GroupId) -> Option<usize> {
         self.layers.of_group_and_kind(group, LayerKind::Tiles)
     }
 
     /// Index of the view of a character that a group is, or is in.
-    pub fn view_of_group(&self, group: usize) -> Option<usize> {
+    pub fn view_of_group(&self, group: GroupId) -> Option<usize> {
         self.layers.of_group_and_kind(group, LayerKind::View)
     }
 
@@ -281,7 +281,7 @@ impl Bindings {
     }
 
     /// Whether a shape is a picture in a tile layer or a view, and so no part.
-    pub fn is_picture_of_layer(&self, drawing: &Drawing, shape: usize) -> bool {
+    pub fn is_picture_of_layer(&self, drawing: &Drawing, shape: ShapeId) -> bool {
         self.layers.hold_picture(drawing, shape)
     }
 }

@@ -12,7 +12,7 @@ use super::stacking::ground_count;
 use super::strings::ReadString;
 use crate::bind::bindings::{Bindings, StringHolder, StringId};
 use crate::geometry::{BoxTree, area_around, indexed_box};
-use crate::svg::{Drawing, Shape};
+use crate::svg::{Drawing, Shape, ShapeId};
 
 /// The widest leader, font sizes.
 const MAX_WIDTH: f64 = 0.25;
@@ -33,9 +33,9 @@ pub(in crate::bind) struct Leaders {
     /// Strings, each with the point that its leader leads to.
     pub(super) points: FxHashMap<StringId, DVec2>,
     /// Strings and shapes that an Inkscape connector joins.
-    pub(super) connected: Vec<(StringId, usize)>,
-    /// Indices of the shapes that are leaders, ascending.
-    pub(super) shapes: Vec<usize>,
+    pub(super) connected: Vec<(StringId, ShapeId)>,
+    /// The shapes that are leaders, ascending.
+    pub(super) shapes: Vec<ShapeId>,
 }
 
 impl Leaders {
@@ -54,10 +54,10 @@ impl Leaders {
         // The ground lies under everything.
         let fills = LazyCell::new(|| {
             let outlines = drawing.shapes.iter().map(|shape| &*shape.outline);
-            Fills::from(drawing, ground_count(outlines, drawing.page))
+            Fills::in_front(drawing, ground_count(outlines, drawing.page))
         });
         let mut bound = FxHashSet::default();
-        for (index, shape) in drawing.shapes.iter().enumerate() {
+        for (index, shape) in drawing.shapes.iter_enumerated() {
             let Some(line) = &shape.line else { continue };
             if let Some((string, shape)) = strings.connected(&line.connects) {
                 if bound.insert(string) {
@@ -91,7 +91,7 @@ impl Leaders {
 
 impl Bindings {
     /// Whether a shape is a line that leads from a string to what it means.
-    pub fn is_leader(&self, shape: usize) -> bool {
+    pub fn is_leader(&self, shape: ShapeId) -> bool {
         self.leaders.shapes.binary_search(&shape).is_ok()
     }
 
@@ -141,7 +141,7 @@ fn leads(shape: &Shape, em: f64, fills: &Fills<'_>) -> bool {
 struct Labels<'a> {
     drawing: &'a Drawing,
     strings: &'a TiSlice<StringId, ReadString>,
-    boxes: BoxTree,
+    boxes: BoxTree<StringId>,
     reach: f64,
 }
 
@@ -157,7 +157,7 @@ impl<'a> Labels<'a> {
                 reach = reach.max(REACH * label.font_size);
                 let (low, high) = label.position.bounds;
                 let wider = DVec2::new(WIDER * (high.x - low.x), 0.0);
-                boxes.push(indexed_box((low, high + wider), usize::from(index)));
+                boxes.push(indexed_box((low, high + wider), index));
             }
         }
         Self {
@@ -183,7 +183,7 @@ impl<'a> Labels<'a> {
             let area = found.geom();
             let (low, high) = (DVec2::from(area.lower()), DVec2::from(area.upper()));
             let distance = point.distance(point.clamp(low, high));
-            let string = StringId::from(found.data);
+            let string = found.data;
             (distance <= REACH * self.em(string)).then_some((distance, string))
         });
         near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
@@ -191,7 +191,7 @@ impl<'a> Labels<'a> {
     }
 
     /// The string and the shape that an Inkscape connector joins.
-    fn connected(&self, connects: &[Option<String>; 2]) -> Option<(StringId, usize)> {
+    fn connected(&self, connects: &[Option<String>; 2]) -> Option<(StringId, ShapeId)> {
         let [Some(a), Some(b)] = connects else {
             return None;
         };
@@ -206,8 +206,7 @@ impl<'a> Labels<'a> {
             found.map(|(string, _)| string)
         };
         let shape = |id: &str| {
-            let mut shapes = self.drawing.shapes.iter();
-            shapes.position(|shape| {
+            self.drawing.shapes.position(|shape| {
                 shape.element.id.as_deref() == Some(id)
                     || self.drawing.groups[shape.group].element.id.as_deref() == Some(id)
             })
@@ -227,6 +226,6 @@ fn in_one_unit(
     let [Some(a), Some(b)] = points.map(|point| fills.topmost(point)) else {
         return false;
     };
-    let group = |shape: usize| node_groups.outermost(drawing.shapes[shape].group);
+    let group = |shape: ShapeId| node_groups.outermost(drawing.shapes[shape].group);
     a == b || group(a).is_some_and(|group_of_a| Some(group_of_a) == group(b))
 }

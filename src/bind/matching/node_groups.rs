@@ -4,7 +4,7 @@
 //! goes with what it lies on; the back-most of the others is the main part candidate.
 
 use rustc_hash::FxHashMap;
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::converted::ConvertedStrings;
 use super::ink;
@@ -16,17 +16,17 @@ use super::strings::ReadString;
 use super::wrappers;
 use crate::bind::bindings::{StringHolder, StringId};
 use crate::memo::Memo;
-use crate::svg::{Drawing, GroupKind, Shape};
+use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId};
 
 /// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartSource {
     pub(super) index: usize,
-    pub(super) shape: usize,
+    pub(super) shape: ShapeId,
     /// Whether its area is the shape's stroke rather than its fill.
     pub(super) is_stroke: bool,
     /// For ink, the shape on which it lies.
-    pub(super) host: Option<usize>,
+    pub(super) host: Option<ShapeId>,
 }
 
 /// What a group means for the hierarchy.
@@ -45,20 +45,20 @@ pub(super) enum GroupRole {
 pub(in crate::bind) struct NodeGroups {
     pub(super) sources: Vec<PartSource>,
     /// Per group.
-    pub(super) roles: Vec<GroupRole>,
-    parents: Vec<usize>,
+    pub(super) roles: TiVec<GroupId, GroupRole>,
+    parents: TiVec<GroupId, GroupId>,
     /// Per source: the group whose content shares its node.
-    node_group: Vec<Option<usize>>,
+    node_group: Vec<Option<GroupId>>,
     /// Per source: the nearest container around it.
-    pub(super) container: Vec<Option<usize>>,
+    pub(super) container: Vec<Option<GroupId>>,
     /// Per group: the group of the tile layer or view that it is in.
-    layer: Vec<Option<usize>>,
+    layer: TiVec<GroupId, Option<GroupId>>,
     /// Per source: whether it is in such a layer.
     pub(super) in_layer: Vec<bool>,
     /// Per shape: whether it is a background, unless a string names it.
-    pub(in crate::bind) backgrounds: Vec<bool>,
+    pub(in crate::bind) backgrounds: TiVec<ShapeId, bool>,
     /// Per group: whether it is such a layer, with parts that strings can belong to.
-    holds_parts: Vec<bool>,
+    holds_parts: TiVec<GroupId, bool>,
 }
 
 impl NodeGroups {
@@ -68,9 +68,10 @@ impl NodeGroups {
         strings: &TiSlice<StringId, ReadString>,
         layers: &Layers,
     ) -> Self {
-        let parents: Vec<usize> = drawing.groups.iter().map(|group| group.parent).collect();
+        let parents: TiVec<GroupId, GroupId> =
+            drawing.groups.iter().map(|group| group.parent).collect();
         let holds_shape = holding(drawing, |_| true);
-        let mut counts = vec![0_usize; drawing.groups.len()];
+        let mut counts: TiVec<GroupId, usize> = ti_vec![0; drawing.groups.len()];
         for string in strings.iter().filter(|string| string.wants_part()) {
             if let StringHolder::Label(label) = string.holder {
                 let mut group = drawing.labels[label].1;
@@ -81,17 +82,17 @@ impl NodeGroups {
                 counts[group] += 1;
             }
         }
-        let groups = 0..drawing.groups.len();
+        let groups = drawing.groups.keys();
         let layer = groups.map(|group| Some(layers[layers.of_group(group)?].group));
-        let layer: Vec<Option<usize>> = layer.collect();
-        let in_map = |group: usize| layer[group].is_some();
+        let layer: TiVec<GroupId, Option<GroupId>> = layer.collect();
+        let in_map = |group: GroupId| layer[group].is_some();
         let wrappers = wrappers::find(drawing, strings, &counts, in_map);
         Self {
             node_group: vec![],
             container: vec![],
             in_layer: vec![],
             backgrounds: wrappers.backgrounds,
-            holds_parts: vec![false; drawing.groups.len()],
+            holds_parts: ti_vec![false; drawing.groups.len()],
             sources: vec![],
             roles: roles(drawing, &counts, &layer, &wrappers.groups_nothing),
             parents,
@@ -127,7 +128,7 @@ impl NodeGroups {
             if let Some(layer) = layer {
                 self.holds_parts[layer] = true;
             }
-            let is_container = |group: &usize| self.roles[*group] == GroupRole::Container;
+            let is_container = |group: &GroupId| self.roles[*group] == GroupRole::Container;
             let container = self.chain(group).find(is_container);
             let node_group = self.outermost(group).filter(|_| !self.backgrounds[shape]);
             self.in_layer.push(layer.is_some());
@@ -137,18 +138,18 @@ impl NodeGroups {
     }
 
     /// A group and the groups around it, innermost first, up to the layer that it is in.
-    pub(super) fn chain(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
+    pub(super) fn chain(&self, group: GroupId) -> impl Iterator<Item = GroupId> + '_ {
         let mut next = self.parents.get(group).map(|_| group);
         std::iter::from_fn(move || {
             let group = next?;
-            let last = group == 0 || self.layer[group] == Some(group);
+            let last = group == GroupId::ROOT || self.layer[group] == Some(group);
             next = (!last).then(|| self.parents[group]);
             Some(group)
         })
     }
 
     /// The group whose content shares a node with what is in `group`; `None` if its shapes are nodes of their own.
-    pub(in crate::bind) fn outermost(&self, group: usize) -> Option<usize> {
+    pub(in crate::bind) fn outermost(&self, group: GroupId) -> Option<GroupId> {
         let mut outermost = None;
         for group in self.chain(group) {
             match self.roles[group] {
@@ -163,7 +164,7 @@ impl NodeGroups {
     /// Opens the group of a node: its children become nodes of their own. If one of them is a group that holds all
     /// `members`, parts of the node by their sources and the groups of their shapes, it is opened too. Returns whether there
     /// was a group to open.
-    pub(super) fn open(&mut self, members: &[(usize, usize)]) -> bool {
+    pub(super) fn open(&mut self, members: &[(usize, GroupId)]) -> bool {
         let Some((&(first, group), rest)) = members.split_first() else {
             return false;
         };
@@ -171,8 +172,8 @@ impl NodeGroups {
             return false;
         };
         // The groups between the node's group and the first part, from outside in, as far as they hold all parts.
-        let inside = |group: usize| {
-            let mut chain: Vec<usize> = self.chain(group).collect();
+        let inside = |group: GroupId| {
+            let mut chain: Vec<GroupId> = self.chain(group).collect();
             let end = chain.iter().position(|group| *group == outermost);
             chain.truncate(end.map_or(0, |end| end + 1));
             chain.reverse();
@@ -197,7 +198,7 @@ impl NodeGroups {
     }
 
     /// The group of the tile layer to whose shapes strings in a group are restricted; `None` for strings outside of tile layers.
-    pub(super) fn scope_of_layer(&self, group: usize) -> Option<usize> {
+    pub(super) fn scope_of_layer(&self, group: GroupId) -> Option<GroupId> {
         self.layer[group].filter(|layer| self.holds_parts[*layer])
     }
 }
@@ -205,8 +206,8 @@ impl NodeGroups {
 fn sources(
     drawing: &Drawing,
     layers: &Layers,
-    described: &[bool],
-    backgrounds: &[bool],
+    described: &TiSlice<ShapeId, bool>,
+    backgrounds: &TiSlice<ShapeId, bool>,
     leaders: &Leaders,
     strokes: Strokes,
     memo: &Memo,
@@ -218,14 +219,14 @@ fn sources(
         Strokes::All => (true, true, true),
     };
     // Strokes in a tile layer are edges; those in a view belong to its regions.
-    let is_map = |shape: usize| {
+    let is_map = |shape: ShapeId| {
         let group = drawing.shapes[shape].group;
         layers.of_group(group).is_some()
     };
-    let is_leader = |shape: usize| leaders.shapes.binary_search(&shape).is_ok();
-    let is_free = |shape: usize| !described[shape] && !is_leader(shape) && !is_map(shape);
-    let is_ink = |shape: usize| ink && is_free(shape);
-    let is_host = |shape: usize| !is_map(shape) && !backgrounds[shape];
+    let is_leader = |shape: ShapeId| leaders.shapes.binary_search(&shape).is_ok();
+    let is_free = |shape: ShapeId| !described[shape] && !is_leader(shape) && !is_map(shape);
+    let is_ink = |shape: ShapeId| ink && is_free(shape);
+    let is_host = |shape: ShapeId| !is_map(shape) && !backgrounds[shape];
     let hosts = ink::hosts(drawing, is_ink, is_host, memo);
     let converted = ConvertedStrings::of(drawing);
     let mut sources = Vec::with_capacity(drawing.shapes.len());
@@ -237,7 +238,7 @@ fn sources(
             host,
         })
     };
-    for (index, shape) in drawing.shapes.iter().enumerate() {
+    for (index, shape) in drawing.shapes.iter_enumerated() {
         let converted = converted.contains(shape.element.span.start);
         if converted || layers.hold_picture(drawing, index) {
             continue;
@@ -258,8 +259,8 @@ fn sources(
 }
 
 /// Per group, whether it or a group in it holds a shape of this kind.
-fn holding(drawing: &Drawing, is: impl Fn(&Shape) -> bool) -> Vec<bool> {
-    let mut holding = vec![false; drawing.groups.len()];
+fn holding(drawing: &Drawing, is: impl Fn(&Shape) -> bool) -> TiVec<GroupId, bool> {
+    let mut holding: TiVec<GroupId, bool> = ti_vec![false; drawing.groups.len()];
     for shape in drawing.shapes.iter().filter(|shape| is(shape)) {
         let mut group = shape.group;
         // If a group is known, so are those around it.
@@ -273,10 +274,13 @@ fn holding(drawing: &Drawing, is: impl Fn(&Shape) -> bool) -> Vec<bool> {
 
 /// Per shape, whether it is an unfilled line with a string of its own: a description, or a string in its group without filled
 /// shapes.
-fn described_lines(drawing: &Drawing, strings: &TiSlice<StringId, ReadString>) -> Vec<bool> {
-    let mut described = vec![false; drawing.shapes.len()];
+fn described_lines(
+    drawing: &Drawing,
+    strings: &TiSlice<StringId, ReadString>,
+) -> TiVec<ShapeId, bool> {
+    let mut described: TiVec<ShapeId, bool> = ti_vec![false; drawing.shapes.len()];
     let filled = holding(drawing, wrappers::is_filled);
-    let mut has_string = vec![false; drawing.groups.len()];
+    let mut has_string: TiVec<GroupId, bool> = ti_vec![false; drawing.groups.len()];
     for string in strings.iter().filter(|string| string.wants_part()) {
         let group = match string.holder {
             StringHolder::Shape(shape) => {
@@ -289,7 +293,7 @@ fn described_lines(drawing: &Drawing, strings: &TiSlice<StringId, ReadString>) -
         has_string[group] |= drawing.groups[group].kind == GroupKind::Group && !filled[group];
     }
     // A group comes after the one that contains it.
-    for (index, group) in drawing.groups.iter().enumerate() {
+    for (index, group) in drawing.groups.iter_enumerated() {
         has_string[index] |= has_string[group.parent];
     }
     for (described, shape) in described.iter_mut().zip(&drawing.shapes) {
@@ -301,11 +305,11 @@ fn described_lines(drawing: &Drawing, strings: &TiSlice<StringId, ReadString>) -
 
 fn roles(
     drawing: &Drawing,
-    strings: &[usize],
-    layer: &[Option<usize>],
-    groups_nothing: &[bool],
-) -> Vec<GroupRole> {
-    let groups = drawing.groups.iter().enumerate();
+    strings: &TiSlice<GroupId, usize>,
+    layer: &TiSlice<GroupId, Option<GroupId>>,
+    groups_nothing: &TiSlice<GroupId, bool>,
+) -> TiVec<GroupId, GroupRole> {
+    let groups = drawing.groups.iter_enumerated();
     groups
         .map(|(index, group)| match group.kind {
             GroupKind::Root | GroupKind::Layer => GroupRole::Transparent,
@@ -319,7 +323,7 @@ fn roles(
 
 /// Makes the back-most part of each node its main part candidate.
 pub(super) fn choose_mains(node_groups: &NodeGroups, parts: &mut [MatchedPart]) {
-    let mut mains: FxHashMap<(Option<usize>, usize), usize> = FxHashMap::default();
+    let mut mains: FxHashMap<(Option<GroupId>, GroupId), usize> = FxHashMap::default();
     for index in 0..parts.len() {
         let source = parts[index].source;
         let main = match (parts[index].host, node_groups.node_group[source]) {

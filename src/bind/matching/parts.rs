@@ -5,13 +5,13 @@ use std::sync::Arc;
 use super::node_groups::PartSource;
 use crate::bind::bindings::{self, StringId};
 use crate::geometry::{Measure, Outline};
-use crate::svg::{Drawing, Paint};
+use crate::svg::{Drawing, GroupId, Paint, ShapeId};
 
 /// A part, before it has a name, attributes and a place in the hierarchy.
 #[derive(Debug)]
 pub(in crate::bind) struct MatchedPart {
-    /// Index of its shape in the drawing.
-    pub(in crate::bind) shape: usize,
+    /// Its shape.
+    pub(in crate::bind) shape: ShapeId,
     /// Whether its area is the shape's stroke rather than its fill.
     pub(in crate::bind) is_stroke: bool,
     /// For ink, a stroke that lies on another part, the index of that part, which comes before it.
@@ -25,7 +25,7 @@ pub(in crate::bind) struct MatchedPart {
     /// Index of the main part candidate of its node, which may be itself.
     pub(in crate::bind) main: usize,
     /// The group whose content shares its node.
-    pub(in crate::bind) node_group: Option<usize>,
+    pub(in crate::bind) node_group: Option<GroupId>,
     /// Index of its source.
     pub(super) source: usize,
 }

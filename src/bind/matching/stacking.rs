@@ -27,7 +27,7 @@ const MAX_HOSTS: usize = 8;
 #[derive(Debug)]
 pub(in crate::bind) struct Stacking {
     parts: Vec<StackedPart>,
-    tree: BoxTree,
+    tree: BoxTree<usize>,
     facts: Vec<Facts>,
     /// How many of the back-most parts are ground.
     ground: usize,

@@ -167,9 +167,9 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
 /// Office programs describe every element by its kind (`Drawing`, `Group`, `Slide`). So names alone count only if the drawing has
 /// signs elsewhere (`signed`), or if they can name parts: all are distinct, and none is about a group without shapes of its own.
 fn descriptions(drawing: &Drawing, signed: bool) -> Vec<(StringHolder, Arc<Text>)> {
-    let shapes = drawing.shapes.iter().enumerate();
+    let shapes = drawing.shapes.iter_enumerated();
     let shapes = shapes.map(|(index, shape)| (StringHolder::Shape(index), &shape.element.desc));
-    let groups = drawing.groups.iter().enumerate();
+    let groups = drawing.groups.iter_enumerated();
     let groups = groups.map(|(index, group)| (StringHolder::Group(index), &group.element.desc));
     let (strings, others): (Vec<_>, Vec<_>) = shapes
         .chain(groups)

@@ -5,14 +5,14 @@
 
 use glam::DVec2;
 use rustc_hash::FxHashSet;
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::strings::ReadString;
 use crate::anatomy::{self, Role};
 use crate::bind::bindings::{StringHolder, StringId};
 use crate::bind::names::{self, written_by_a_person};
 use crate::geometry::{area, bounds};
-use crate::svg::{Drawing, Element, GroupKind, PaintKey, Shape};
+use crate::svg::{Drawing, Element, GroupId, GroupKind, PaintKey, Shape, ShapeId};
 
 /// The least share of the page that a frame or a background covers.
 const PAGE: f64 = 0.9;
@@ -50,23 +50,23 @@ const ARTBOARDS: &[&str] = &[
 #[derive(Debug)]
 pub(super) struct Wrappers {
     /// Per group whether it groups nothing; always for the root and for layers that are not in a group.
-    pub(super) groups_nothing: Vec<bool>,
+    pub(super) groups_nothing: TiVec<GroupId, bool>,
     /// Per shape whether it is a background, unless a string names it.
-    pub(super) backgrounds: Vec<bool>,
+    pub(super) backgrounds: TiVec<ShapeId, bool>,
 }
 
 /// Finds them. `counts` is the number of strings in each group that want a part, `in_map` whether a group is in a tile layer.
 pub(super) fn find(
     drawing: &Drawing,
     strings: &TiSlice<StringId, ReadString>,
-    counts: &[usize],
-    in_map: impl Fn(usize) -> bool,
+    counts: &TiSlice<GroupId, usize>,
+    in_map: impl Fn(GroupId) -> bool,
 ) -> Wrappers {
     let backgrounds = backgrounds(drawing, strings, counts, in_map);
     let children = children(drawing, &backgrounds);
-    let mut groups_nothing = Vec::with_capacity(drawing.groups.len());
-    for (index, group) in drawing.groups.iter().enumerate() {
-        let inside = index > 0 && groups_nothing[group.parent];
+    let mut groups_nothing = TiVec::with_capacity(drawing.groups.len());
+    for (index, group) in drawing.groups.iter_enumerated() {
+        let inside = index != GroupId::ROOT && groups_nothing[group.parent];
         groups_nothing.push(match group.kind {
             GroupKind::Root => true,
             GroupKind::Layer => inside,
@@ -89,21 +89,21 @@ pub(super) fn find(
 
 /// Opens the groups that are figures or limbs in pieces: two or more different parts of a body have names in them, such as arm and
 /// head, or left and right arm. Eyes and hair stay with their head.
-fn open_figures(drawing: &Drawing, groups_nothing: &mut [bool]) {
+fn open_figures(drawing: &Drawing, groups_nothing: &mut TiSlice<GroupId, bool>) {
     let role = |element: &Element| {
         let terms = anatomy::terms(&names::of_element(element, None)?.name);
         let role = Role::of(&terms).filter(|role| *role != Role::OfHead)?;
         Some((role, anatomy::sides(&terms)))
     };
-    let mut drawn = vec![false; drawing.groups.len()];
-    let mut pieces = vec![FxHashSet::default(); drawing.groups.len()];
+    let mut drawn: TiVec<GroupId, bool> = ti_vec![false; drawing.groups.len()];
+    let mut pieces: TiVec<GroupId, FxHashSet<_>> =
+        ti_vec![FxHashSet::default(); drawing.groups.len()];
     for shape in drawing.shapes.iter().filter(|shape| is_filled(shape)) {
         drawn[shape.group] = true;
         pieces[shape.group].extend(role(&shape.element));
     }
     // A group comes after the group that contains it.
-    for index in (1..drawing.groups.len()).rev() {
-        let group = &drawing.groups[index];
+    for (index, group) in drawing.groups.iter_enumerated().skip(1).rev() {
         if !drawn[index] {
             continue;
         }
@@ -121,17 +121,17 @@ fn open_figures(drawing: &Drawing, groups_nothing: &mut [bool]) {
 
 /// Per group, how many shapes and groups in it are filled or hold filled shapes, apart from backgrounds. In a drawing of lines
 /// alone all shapes count.
-fn children(drawing: &Drawing, backgrounds: &[bool]) -> Vec<usize> {
+fn children(drawing: &Drawing, backgrounds: &TiSlice<ShapeId, bool>) -> TiVec<GroupId, usize> {
     let counts = |all: bool| {
-        let mut children = vec![0_usize; drawing.groups.len()];
-        let mut drawn = vec![false; drawing.groups.len()];
+        let mut children: TiVec<GroupId, usize> = ti_vec![0; drawing.groups.len()];
+        let mut drawn: TiVec<GroupId, bool> = ti_vec![false; drawing.groups.len()];
         for (shape, background) in drawing.shapes.iter().zip(backgrounds) {
             if *background || !all && !is_filled(shape) {
                 continue;
             }
             children[shape.group] += 1;
             let mut group = shape.group;
-            while group != 0 && !drawn[group] {
+            while group != GroupId::ROOT && !drawn[group] {
                 drawn[group] = true;
                 group = drawing.groups[group].parent;
                 children[group] += 1;
@@ -168,11 +168,12 @@ fn is_artboard(element: &Element) -> bool {
 fn backgrounds(
     drawing: &Drawing,
     strings: &TiSlice<StringId, ReadString>,
-    counts: &[usize],
-    in_map: impl Fn(usize) -> bool,
-) -> Vec<bool> {
-    let mut found = vec![false; drawing.shapes.len()];
-    let filled: Vec<usize> = (0..drawing.shapes.len())
+    counts: &TiSlice<GroupId, usize>,
+    in_map: impl Fn(GroupId) -> bool,
+) -> TiVec<ShapeId, bool> {
+    let mut found: TiVec<ShapeId, bool> = ti_vec![false; drawing.shapes.len()];
+    let shapes = drawing.shapes.keys();
+    let filled: Vec<ShapeId> = shapes
         .filter(|shape| is_filled(&drawing.shapes[*shape]))
         .collect();
     for (place, shape) in filled.iter().copied().enumerate().take(MAX_BACKGROUNDS) {
@@ -214,7 +215,7 @@ fn is_rectangle(shape: &Shape) -> bool {
 
 /// Whether shapes reach all four edges of the page: then what is drawn fills the page, as a flag does, and a rectangle behind it is a part
 /// of it. Further rectangles that cover the page say nothing.
-fn reaches_all_edges(drawing: &Drawing, shapes: &[usize]) -> bool {
+fn reaches_all_edges(drawing: &Drawing, shapes: &[ShapeId]) -> bool {
     let (page, size) = drawing.page;
     let near = EDGE * size;
     let mut reached = [false; 4];
@@ -236,7 +237,7 @@ fn reaches_all_edges(drawing: &Drawing, shapes: &[usize]) -> bool {
 }
 
 /// Whether a rectangle holds most of the other shapes.
-fn holds(drawing: &Drawing, (low, high): (DVec2, DVec2), others: &[usize]) -> bool {
+fn holds(drawing: &Drawing, (low, high): (DVec2, DVec2), others: &[ShapeId]) -> bool {
     let (mut held, mut all) = (0.0, 0.0);
     for other in others {
         let Some((from, to)) = bounds(&drawing.shapes[*other].outline) else {
@@ -250,16 +251,21 @@ fn holds(drawing: &Drawing, (low, high): (DVec2, DVec2), others: &[usize]) -> bo
 }
 
 /// Whether a string is grouped with a shape, in a group that does not hold the whole drawing.
-fn has_string_beside(drawing: &Drawing, counts: &[usize], filled: &[usize], shape: usize) -> bool {
-    let is_in = |shape: usize, wanted: usize| {
+fn has_string_beside(
+    drawing: &Drawing,
+    counts: &TiSlice<GroupId, usize>,
+    filled: &[ShapeId],
+    shape: ShapeId,
+) -> bool {
+    let is_in = |shape: ShapeId, wanted: GroupId| {
         let mut group = drawing.shapes[shape].group;
-        while group != wanted && group != 0 {
+        while group != wanted && group != GroupId::ROOT {
             group = drawing.groups[group].parent;
         }
         group == wanted
     };
     let mut group = drawing.shapes[shape].group;
-    while group != 0 {
+    while group != GroupId::ROOT {
         let grouped = drawing.groups[group].kind == GroupKind::Group && counts[group] > 0;
         if grouped && !filled.iter().all(|other| is_in(*other, group)) {
             return true;

@@ -12,7 +12,7 @@ pub(super) fn unused(
     attributes: &PartAttributes,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let mut shapes = 0..drawing.shapes.len();
+    let mut shapes = drawing.shapes.keys();
     let has_maps = shapes.any(|shape| matched.layers.hold_picture(drawing, shape));
     for legend in &attributes.legends {
         // The colors of pictures are known only when the tile layers are read.

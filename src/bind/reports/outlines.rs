@@ -4,7 +4,7 @@ use crate::bind::bindings::PartKind;
 use crate::bind::hierarchy::Tree;
 use crate::bind::matching::{Matched, Strokes};
 use crate::diagnostic::{Code, Diagnostic, listed};
-use crate::svg::Drawing;
+use crate::svg::{Drawing, ShapeId};
 
 /// One warning about all filled shapes whose outlines are left out, unless a string says what happens to strokes.
 pub(super) fn report(
@@ -24,7 +24,7 @@ pub(super) fn report(
     }
     let is_built = |kind: &PartKind| matches!(kind, PartKind::Main | PartKind::Sub);
     let parts = matched.parts.iter().zip(&tree.nodes.kind);
-    let mut outlined: Vec<usize> = parts
+    let mut outlined: Vec<ShapeId> = parts
         .filter(|(_, kind)| is_built(kind))
         .map(|(part, _)| part.shape)
         .filter(|shape| {

@@ -1,10 +1,14 @@
 //! Strings without a part, and why there is none for them.
 
+use std::cmp::Reverse;
+
+use typed_index_collections::{TiVec, ti_vec};
+
 use crate::bind::bindings::{DrawingString, StringHolder};
 use crate::bind::matching::{Matched, wants_part};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::lang::ast::Annotation;
-use crate::svg::{Drawing, Hidden};
+use crate::svg::{Drawing, GroupId, Hidden, ShapeId};
 
 /// Reports the strings that want a part and have none. Strings that miss one for the same reason are reported together if
 /// it is a property of the whole drawing.
@@ -79,7 +83,7 @@ fn called(string: &DrawingString) -> String {
 }
 
 /// A description of a shape that is no part.
-fn of_shape(drawing: &Drawing, string: &DrawingString, shape: usize) -> Diagnostic {
+fn of_shape(drawing: &Drawing, string: &DrawingString, shape: ShapeId) -> Diagnostic {
     let name = drawing.describe(shape);
     let message = format!("{name} has this description, but no area, so it is no part");
     Diagnostic::new(Code::NoPartLeft, string.text.whole(), message)
@@ -88,7 +92,7 @@ fn of_shape(drawing: &Drawing, string: &DrawingString, shape: usize) -> Diagnost
 }
 
 /// A description of a group without a part.
-fn of_group(drawing: &Drawing, string: &DrawingString, group: usize) -> Diagnostic {
+fn of_group(drawing: &Drawing, string: &DrawingString, group: GroupId) -> Diagnostic {
     let name = drawing.describe_group(group);
     let (why, help) = match drawing.groups[group].kind {
         crate::svg::GroupKind::Group => (
@@ -151,8 +155,8 @@ struct AllTaken {
 
 impl AllTaken {
     fn of(drawing: &Drawing, matched: &Matched) -> Self {
-        let mut subs = vec![0_usize; drawing.groups.len()];
-        let mut is_part = vec![false; drawing.shapes.len()];
+        let mut subs: TiVec<GroupId, usize> = ti_vec![0; drawing.groups.len()];
+        let mut is_part: TiVec<ShapeId, bool> = ti_vec![false; drawing.shapes.len()];
         for (index, part) in matched.parts.iter().enumerate() {
             is_part[part.shape] = true;
             if part.string.is_none() && part.main != index {
@@ -160,7 +164,8 @@ impl AllTaken {
                 subs[drawing.common_group(part.shape, main.shape)] += 1;
             }
         }
-        let group = (1..subs.len()).max_by_key(|group| (subs[*group], usize::MAX - group));
+        let groups = subs.keys().filter(|group| *group != GroupId::ROOT);
+        let group = groups.max_by_key(|group| (subs[*group], Reverse(*group)));
         let group = group.filter(|group| subs[*group] > 0);
         let hidden = drawing.unseen.hidden.iter();
         let hidden: Vec<&Hidden> = hidden.filter(|hidden| hidden.shapes > 0).collect();
@@ -218,14 +223,16 @@ fn is_or_are(count: usize, what: &str) -> String {
 
 impl Drawing {
     /// The innermost group that holds two shapes.
-    fn common_group(&self, one: usize, other: usize) -> usize {
-        let chain = |shape: usize| {
+    fn common_group(&self, one: ShapeId, other: ShapeId) -> GroupId {
+        let chain = |shape: ShapeId| {
             let first = Some(self.shapes[shape].group);
             std::iter::successors(first, |group| {
-                (*group != 0).then(|| self.groups[*group].parent)
+                (*group != GroupId::ROOT).then(|| self.groups[*group].parent)
             })
         };
-        let around: Vec<usize> = chain(other).collect();
-        chain(one).find(|group| around.contains(group)).unwrap_or(0)
+        let around: Vec<GroupId> = chain(other).collect();
+        chain(one)
+            .find(|group| around.contains(group))
+            .unwrap_or(GroupId::ROOT)
     }
 }

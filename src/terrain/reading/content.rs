@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 use rustc_hash::FxHashSet;
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::grid::Grid;
 use super::materials::{Painted, Paints};
@@ -10,7 +11,7 @@ use crate::bind::{Bindings, PartKind, StringHolder};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
-use crate::svg::{Drawing, LARGE, PictureSource, StrokeSource};
+use crate::svg::{Drawing, LARGE, PictureSource, ShapeId, StrokeSource};
 
 /// The largest number of pixels of all pictures of a layer.
 const MAX_PIXELS: usize = 1 << 28;
@@ -20,19 +21,19 @@ const MAX_COVERED: u64 = 1 << 34;
 /// tile, which is odd so that one pixel is in the middle.
 const SVG_SIDE: [u32; 3] = [1024, 8192, 3];
 
-/// The content of a tile layer, by index of the shape, back-most first.
+/// The content of a tile layer, back-most first.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Content {
     /// Filled shapes and pictures, each with its bounding box, drawing units.
-    pub(super) fills: Vec<(usize, [DVec2; 2])>,
-    pub(super) strokes: Vec<usize>,
+    pub(super) fills: Vec<(ShapeId, [DVec2; 2])>,
+    pub(super) strokes: Vec<ShapeId>,
 }
 
 /// The content of each tile layer.
 pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
     let mut contents = vec![Content::default(); bindings.layers.len()];
     // A shape with its own string is not a tile. Lines usually have no part at all.
-    let mut is_tile = vec![true; drawing.shapes.len()];
+    let mut is_tile: TiVec<ShapeId, bool> = ti_vec![true; drawing.shapes.len()];
     for part in bindings
         .parts
         .iter()
@@ -42,13 +43,13 @@ pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
     }
     let unused = bindings.strings.iter();
     let unused = unused.filter(|string| string.annotation == Annotation::Unused);
-    let left_out: FxHashSet<usize> = unused
+    let left_out: FxHashSet<ShapeId> = unused
         .filter_map(|string| match string.holder {
             StringHolder::Shape(shape) => Some(shape),
             _ => None,
         })
         .collect();
-    for (index, shape) in drawing.shapes.iter().enumerate() {
+    for (index, shape) in drawing.shapes.iter_enumerated() {
         let Some(layer) = bindings.tile_layer_of_group(shape.group) else {
             continue;
         };
@@ -79,7 +80,7 @@ impl Content {
             .collect()
     }
 
-    /// The items to be drawn, each with the index of its shape. Pictures that cannot be read are reported and left out.
+    /// The items to be drawn, each with its shape. Pictures that cannot be read are reported and left out.
     ///
     /// # Errors
     /// The layer exceeds a limit.
@@ -89,7 +90,7 @@ impl Content {
         grid: &Grid,
         paints: &mut Paints<'a>,
         diagnostics: &mut Vec<Diagnostic>,
-    ) -> Result<Vec<(usize, Item<'a>)>, Box<Diagnostic>> {
+    ) -> Result<Vec<(ShapeId, Item<'a>)>, Box<Diagnostic>> {
         let mut items = Vec::with_capacity(self.fills.len());
         let (mut pixels, mut painted) = (0_usize, 0_u64);
         for (index, bounds) in &self.fills {

@@ -11,7 +11,7 @@ use super::raster::Code as Painted;
 use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
-use crate::svg::{Drawing, PaintKey};
+use crate::svg::{Drawing, PaintKey, ShapeId};
 use crate::terrain::{AmbiguityKind, MAX_CELLS, Tile};
 
 /// The largest distance of tiles' borders from the grid, cells.
@@ -156,7 +156,9 @@ pub(super) fn unclear(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     for (code, tally) in colors.iter().take(MAX_COLORS) {
-        let shape = shape_of(drawing, layer, paints, *code, tally);
+        let Some(shape) = shape_of(drawing, layer, paints, *code, tally) else {
+            continue;
+        };
         let ([r, g, b], _) = paints.appearance(*code);
         let hex = format!("#{r:02x}{g:02x}{b:02x}");
         let (what, swatch) = match &drawing.shapes[shape].paint.key {
@@ -175,8 +177,9 @@ pub(super) fn unclear(
         diagnostics.push(Diagnostic::new(Code::UnclearTile, span, message).help(help));
     }
     let rest = colors.get(MAX_COLORS..).unwrap_or_default();
-    if let [(code, first), ..] = rest {
-        let shape = shape_of(drawing, layer, paints, *code, first);
+    if let [(code, first), ..] = rest
+        && let Some(shape) = shape_of(drawing, layer, paints, *code, first)
+    {
         let count: usize = rest.iter().map(|(_, tally)| tally.count).sum();
         let cells = cells_named(layer.map.columns, &first.first[..1], count);
         let message = format!(
@@ -197,9 +200,9 @@ fn shape_of(
     paints: &Paints<'_>,
     code: Painted,
     tally: &Tally,
-) -> usize {
+) -> Option<ShapeId> {
     if let Some(paint) = super::raster::paint_of(code) {
-        return paints.list[paint].shape;
+        return Some(paints.list[paint].shape);
     }
     let cell = tally.first.first().copied().unwrap_or(0);
     let columns = layer.map.columns.max(1);
@@ -208,8 +211,7 @@ fn shape_of(
     let mut pictures = pictures.filter(|source| drawing.shapes[source.shape].picture.is_some());
     let here =
         pictures.find(|source| source.columns.contains(&column) && source.rows.contains(&row));
-    here.or(layer.sources.first())
-        .map_or(0, |source| source.shape)
+    here.or(layer.sources.first()).map(|source| source.shape)
 }
 
 /// Warns about gradients and patterns that are replaced by their mean colours.
@@ -243,7 +245,7 @@ pub(super) fn off_grid(
         cells - cells.round()
     };
     let mut count = 0;
-    let mut found: Vec<(usize, DVec2)> = Vec::new();
+    let mut found: Vec<(ShapeId, DVec2)> = Vec::new();
     // The offset that all of them have in common, if there is one.
     let mut common: Option<Option<DVec2>> = None;
     for (shape, [low, high]) in &content.fills {

@@ -6,7 +6,7 @@ use super::colors;
 use super::raster::{Code, paint_of, pixel_of};
 use crate::bind::{Bindings, MaterialFactors, StringId};
 use crate::source::Span;
-use crate::svg::PaintKey;
+use crate::svg::{PaintKey, ShapeId};
 use crate::terrain::Tile;
 
 /// The material of tiles of one kind and paint.
@@ -61,7 +61,7 @@ pub(super) struct Painted<'a> {
     /// 0 to 1.
     pub(super) opacity: f64,
     /// Index of the back-most shape that has it.
-    pub(super) shape: usize,
+    pub(super) shape: ShapeId,
 }
 
 /// The meaning of a code.

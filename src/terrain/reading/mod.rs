@@ -24,7 +24,7 @@ use super::landscape::{DEFAULT_ROOF, Landscape};
 use super::map::{MAX_CELLS, Map};
 use crate::bind::{Attribute, Bindings, StringId};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::svg::{Drawing, PaintKey};
+use crate::svg::{Drawing, GroupId, PaintKey, ShapeId};
 use classify::{Classification, classify};
 use content::{Content, contents};
 use grid::Grid;
@@ -38,8 +38,8 @@ pub struct Layer {
     pub name: String,
     /// Index of its string.
     pub string: StringId,
-    /// Index of its group in the drawing.
-    pub group: usize,
+    /// Its group in the drawing.
+    pub group: GroupId,
     /// The cells. Their indices of materials are those of [`materials`](Self::materials).
     pub map: Map,
     /// The heights.
@@ -63,8 +63,8 @@ pub struct Layer {
 /// The cells that a shape may be visible in: those whose middles are in its bounding box.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TileSource {
-    /// Index of the shape.
-    pub shape: usize,
+    /// The shape.
+    pub shape: ShapeId,
     /// Columns.
     pub columns: Range<usize>,
     /// Rows.
@@ -78,8 +78,8 @@ impl Layer {
         [self.origin, self.origin + extent * self.size]
     }
 
-    /// Index of the front-most shape that may be visible in a cell.
-    pub fn source_at(&self, column: usize, row: usize) -> Option<usize> {
+    /// The front-most shape that may be visible in a cell.
+    pub fn source_at(&self, column: usize, row: usize) -> Option<ShapeId> {
         let holds =
             |tiles: &&TileSource| tiles.columns.contains(&column) && tiles.rows.contains(&row);
         self.sources
@@ -130,7 +130,7 @@ pub fn read(
         }
     }
     // Only the pixels of tile layers can use the legends that `bind` left.
-    let mut shapes = 0..drawing.shapes.len();
+    let mut shapes = drawing.shapes.keys();
     if all_read && shapes.any(|shape| bindings.is_picture_of_layer(drawing, shape)) {
         for (legend, _) in bindings.legends.iter().zip(used).filter(|(_, used)| !used) {
             if matches!(legend.paint, PaintKey::Solid(_)) {

@@ -11,6 +11,7 @@ use crate::bind::matching::parts::MatchedPart;
 use crate::bind::matching::stacking::{Facts, Stacking};
 use crate::geometry::{Outline, distance_squared};
 use crate::memo::{Bits, Long, Memo, Same};
+use crate::svg::GroupId;
 use crate::threads::GRAIN;
 
 // The costs, in font sizes. They were fitted to 1,682 texts laid on thirteen drawings, natural and beside, above, below,
@@ -67,7 +68,7 @@ pub(super) struct Unit {
 }
 
 /// The container whose texts may name a unit; `None` for texts outside of containers.
-pub(in crate::bind) type Scope = Option<usize>;
+pub(in crate::bind) type Scope = Option<GroupId>;
 
 /// The units of a drawing.
 #[derive(Debug)]
