@@ -334,7 +334,7 @@ impl<'a> FigureContext<'a> {
         };
         Solid {
             outline: Arc::clone(&self.bindings.parts[part].outline),
-            to_frame: own.from_drawing_about_center(),
+            to_frame: own.drawing_about_center(),
             profile,
             options,
             sides: Sides::Front,

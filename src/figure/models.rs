@@ -154,7 +154,7 @@ impl Models {
         let Some(Loaded { asset, in_scene }) = asset else {
             return Vec::new();
         };
-        let to_frame = own.from_drawing_about_center();
+        let to_frame = own.drawing_about_center();
         let points = outline
             .polygons
             .iter()

@@ -44,12 +44,12 @@ impl Frame {
     }
 
     /// A point of the plane in this frame.
-    pub fn to_local(&self, point: DVec2) -> DVec2 {
+    pub fn to_local(self, point: DVec2) -> DVec2 {
         DVec2::from_angle(-self.angle).rotate(point - self.origin)
     }
 
-    /// From the drawing, y down, to axes turned like this frame's with the part's centre at the origin.
-    pub fn from_drawing_about_center(&self) -> DAffine2 {
+    /// The map from the drawing, y down, to axes turned like this frame's with the part's centre at the origin.
+    pub fn drawing_about_center(self) -> DAffine2 {
         let flip = DAffine2::from_scale(DVec2::new(1.0, -1.0));
         DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.center) * flip
     }
@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn the_drawing_is_turned_about_the_center() {
         let frame = Frame::new(&measure(DVec2::X), DVec2::new(40.0, 50.0));
-        let to_frame = frame.from_drawing_about_center();
+        let to_frame = frame.drawing_about_center();
         let [center, far] = [50.0, 60.0].map(|x| to_frame.transform_point2(DVec2::new(x, 50.0)));
         assert!(center.length() < 1e-9 && far.distance(DVec2::new(0.0, 10.0)) < 1e-9);
     }

@@ -109,7 +109,7 @@ impl Lifting<'_> {
             }
         }
         let overflows = || {
-            let own = self.frames[shape.part].from_drawing_about_center();
+            let own = self.frames[shape.part].drawing_about_center();
             let place = |point: &DVec2| own.transform_point2(*point);
             let outline = shape
                 .outline
