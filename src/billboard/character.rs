@@ -60,7 +60,7 @@ pub struct RegionModel {
     pub positions: TiVec<ViewId, DVec3>,
     /// The area, the line along its border in front of it, and its backing behind the whole character.
     pub meshes: Vec<RegionMesh>,
-    /// Index of the shape that it is in the first view that shows it, or of the picture that it is in.
+    /// Index of its shape in the first view that shows it, or of the picture that contains it.
     pub shape: usize,
     /// Index of its part there, if it has one: regions of pictures have none.
     pub part: Option<usize>,
