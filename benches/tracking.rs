@@ -13,7 +13,7 @@ mod synthetic;
 use std::time::Instant;
 
 use okoshi::internals::tracking::{Frame, Learner, Mark, Tracker};
-use synthetic::{Disc, Scene, ellipse};
+use synthetic::{Disc, FITTED, Scene, ellipse};
 
 /// Frames of the clip.
 const FRAMES: usize = 120;
@@ -23,6 +23,7 @@ const ROUNDS: usize = 5;
 fn main() {
     let disc = |mark, radius, path| Disc { mark, radius, path };
     let scene = Scene {
+        seeds: FITTED,
         size: [640, 480],
         discs: vec![
             disc(("red", [205, 40, 45]), 16.0, |time| {

@@ -121,7 +121,7 @@ pub mod source {
     pub use crate::source::{Text, escape_xml};
 }
 pub mod svg {
-    pub use crate::svg::{GroupId, LeftOut, raster, read};
+    pub use crate::svg::{GroupId, LeftOut, ShapeId, raster, read};
 }
 pub mod terrain {
     pub use crate::terrain::{

@@ -1,5 +1,5 @@
-//! What takes long to compute of a character, with all that it is computed from as a key: a keystroke in a string must not match
-//! and triangulate the regions again.
+//! The slow steps of making a character, each with all its inputs as a key for the memo: a keystroke in a string must not match and
+//! triangulate the regions again.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;

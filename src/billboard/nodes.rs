@@ -24,7 +24,7 @@ const KEYS: f64 = 8.0;
 pub struct RegionMaterials<'a> {
     /// Per part the material with its texture, and the map from the drawing to texture coordinates, if it has one.
     pub textured: &'a [PartMaterial],
-    /// Those without a texture, by the part to which they belong and their colours.
+    /// The materials without a texture, by the part to which they belong and their colours.
     pub flat: FxHashMap<FlatMaterial, MaterialId>,
     /// Whether no two parts have a material in common.
     pub are_apart: bool,

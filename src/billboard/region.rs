@@ -53,7 +53,7 @@ pub struct Region {
 /// A drawing of the character from one direction.
 #[derive(Debug, Clone)]
 pub struct View {
-    /// Where from.
+    /// The direction from which it is drawn.
     pub direction: Direction,
     /// Back-most first.
     pub regions: TiVec<RegionId, Region>,

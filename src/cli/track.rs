@@ -26,7 +26,7 @@ const MAX_RANGES: usize = 8;
 const MUCH_LOST: f64 = 0.2;
 /// So is one whose hue still things have in more than this part of the picture.
 const MUCH_CLUTTER: f64 = 0.003;
-/// From so many frames the colours of a GIF are chosen.
+/// The number of frames from which the colours of a GIF are chosen.
 const PALETTE_FRAMES: usize = 8;
 
 /// The format of a track.

@@ -70,7 +70,7 @@ codes! {
     /// Arm$Offset ((((…))))
     /// ```
     ///
-    /// Make the marked thing smaller or simpler. To shorten a calculation, define parts of it as variables with
+    /// Make what is marked smaller or simpler. To shorten a calculation, define parts of it as variables with
     /// `Let`.
     LimitPassed = "E005", "limit passed";
     /// The drawing names a file that does not exist, or that cannot be read as the expected kind of file. File

@@ -36,6 +36,6 @@ pub struct FigurePart {
 pub enum Carry {
     /// The direction of its bone.
     Direction,
-    /// By how much its bone turns.
+    /// How far its bone turns.
     Change,
 }

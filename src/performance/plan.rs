@@ -68,7 +68,7 @@ pub enum Finding {
     SecondMotion(usize),
     /// The motion's key joint is not the one whose mark moves most: its channel.
     OtherJoint(usize),
-    /// The motion's key joint moves towards the viewer, which moves a mark little: its channel.
+    /// The motion's key joint moves towards the viewer, which hardly moves a mark in the picture. This is its channel.
     TowardsViewer(usize),
     /// A key that a person gives lies beyond the end: the key, counted from 1, and the number of frames. It is not used.
     NoSuchInputKey(usize, usize),
@@ -85,7 +85,7 @@ pub struct Plan {
     pub motion: Information,
     /// The frames of the largest input and of the largest motion, counted from 0.
     pub keys: Option<[usize; 2]>,
-    /// Along which the motion is played; `None` if it keeps its timing.
+    /// The times along which the motion is played; `None` if it keeps its timing.
     pub timing: Option<TimeMap>,
     /// The channel that is emphasised; `None` if nothing moves.
     pub emphasized: Option<usize>,

@@ -199,7 +199,7 @@ impl Framing {
         Ok(framing)
     }
 
-    /// The same picture, in which parallel rays start further away by `distance`, for what is in front of the points.
+    /// The same camera, whose parallel rays start further back by `distance`, so that they also meet what is in front of the points.
     pub(super) fn stepping_back(mut self, distance: f32) -> Self {
         if self.projection == Projection::Orthographic {
             self.depth -= distance;

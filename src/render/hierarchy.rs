@@ -22,9 +22,9 @@ use super::surface::Surface;
 pub(super) enum Rays {
     /// One for each pixel of a small picture.
     Few,
-    /// Those of a lit picture.
+    /// As many as a lit picture needs.
     Many,
-    /// Those of many lit pictures.
+    /// As many as a series of lit pictures needs.
     Film,
 }
 

@@ -22,7 +22,7 @@ pub(super) struct Sampling {
 pub(super) enum Refinement {
     /// Those whose first few rays meet different surfaces.
     Pixel,
-    /// Those whose one ray meets another surface than those of its neighbours.
+    /// Those whose single ray meets another surface than a neighbouring pixel's ray.
     Neighbors,
 }
 

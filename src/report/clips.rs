@@ -47,7 +47,7 @@ pub struct Clip<'a> {
     pub joint_reasons: BTreeMap<&'a str, &'a str>,
     /// The parts that no joint drives.
     pub unmatched: Vec<&'a str>,
-    /// What the performance does that it follows; `None` for a clip that follows none.
+    /// The performance that it follows and what that does; `None` for a clip without one.
     pub performance: Option<Performance<'a>>,
 }
 

@@ -71,7 +71,7 @@ impl RigidTransform {
 pub struct SkinnedPatch {
     /// The patch in the joint's frame.
     pub patch: SurfacePatch,
-    /// From there to the world in the rest pose.
+    /// From the joint's frame to the world in the rest pose.
     pub pose: RigidTransform,
     /// Index of the joint in the skin.
     pub joint: u16,

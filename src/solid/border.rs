@@ -1,5 +1,5 @@
-//! The ring that grows while holes are joined to it, in a grid: its edges beside a point, and its corners in a triangle, are
-//! found without looking at all of them.
+//! A grid over the ring that holes are joined to, which grows with each of them. It finds the edges beside a point and the corners in
+//! a triangle without looking at the whole ring.
 
 use glam::DVec2;
 

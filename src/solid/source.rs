@@ -17,7 +17,7 @@ use crate::scene::{Surface, SurfaceSource};
 pub struct Solid {
     /// Its outline as drawn, y down.
     pub outline: Arc<Outline>,
-    /// From there to the part's own frame, y up, its centre at the origin; without scaling.
+    /// From the drawing to the part's own frame, y up, its centre at the origin; without scaling.
     pub to_frame: DAffine2,
     /// How it gets its thickness.
     pub profile: Profile,
@@ -42,7 +42,7 @@ pub enum Sides {
 }
 
 impl Sides {
-    /// Those of the solid mirrored in the drawing plane.
+    /// The sides that the solid is on after it is mirrored in the drawing plane.
     pub(super) fn mirrored(self) -> Self {
         match self {
             Self::Front => Self::Back,

@@ -1,4 +1,4 @@
-//! Pictures that no rectangle of single precision shows: their sides are too unequal for their viewport.
+//! Pictures so narrow that no rectangle of single precision is left of them once they are fitted into their element.
 //!
 //! usvg panics at such a picture, so it is found before, with the calculation that usvg does.
 
@@ -31,7 +31,7 @@ pub(super) const EMBEDDED: &str = "data:";
 ///
 /// Viewports in filters, and in drawings that are pictures, are not known.
 pub(super) struct ImageViewports<'a> {
-    /// What fits into all viewports of a link; without the links that every picture fits into.
+    /// By link, the ratios that fit into all its viewports. Links whose viewports take every picture are missing.
     linked: FxHashMap<&'a str, Ratios>,
     /// The same for the bytes of embedded pictures, with their data URI.
     embedded: FxHashMap<Vec<u8>, (&'a str, Ratios)>,

@@ -127,10 +127,12 @@ fn too_narrow(link: &str, span: Span) -> Diagnostic {
     } else {
         format!("the picture `{link}`")
     };
-    let message =
-        format!("{picture} is too narrow to be shown: its sides are too unequal for its place");
-    Diagnostic::new(Code::Vanishes, span, message)
-        .help("crop the picture, or enlarge its place, or set its preserveAspectRatio to none")
+    let message = format!(
+        "{picture} is too narrow to be shown: fitted into its width and height, one of its sides has no length"
+    );
+    Diagnostic::new(Code::Vanishes, span, message).help(
+        "crop the picture, give it more width and height, or set its preserveAspectRatio to none",
+    )
 }
 
 /// The diagnostic for a broken link.

@@ -38,13 +38,13 @@ impl Tangles {
         self.count.load(Ordering::Relaxed) > self.most
     }
 
-    /// Adds those of a filled shape, and of its stroke if it has one.
+    /// Adds the crossings of a filled shape, and of its stroke if it has one.
     pub(super) fn add(&self, crossings: usize, has_stroke: bool) {
         let times = 1 + BY_STROKE * usize::from(has_stroke);
         self.count.fetch_add(times * crossings, Ordering::Relaxed);
     }
 
-    /// Adds those of the stroke of a line.
+    /// Adds the crossings of the stroke of a line.
     pub(super) fn add_line(&self, line: &[Ring]) {
         let crossings = BY_STROKE * count_crossings(line);
         self.count.fetch_add(crossings, Ordering::Relaxed);

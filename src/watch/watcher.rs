@@ -43,9 +43,9 @@ struct Watched {
 struct Due {
     at: Instant,
     noticed: SystemTime,
-    /// From here on a half-written file is taken as it is.
+    /// From this time on, a half-written file is read as it is.
     incomplete_until: Instant,
-    /// From here on a missing file is reported.
+    /// From this time on, a missing file is reported.
     missing_until: Instant,
 }
 

@@ -1,5 +1,6 @@
 //! Terrain: the meaning of maps, their surfaces, and their appearance.
 #![cfg(feature = "cli")]
+#![allow(clippy::print_stdout, reason = "what was measured is told")]
 
 mod drawn;
 mod letters;

@@ -10,7 +10,7 @@ use image::{AnimationDecoder as _, Delay, Frame, RgbImage};
 use okoshi::internals::mark_tracks::MarkTracks;
 
 use crate::common::program::{Room, Run};
-use crate::synthetic::{Disc, Scene, ellipse};
+use crate::synthetic::{Disc, FITTED, Scene, ellipse};
 
 /// Frames of the clip.
 const FRAMES: usize = 12;
@@ -23,6 +23,7 @@ fn scene() -> Scene {
         path,
     };
     Scene {
+        seeds: FITTED,
         size: [121, 90],
         discs: vec![
             disc("green", [40, 150, 60], |time| {

@@ -6,6 +6,7 @@ use fastrand::Rng;
 use glam::DVec2;
 
 /// A disc that moves.
+#[derive(Clone)]
 pub(crate) struct Disc {
     /// Its name and its colour.
     pub(crate) mark: (&'static str, [u8; 3]),
@@ -16,7 +17,10 @@ pub(crate) struct Disc {
 }
 
 /// A clip.
+#[derive(Clone)]
 pub(crate) struct Scene {
+    /// Seeds of what chance decides: the patches, and the noise of the first frame.
+    pub(crate) seeds: [u64; 2],
     /// Width and height, pixels.
     pub(crate) size: [u32; 2],
     /// Discs, from back to front.
@@ -41,6 +45,8 @@ pub(crate) struct Truth {
     pub(crate) visible: f64,
 }
 
+/// The seeds of the clips that were looked at while tracking was written.
+pub(crate) const FITTED: [u64; 2] = [7, 1000];
 /// Instants of which a frame is the mean.
 const INSTANTS: usize = 9;
 
@@ -48,7 +54,7 @@ impl Scene {
     /// The background: a gradient with patches of many colours.
     pub(crate) fn background(&self) -> Vec<[f64; 3]> {
         let [width, height] = self.size.map(|side| side as usize);
-        let mut random = Rng::with_seed(7);
+        let mut random = Rng::with_seed(self.seeds[0]);
         let scale = width as f64 / 320.0;
         let mut pixels: Vec<[f64; 3]> = (0..width * height)
             .map(|index| {
@@ -120,7 +126,7 @@ impl Scene {
             }
             *pixel = sum;
         }
-        let mut random = Rng::with_seed(1000 + frame as u64);
+        let mut random = Rng::with_seed(self.seeds[1] + frame as u64);
         let light = (self.light)(frame as f64);
         let mut noisy = |value: f64| {
             // The sum of three is nearly normal, with a variance of a quarter.

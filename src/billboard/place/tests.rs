@@ -1,3 +1,4 @@
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -7,7 +8,9 @@ use super::*;
 use crate::billboard::matching::{Matching, match_regions};
 use crate::billboard::region::Direction;
 use crate::billboard::region::Region;
-use crate::billboard::tests::generated::{Character, Drawn, character, directions};
+use crate::billboard::tests::generated::{
+    Character, Drawn, FITTED, HELD_BACK, character, directions,
+};
 use crate::billboard::turn::between as turn_between;
 use crate::geometry::{Outline, Polygon};
 
@@ -146,8 +149,17 @@ fn mean(values: &[f64]) -> f64 {
 
 #[test]
 fn the_places_of_200_characters_are_known_to_a_percent() {
+    assert_places_are_known(FITTED);
+}
+
+#[test]
+fn the_places_of_200_characters_that_were_held_back_are_known_to_a_percent() {
+    assert_places_are_known(HELD_BACK);
+}
+
+fn assert_places_are_known(seeds: Range<u64>) {
     let (mut all, mut clear) = (Vec::new(), Vec::new());
-    for seed in 0..200 {
+    for seed in seeds {
         let directions = directions(seed);
         let found = found(seed, &directions);
         for (track, item, hidden) in found.right() {
@@ -296,9 +308,14 @@ fn two_tracks_change_their_order_at_most_once_between_two_views() {
 
 #[test]
 fn between_the_views_regions_are_where_they_truly_are() {
+    assert_regions_are_where_they_are(FITTED.start..FITTED.start + 40);
+    assert_regions_are_where_they_are(HELD_BACK.start..HELD_BACK.start + 40);
+}
+
+fn assert_regions_are_where_they_are(seeds: Range<u64>) {
     let mut errors: Vec<f64> = Vec::new();
     let mut worst = (0.0, "", 0);
-    for seed in 0..40 {
+    for seed in seeds {
         let directions = [FRONT, direction(45.0, 0.0)];
         let found = found(seed, &directions);
         let between = direction(22.5, 0.0);

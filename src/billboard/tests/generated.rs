@@ -7,6 +7,8 @@
 mod body;
 mod random;
 
+use std::ops::Range;
+
 use glam::{DMat3, DVec2, DVec3};
 use typed_index_collections::{TiSlice, TiVec};
 
@@ -14,6 +16,11 @@ pub(in crate::billboard) use body::character;
 
 use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::geometry::{FillRule, Outline, Ring, area, bounds, intersect, resolve_overlaps, union};
+
+/// The seeds of the characters that were looked at while the rules were written.
+pub(in crate::billboard) const FITTED: Range<u64> = 0..200;
+/// Those of as many others from the same directions, which no rule was fitted to: what is measured of them is what is claimed.
+pub(in crate::billboard) const HELD_BACK: Range<u64> = 12_000..12_200;
 
 /// Points around an ellipse.
 const AROUND: usize = 32;

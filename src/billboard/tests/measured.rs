@@ -1,4 +1,5 @@
 //! How well characters turn, measured on drawings whose answers are known: generated ones, the examples, and pictures by others.
+#![allow(clippy::print_stdout, reason = "what was measured is told")]
 
 mod between;
 mod labels;

@@ -20,7 +20,7 @@ const GROUND_CORNERS: usize = 2;
 const LIES_ON: f64 = 0.9;
 /// How many parts are compared with a part at most: in a higher pile, the rest would hardly be seen.
 const MAX_NEIGHBORS: usize = 512;
-/// How many parts that a part lies on are noted, once it is known what shows directly under it.
+/// As soon as it is known what is seen directly under a part, no more than this many of the parts that it lies on are recorded.
 const MAX_HOSTS: usize = 8;
 
 /// How the parts of a drawing cover each other. Indices are those of the parts, which are in paint order.
@@ -47,7 +47,7 @@ struct StackedPart {
 pub(in crate::bind) struct Facts {
     /// Its area, square units.
     pub(super) area: f64,
-    /// What shows of it: the area that nothing covers.
+    /// Its visible area, which nothing covers, square units.
     pub(super) shown: f64,
     /// The parts directly under it, each with the share of its area that lies on the part.
     pub(in crate::bind) under: Box<[(usize, f64)]>,

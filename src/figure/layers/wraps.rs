@@ -23,7 +23,7 @@ const MEASURED: usize = 15;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Chord {
     from: DVec2,
-    /// To the other end.
+    /// From `from` to the other end.
     along: DVec2,
 }
 

@@ -50,7 +50,7 @@ pub(super) struct FrameReader {
     pub values: Vec<f64>,
     /// How many numbers each line of a frame has: one line, or as many as the first frame is broken into.
     breaks: Vec<usize>,
-    /// Whether the first frame is complete, and with it `breaks`.
+    /// Whether the whole first frame has been read, so that `breaks` is complete.
     known: bool,
     /// The index of the next break, and how many numbers of the frame came before.
     due: usize,

@@ -58,7 +58,7 @@ struct Samples {
 }
 
 impl Samples {
-    /// Those of the triangle that begins with this corner of this one.
+    /// The samples of the same triangle, listed from its corner `first` on.
     fn turned(mut self, first: usize) -> Self {
         self.lifts.rotate_left(first % 3);
         self

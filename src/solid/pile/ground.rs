@@ -13,7 +13,7 @@ use crate::solid::inflate::Mesh;
 /// A body that another one lies on or around, as seen from that.
 pub(super) struct BodyInFrame {
     pub(super) body: BodyHeights,
-    /// From the frame of the other one.
+    /// From the frame of the body that lies on it to its own.
     pub(super) to: DAffine2,
     pub(super) is_given: bool,
     pub(super) is_detail: bool,
@@ -23,7 +23,7 @@ pub(super) struct BodyInFrame {
 pub(super) struct Ground {
     /// The topmost first.
     below: Vec<BodyInFrame>,
-    /// Those of them that are volumes, and those that others do not hide from the front.
+    /// Indices into `below`: the bodies that are volumes, and the bodies that others do not hide from the front.
     volumes: Vec<usize>,
     visible: Vec<usize>,
     pub(super) wraps: Vec<BodyInFrame>,
@@ -85,7 +85,7 @@ impl Ground {
         }
     }
 
-    /// Those that it lies on and that others do not hide from the front.
+    /// The bodies that it lies on, without those that others hide from the front.
     pub(super) fn visible(&self) -> impl Iterator<Item = &BodyInFrame> {
         self.visible.iter().map(|index| &self.below[*index])
     }

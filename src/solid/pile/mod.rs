@@ -84,7 +84,7 @@ pub struct Body {
 pub struct Lay {
     /// The earlier bodies that it overlaps, back-most first.
     pub below: Vec<usize>,
-    /// Those of them that it closes behind.
+    /// The bodies of `below` that it closes behind.
     pub wraps: Vec<usize>,
     /// The later bodies that it stays behind.
     pub behind: Vec<usize>,

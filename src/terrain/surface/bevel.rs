@@ -444,7 +444,7 @@ fn runs_forward((facing, square): (Facing, Point), start: Point, axis: usize) ->
     (right_handed == positive) == low_side
 }
 
-/// The columns that strips and patches of a stripe begin in.
+/// The columns in which the strips and patches of a stripe begin.
 pub(super) fn columns(stripe: usize, stripes: usize) -> std::ops::Range<i32> {
     let start = (stripe * STRIPE) as i32;
     let end = if stripe + 1 == stripes {

@@ -1,5 +1,7 @@
-//! Characters between two views, beside what is truly seen there.
+//! Characters between two views, beside what is truly seen there. One half of the characters was looked at while the rules were
+//! written; the manual quotes the other.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -11,13 +13,11 @@ use crate::billboard::matching::{Track, match_regions};
 use crate::billboard::place::{Frame, TrackPosition, frames, place};
 use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::billboard::shape::{Morph, morph};
-use crate::billboard::tests::generated::{Character, Drawn, character};
+use crate::billboard::tests::generated::{Character, Drawn, FITTED, HELD_BACK, character};
 use crate::billboard::turn::between;
 use crate::geometry::Ring;
 use crate::scene::ViewId;
 
-/// How many characters are measured.
-const CHARACTERS: u64 = 200;
 /// Pixels of a picture along each side, and of a character's height in it: arms are wide.
 const SIDE: u32 = 640;
 const HEIGHT: f64 = 520.0;
@@ -184,18 +184,25 @@ fn compare(character: &Character) -> Sums {
 
 #[test]
 fn half_way_between_two_views_regions_look_as_they_truly_do() {
-    let seeds = (0..CHARACTERS).into_par_iter();
-    let all = seeds.map(|seed| compare(&character(seed)));
+    check(FITTED, 0.85);
+    check(HELD_BACK, 0.84);
+}
+
+/// `least` is the least overlap with what is truly seen, 0 to 1.
+fn check(seeds: Range<u64>, least: f64) {
+    let of_seeds = seeds.clone().into_par_iter();
+    let all = of_seeds.map(|seed| compare(&character(seed)));
     let all = all.reduce(Sums::default, Sums::and);
     let [ours, cross_fade, nearest] =
         [all.ours, all.cross_fade, all.nearest].map(|sum| sum / all.regions);
     let gaps = all.gaps / all.silhouette;
     let found = format!(
-        "{} regions: {ours:.3}, cross-fade {cross_fade:.3}, nearest view {nearest:.3}, gaps {gaps:.3}",
+        "seeds {seeds:?}, {} regions: {ours:.3}, cross-fade {cross_fade:.3}, nearest view {nearest:.3}, gaps {gaps:.3}",
         all.regions
     );
+    println!("{found}");
     assert!(all.regions > 5000.0, "{found}");
-    assert!(ours > 0.85, "{found}");
+    assert!(ours > least, "{found}");
     // As good as what is simplest would mean that the measure does not measure.
     assert!(cross_fade < 0.4 && nearest < 0.4, "{found}");
     assert!(gaps < 0.08, "{found}");

@@ -1,0 +1,131 @@
+//! What `check --look` counts, and says.
+
+use okoshi::compile::Compiled;
+use okoshi::diagnostic::Code;
+use okoshi::internals::look::{DrawnView, Instead, Look, compare, hints};
+use okoshi::resolver::MemoryResolver;
+use resvg::tiny_skia::{Pixmap, Transform};
+
+use crate::common;
+use crate::truth::picture;
+
+/// A drawing on a page that does not begin at the origin.
+fn page(body: &str) -> String {
+    format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="300mm" viewBox="-20 10 100 80.5">{body}</svg>"#
+    )
+}
+
+/// Compiles and compares a drawing without links.
+fn looked_at(text: &str) -> (Compiled, Look) {
+    let resolver = MemoryResolver::default();
+    let compiled = common::compiled(text, &resolver);
+    assert!(!compiled.has_errors(), "{:?}", compiled.diagnostics);
+    let look = compare(&compiled, text, &resolver, 200).expect("a look");
+    (compiled, look)
+}
+
+#[test]
+fn the_picture_lies_on_the_drawing() {
+    let shapes = r##"<rect x="-10" y="20" width="60" height="40" fill="#3060c0"/>
+        <rect x="10" y="30" width="60" height="40" fill="#f0d020" opacity="0.5"/>
+        <rect x="40" y="15" width="20" height="30" fill="#000000" fill-opacity="0.25"/>"##;
+    for strings in ["", "%Axes +x +z -y", "%Scale 7 Ground 3 4"] {
+        let text = page(&format!(
+            r#"{shapes}<text x="0" y="85" font-size="5">{strings}</text>"#
+        ));
+        let compiled = common::compiled(&text, &MemoryResolver::default());
+        assert!(!compiled.has_errors(), "{:?}", compiled.diagnostics);
+        let view = DrawnView::new(&compiled, compiled.scene.clone(), 2.0).expect("a page");
+        assert_eq!(view.size, [200, 161]);
+        let picture = picture(&view, &MemoryResolver::default());
+        let plain = text.replace("width=\"300mm\"", "width=\"100\" height=\"80.5\"");
+        let tree = usvg::Tree::from_str(&plain, &usvg::Options::default()).expect("a drawing");
+        let mut drawn = Pixmap::new(200, 161).expect("a pixmap");
+        let twice = Transform::from_scale(2.0, 2.0);
+        resvg::render(&tree, twice, &mut drawn.as_mut());
+        for (at, (pixel, drawn)) in picture.pixels().zip(drawn.pixels()).enumerate() {
+            let drawn = drawn.demultiply();
+            let drawn = [drawn.red(), drawn.green(), drawn.blue(), drawn.alpha()];
+            let apart = (0..4).map(|channel| pixel.0[channel].abs_diff(drawn[channel]));
+            assert!(
+                apart.max() <= Some(2),
+                "{strings}: pixel {}, {}: {:?}, not {drawn:?}",
+                at % 200,
+                at / 200,
+                pixel.0
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_not_built_is_not_compared() {
+    let (_, look) = looked_at(&page(
+        r##"<rect x="0" y="20" width="40" height="40" fill="#3060c0" stroke="#ff0000" stroke-width="6"/>
+        <text x="20" y="40" font-size="5">Body</text>
+        <rect x="50" y="20" width="20" height="20" fill="#000000"/>
+        <text x="60" y="30" font-size="5">*</text>
+        <path d="M 5 85 H 60" stroke="#00ff00" stroke-width="8" fill="none"/>"##,
+    ));
+    assert_eq!(look.right, 1.0);
+    assert_eq!(look.parts.len(), 1);
+    // What is near the border of the only part does not count.
+    assert_eq!(look.pixels, 76 * 76);
+}
+
+#[test]
+fn colors_that_strings_give_are_right() {
+    let (_, look) = looked_at(&page(
+        r##"<rect x="0" y="20" width="40" height="40" fill="#3060c0"/>
+        <text x="20" y="40" font-size="5">Body$Color 1 0 0</text>"##,
+    ));
+    assert_eq!(look.right, 1.0);
+}
+
+#[test]
+fn a_part_behind_another_is_reported() {
+    let body = |eye: &str| {
+        page(&format!(
+            r##"<rect x="0" y="20" width="40" height="40" fill="#3060c0"/>
+            <text x="5" y="50" font-size="5">Head$Shape default -4 4</text>
+            <ellipse cx="20" cy="35" rx="9" ry="6" fill="#ff0000"/>
+            <text x="20" y="35" font-size="5">Eye@Head{eye}</text>"##
+        ))
+    };
+    let (compiled, look) = looked_at(&body("$Offset 1"));
+    assert_eq!(look.right, 1.0);
+    assert_eq!(hints(&compiled, &look), []);
+    let (compiled, look) = looked_at(&body("$Offset -30"));
+    assert!((0.8..0.98).contains(&look.right), "{}", look.right);
+    let eye = look.parts[1];
+    assert_eq!(eye.right, 0);
+    assert_eq!(eye.instead, Some((Instead::Part(0), eye.pixels)));
+    let found = hints(&compiled, &look);
+    let [hint] = found.as_slice() else {
+        panic!("{found:?}");
+    };
+    assert_eq!(hint.code, Code::LooksDifferent);
+    assert_eq!(
+        hint.message,
+        "`Eye` shows 0 % of what is drawn of it: it is inside or behind `Head`, which is drawn before it"
+    );
+    let help = "take away or change the depth that is given for `Eye` and `Head`";
+    assert_eq!(hint.help.as_deref(), Some(help));
+}
+
+#[test]
+fn landscapes_look_as_drawn_at_their_places() {
+    let (_, look) = looked_at(&page(
+        r##"<g><text x="-20" y="5" font-size="5">Land$Tiles 10</text>
+        <rect x="-20" y="20" width="60" height="20" fill="#4caf50"/>
+        <rect x="-20" y="40" width="60" height="10" fill="#8d6e63"/></g>
+        <g><text x="50" y="5" font-size="5">Isle$Tiles 5</text>
+        <rect x="50" y="70" width="20" height="5" fill="#4caf50"/>
+        <rect x="50" y="75" width="20" height="15" fill="#8d6e63"/></g>
+        <rect x="0" y="25" width="10" height="20" fill="#ff0000"/>"##,
+    ));
+    assert!(look.right > 0.999, "{}", look.right);
+    assert_eq!(look.parts.len(), 1);
+    assert_eq!(look.parts[0].right, look.parts[0].pixels);
+}
