@@ -11,6 +11,7 @@ use crate::bind::{
 use crate::compile::Compiled;
 use crate::source::Span;
 use crate::svg::{Element, ShapeId};
+use crate::terrain;
 
 /// Something that a drawing consists of.
 #[derive(Debug, Clone, Copy)]
@@ -77,13 +78,9 @@ impl<'a> Subject<'a> {
 
     /// The landscape, region or character that a shape in a layer shows; a picture of several regions shows their character.
     fn of_content(compiled: &'a Compiled, shape: ShapeId) -> Option<Self> {
-        let bindings = &compiled.bindings;
-        let tiles = bindings.tile_layer_of_group(compiled.drawing.shapes[shape].group);
-        let landscape = tiles.and_then(|tiles| {
-            let mut layers = compiled.layers.iter();
-            layers.position(|layer| layer.string == bindings.layers[tiles].string)
-        });
-        let which = match landscape {
+        let mut layers = compiled.layers.iter();
+        let shows = |layer: &terrain::Layer| layer.sources.iter().any(|tiles| tiles.shape == shape);
+        let which = match layers.position(shows) {
             Some(landscape) => Which::Landscape(landscape),
             None => {
                 let mut characters = compiled.characters.iter().enumerate();
