@@ -8,7 +8,7 @@ use super::hover::escaped;
 use super::{Analysis, Item, Subject, Target, Which};
 use crate::lang::ast::Annotation;
 use crate::report::{Part, everything};
-use crate::source::LineIndex;
+use crate::source::{LineIndex, Span};
 
 /// Figures, landscapes and characters; names by strings, labels, ids and in groups; legends, ink and unused shapes.
 const DRAWINGS: &[(&str, &str)] = &[
@@ -106,7 +106,7 @@ impl<'a> Drawing<'a> {
     fn check_hover(&self, offset: usize) {
         let Some(at) = self.analysis.at(offset) else {
             assert!(self.analysis.hover(offset).is_none_or(|hover| {
-                let is_there = |span: crate::source::Span| span.touches(offset);
+                let is_there = |span: Span| span.touches(offset);
                 let mut found = self.analysis.diagnostics().iter();
                 is_there(hover.span) && found.any(|one| is_there(one.span))
             }));
@@ -134,7 +134,8 @@ impl<'a> Drawing<'a> {
             assert!(text.contains(&lineage), "{lineage} is not in:\n{text}");
         }
         if matches!(entry.kind, "main" | "sub") {
-            let line = |(name, one): (&&str, &crate::report::AttributeReport)| {
+            let attributes = entry.attributes.iter();
+            let lines = attributes.map(|(name, one)| {
                 let from = match one.from {
                     "own" => "its own string",
                     "legend" => "the legend of its paint",
@@ -146,13 +147,11 @@ impl<'a> Drawing<'a> {
                     "" => format!("- {name}, from {from}"),
                     value => format!("- {name} `{value}`, from {from}"),
                 }
-            };
-            let listed: BTreeSet<String> = entry.attributes.iter().map(line).collect();
+            });
+            let listed: BTreeSet<String> = lines.collect();
             let lines = text.lines().filter(|line| line.starts_with("- "));
-            let described: BTreeSet<String> = lines
-                .filter(|line| line.contains(", from "))
-                .map(str::to_owned)
-                .collect();
+            let lines = lines.filter(|line| line.contains(", from "));
+            let described: BTreeSet<String> = lines.map(str::to_owned).collect();
             assert_eq!(described, listed, "{text}");
         }
     }

@@ -18,7 +18,6 @@ pub use clips::{Clip, clips};
 pub use depths::depth_reason;
 pub use findings::{Findings, Likeness, findings_json};
 pub use inspection::inspection_json;
-pub use joints::drivers;
 pub use matches::picture_of_matches;
 pub use parts::{Part, everything, part_count, parts};
 pub use terrain::{Terrain, terrain};
