@@ -6,12 +6,12 @@ use super::Item;
 use super::at::tokens;
 use crate::billboard::{TrackId, ViewId};
 use crate::bind::{
-    Bindings, BoundBy, DrawingString, Layer, NamedBy, Part, PartKind, Resolved, SetBy, StringId,
+    Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Resolved, SetBy, StringId,
 };
 use crate::compile::Compiled;
 use crate::source::Span;
-use crate::svg::{Element, ShapeId};
-use crate::terrain;
+use crate::svg::{Element, GroupId, ShapeId};
+use crate::terrain::Layer;
 
 /// Something that a drawing consists of.
 #[derive(Debug, Clone, Copy)]
@@ -79,7 +79,7 @@ impl<'a> Subject<'a> {
     /// The landscape, region or character that a shape in a layer shows; a picture of several regions shows their character.
     fn of_content(compiled: &'a Compiled, shape: ShapeId) -> Option<Self> {
         let mut layers = compiled.layers.iter();
-        let shows = |layer: &terrain::Layer| layer.sources.iter().any(|tiles| tiles.shape == shape);
+        let shows = |layer: &Layer| layer.sources.iter().any(|tiles| tiles.shape == shape);
         let which = match layers.position(shows) {
             Some(landscape) => Which::Landscape(landscape),
             None => {
@@ -216,7 +216,7 @@ impl<'a> Subject<'a> {
         let drawing = &self.compiled.drawing;
         let group = match self.which {
             Which::Landscape(layer) => self.compiled.layers[layer].group,
-            Which::Character(character) => self.first_view(character).group,
+            Which::Character(character) => self.first_view(character).1,
             Which::Part(part) => {
                 let shape = self.compiled.bindings.parts[part].shape;
                 return Some(&drawing.shapes[shape].element);
@@ -239,7 +239,7 @@ impl<'a> Subject<'a> {
             Which::Part(_) => self.part()?.string,
             Which::Region(..) => None,
             Which::Landscape(layer) => Some(self.compiled.layers[layer].string),
-            Which::Character(character) => Some(self.first_view(character).string),
+            Which::Character(character) => Some(self.first_view(character).0),
         }
     }
 
@@ -283,9 +283,7 @@ impl<'a> Subject<'a> {
         match self.which {
             Which::Part(part) => span_of_part(compiled, part),
             Which::Landscape(layer) => span_of_string(compiled, compiled.layers[layer].string),
-            Which::Character(character) => {
-                span_of_string(compiled, self.first_view(character).string)
-            }
+            Which::Character(character) => span_of_string(compiled, self.first_view(character).0),
             Which::Region(character, region) => {
                 let shape = compiled.characters[character].regions[region].shape;
                 let which = Which::Character(character);
@@ -297,10 +295,11 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The layer that is the first view of a character.
-    fn first_view(self, character: usize) -> &'a Layer {
+    /// String and group of a character's first view.
+    fn first_view(self, character: usize) -> (StringId, GroupId) {
         let views = &self.compiled.characters[character].layers;
-        &self.compiled.bindings.layers[views[ViewId::FIRST]]
+        let layer = &self.compiled.bindings.layers[views[ViewId::FIRST]];
+        (layer.string, layer.group)
     }
 }
 
