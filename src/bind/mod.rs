@@ -17,7 +17,7 @@ mod words;
 
 pub use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
-    MotionSource, PartMark, PerformanceRequest, SetBy, SignedAxis,
+    MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, SignedAxis,
 };
 pub use bindings::{
     Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, StringHolder, StringId,

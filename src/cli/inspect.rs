@@ -9,12 +9,13 @@ use std::path::Path;
 use super::args::{Common, Inspect};
 use super::loading::{Loaded, load};
 use super::progress::spinning;
-use super::{Outcome, fail, print_out};
+use super::{Outcome, counted, fail, print_out};
 use crate::billboard::{Character, RegionModel, Track};
-use crate::bind::{self, NamedBy, PartKind, SetBy};
+use crate::bind::{NamedBy, SetBy};
 use crate::disk::is_standard_stream;
+use crate::ide::{Subject, Which};
 use crate::lang::keyword::Keyword;
-use crate::report::{depth_reason, describe_character, inspection_json, own_name};
+use crate::report::{depth_reason, describe_character, inspection_json};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
@@ -83,78 +84,51 @@ enum Numbers {
 }
 
 fn tree(loaded: &Loaded, numbers: Numbers) -> String {
-    let bindings = &loaded.compiled.bindings;
-    let mut children: BTreeMap<Option<usize>, Vec<Item>> = BTreeMap::new();
-    for (index, part) in bindings
-        .parts
-        .iter()
-        .enumerate()
-        .filter(|(_, part)| part.kind == PartKind::Main)
-    {
-        let below = children.entry(part.parent).or_default();
-        below.push(Item::Part(index));
-    }
-    for (index, layer) in loaded.compiled.layers.iter().enumerate() {
-        let below = children.entry(layer.parent).or_default();
-        below.push(Item::Layer(index));
-    }
-    for index in 0..loaded.compiled.characters.len() {
-        let below = children.entry(None).or_default();
-        below.push(Item::Character(index));
+    let mut children: BTreeMap<Option<Which>, Vec<Subject<'_>>> = BTreeMap::new();
+    let all = Subject::all(&loaded.compiled);
+    for subject in all.filter(|subject| subject.is_main() || is_layer(*subject)) {
+        let parent = subject.parent().map(|parent| parent.which);
+        children.entry(parent).or_default().push(subject);
     }
     let mut rows: Vec<[String; 2]> = vec![["Root".to_owned(), String::new()]];
-    let mut stack: Vec<(Item, String, bool)> = Vec::new();
-    let push = |stack: &mut Vec<(Item, String, bool)>, parent: Option<usize>, indent: &str| {
+    let mut stack: Vec<(Subject<'_>, String, bool)> = Vec::new();
+    let push = |stack: &mut Vec<_>, parent, indent: &str| {
         let children = children.get(&parent).map_or(&[][..], Vec::as_slice);
         for (place, child) in children.iter().enumerate().rev() {
             stack.push((*child, indent.to_owned(), place + 1 == children.len()));
         }
     };
     push(&mut stack, None, "");
-    while let Some((item, indent, last)) = stack.pop() {
+    while let Some((subject, indent, last)) = stack.pop() {
         let (branch, below) = if last {
             ("└─ ", "   ")
         } else {
             ("├─ ", "│  ")
         };
-        let [name, what] = match item {
-            Item::Part(part) => [&bindings.parts[part].name, &describe_part(loaded, part)],
-            Item::Layer(layer) => {
+        let (what, listed) = match subject.which {
+            Which::Part(part) => (describe_part(loaded, subject, part), Vec::new()),
+            Which::Landscape(layer) => {
                 let layer = &loaded.compiled.layers[layer];
-                [&layer.name, &describe_layer(layer)]
+                (describe_layer(layer), contents(layer))
             }
-            Item::Character(index) => {
-                let character = &loaded.compiled.characters[index];
-                [&character.name, &describe_character(character)]
+            Which::Character(character) | Which::Region(character, _) => {
+                let character = &loaded.compiled.characters[character];
+                let regions = regions(loaded, character, numbers);
+                (describe_character(character), regions)
             }
         };
-        rows.push([format!("{indent}{branch}{name}"), what.clone()]);
-        if let Item::Layer(layer) = item {
-            let listed = contents(&loaded.compiled.layers[layer]);
-            let indented = listed.into_iter();
-            rows.extend(indented.map(|[name, what]| [format!("{indent}{below}  {name}"), what]));
-        }
-        if let Item::Character(index) = item {
-            let character = &loaded.compiled.characters[index];
-            let listed = regions(loaded, character, numbers).into_iter();
-            rows.extend(listed.map(|[name, what]| [format!("{indent}{below}  {name}"), what]));
-        }
-        if let Item::Part(part) = item {
-            push(&mut stack, Some(part), &format!("{indent}{below}"));
-        }
+        rows.push([format!("{indent}{branch}{}", subject.name()), what]);
+        let listed = listed.into_iter();
+        rows.extend(listed.map(|[name, what]| [format!("{indent}{below}  {name}"), what]));
+        push(&mut stack, Some(subject.which), &format!("{indent}{below}"));
     }
     let mut out = columns(&rows);
-    let left_out: Vec<[String; 2]> = bindings
-        .parts
-        .iter()
-        .enumerate()
-        .filter(|(_, part)| {
-            matches!(part.kind, PartKind::Legend | PartKind::Unused) && part.is_candidate()
-        })
-        .map(|(index, part)| {
+    let left_out = Subject::all(&loaded.compiled).filter(|subject| subject.is_left_out());
+    let left_out: Vec<[String; 2]> = left_out
+        .map(|subject| {
             [
-                format!("   {}", own_name(&loaded.compiled, part)),
-                format!("{}, {}", part.kind.name(), string(loaded, index)),
+                format!("   {}", subject.name()),
+                format!("{}, {}", subject.kind(), string(subject)),
             ]
         })
         .collect();
@@ -166,15 +140,9 @@ fn tree(loaded: &Loaded, numbers: Numbers) -> String {
     out
 }
 
-/// Something that hangs on the root or on a part.
-#[derive(Clone, Copy)]
-enum Item {
-    /// Index of a main part.
-    Part(usize),
-    /// Index of a tile map.
-    Layer(usize),
-    /// Index of a character that turns.
-    Character(usize),
+/// Whether it is a landscape or a character: its parts are listed under it.
+fn is_layer(subject: Subject<'_>) -> bool {
+    matches!(subject.which, Which::Landscape(_) | Which::Character(_))
 }
 
 /// The regions of a character, with what each is in the views.
@@ -253,53 +221,44 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
     listed
 }
 
-fn describe_part(loaded: &Loaded, index: usize) -> String {
-    let bindings = &loaded.compiled.bindings;
-    let part = &bindings.parts[index];
-    let shape = bindings.setting(index, Keyword::Shape);
-    let solid = shape.map_or("default".to_owned(), |source| match source.from {
-        SetBy::Own => source.setting.text.clone(),
-        from => format!("{} ({})", source.setting.text, from.name()),
-    });
-    let others = bindings.parts.iter();
-    let others = others.filter(|other| other.main == index && other.kind == PartKind::Sub);
-    let (ink, subs): (Vec<&bind::Part>, Vec<&bind::Part>) =
-        others.partition(|other| other.host.is_some());
-    let subs = match subs.len() {
-        0 => String::new(),
-        1 => ", 1 sub-part".to_owned(),
-        count => format!(", {count} sub-parts"),
+fn describe_part(loaded: &Loaded, subject: Subject<'_>, index: usize) -> String {
+    let attributes = subject.attributes().into_iter();
+    let mut shape = attributes.filter(|attribute| attribute.keyword == Keyword::Shape);
+    let solid = shape
+        .next()
+        .map_or("default".to_owned(), |shape| match shape.from {
+            SetBy::Own | SetBy::Builtin => shape.value,
+            from => format!("{} ({})", shape.value, from.name()),
+        });
+    let is_within = |other: &Subject<'_>| {
+        other.is_sub()
+            && other
+                .parent()
+                .is_some_and(|main| main.which == subject.which)
     };
-    let ink = match ink.len() {
+    let others = Subject::all(&loaded.compiled).filter(is_within);
+    let (ink, subs): (Vec<_>, Vec<_>) = others.partition(|other| other.host().is_some());
+    let listed = |count: usize, word: &str| match count {
         0 => String::new(),
-        1 => ", 1 stroke".to_owned(),
-        count => format!(", {count} strokes"),
+        count => format!(", {}", counted(count, word)),
     };
-    let element = loaded.compiled.drawing.shapes[part.shape]
-        .element
-        .describe();
+    let subs = listed(subs.len(), "sub-part");
+    let ink = listed(ink.len(), "stroke");
+    let element = subject
+        .element()
+        .map_or(String::new(), |element| element.describe());
     let depth = depth_reason(&loaded.compiled, index);
     let depth = depth.map_or(String::new(), |reason| format!("; {reason}"));
-    format!(
-        "{solid}{subs}{ink}; {element}, {}{depth}",
-        string(loaded, index)
-    )
+    format!("{solid}{subs}{ink}; {element}, {}{depth}", string(subject))
 }
 
 /// By what rule a part has its string.
-fn string(loaded: &Loaded, part: usize) -> String {
-    let bindings = &loaded.compiled.bindings;
-    let binding = bindings.parts[part]
-        .string
-        .and_then(|string| bindings.strings[string].binding);
-    match binding {
-        None if bindings.parts[part].kind != PartKind::Main => "no string".to_owned(),
-        None => match bindings.parts[part].named_by {
-            NamedBy::Label { .. } => "named by its label".to_owned(),
-            NamedBy::Id { .. } => "named by its id".to_owned(),
-            NamedBy::String | NamedBy::Automatic => "no string".to_owned(),
-        },
-        Some(binding) => format!("bound by {}", binding.by.name()),
+fn string(subject: Subject<'_>) -> String {
+    match (subject.bound_by(), subject.named_by()) {
+        (Some(by), _) => format!("bound by {}", by.name()),
+        (None, Some(NamedBy::Label { .. })) => "named by its label".to_owned(),
+        (None, Some(NamedBy::Id { .. })) => "named by its id".to_owned(),
+        (None, _) => "no string".to_owned(),
     }
 }
 

@@ -12,6 +12,7 @@ use crate::clips::BuiltIn;
 use crate::disk::{Inputs, Naming, Target, WriteError, open_stream};
 use crate::export::{self, Exporter};
 use crate::labels::{Anatomy, Label};
+use crate::limited::frame_ranges;
 use crate::limited::{self, Error, Length, Method};
 use crate::mocap::bvh::{self, Reading};
 use crate::mocap::resample::rate;
@@ -19,7 +20,6 @@ use crate::mocap::{Clip, JointId};
 use crate::motion::edit::{self, EditedClip, ExposureMethod, Filmed, edit};
 use crate::motion::{add_camera, skeleton_model};
 use crate::prepare::{self, LeadInPolicy};
-use crate::report::frame_ranges;
 
 mod performance;
 

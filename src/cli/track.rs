@@ -15,9 +15,9 @@ use super::progress::counting;
 use super::render::movie::{Movie, MovieForm};
 use super::{Outcome, counted, fail};
 use crate::disk::{Inputs, Naming, Target};
+use crate::limited::frame_ranges;
 use crate::mark_tracks::{MAX_MARKS, MarkTrack, MarkTracks, repeated_name};
 use crate::render::{Image, Palette, write_png};
-use crate::report::frame_ranges;
 use crate::tracking::{Frame, LearnError, Learned, Learner, Tracker, hue_name, tracks};
 
 /// The most ranges of lost frames that are listed.

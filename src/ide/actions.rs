@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Analysis;
-use super::at::{At, attributes};
+use super::at::{At, Found, attributes};
 use crate::bind::{BindRule, DistanceMode, Part, PartKind, StringId};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
@@ -55,18 +55,20 @@ impl Analysis {
                 is_preferred: only,
             }));
         }
-        match self.at(window.start) {
-            Some(At::Tag { shape, part }) => {
+        let Some(At { found, part, .. }) = self.at(window.start) else {
+            return actions;
+        };
+        match found {
+            Found::Tag { shape } => {
                 actions.extend(part.map_or(vec![], |part| self.give_a_string(part)));
                 actions.extend(self.name_both(shape));
             }
-            Some(At::String { string, .. }) => {
+            Found::String { string, .. } => {
                 actions.extend(self.move_to_legend(string));
-                if let Some(part) = self.part_of_string(string) {
+                if let Some(part) = part {
                     actions.extend(self.name_both(self.bindings().parts[part].shape));
                 }
             }
-            None => {}
         }
         actions
     }

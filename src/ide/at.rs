@@ -1,15 +1,33 @@
-//! The item at an offset: the one query that all others go through.
+//! What is at an offset: the one query that all others go through.
 
 use std::ops::Range;
 
-use super::Analysis;
+use super::{Analysis, Subject, subject};
 use crate::bind::{DrawingString, StringId};
-use crate::lang::ast::{Annotation, Attribute};
-use crate::svg::ShapeId;
+use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
+use crate::lang::keyword::Keyword;
+use crate::source::Span;
+use crate::svg::{Element, ShapeId};
 
-/// The item at an offset of a drawing.
+/// What is at an offset of a drawing.
+#[derive(Debug, Clone)]
+pub struct At<'a> {
+    /// The span: of the word, of the string between words, or of the tag.
+    pub span: Span,
+    /// The string or tag.
+    pub found: Found,
+    /// Index of the part that the string or the tag has, if any; of a region, the one in this view.
+    pub part: Option<usize>,
+    /// What the string or the tag belongs to. The preview shows it.
+    pub subject: Option<Subject<'a>>,
+    /// What the word stands for: the part that it names as a parent, the subject if it is not about the language. Hovers describe
+    /// it, and definitions lead to it.
+    pub meant: Option<Subject<'a>>,
+}
+
+/// A string or a tag.
 #[derive(Debug, Clone, PartialEq)]
-pub enum At {
+pub enum Found {
     /// A string.
     String {
         /// Its id in the bindings.
@@ -19,12 +37,10 @@ pub enum At {
         /// The token there; `None` between tokens.
         token: Option<Token>,
     },
-    /// The name of a shape's tag: `<rect`.
+    /// The name of a shape's tag, `<rect`, or of a group that gives its part the name.
     Tag {
         /// Index of the shape in the drawing.
         shape: ShapeId,
-        /// Index of its part, if it has one.
-        part: Option<usize>,
     },
 }
 
@@ -60,21 +76,86 @@ pub enum Item {
 }
 
 impl Analysis {
-    /// The item at byte `offset`.
-    pub fn at(&self, offset: usize) -> Option<At> {
-        if let Some((string, offset)) = self.string_at(offset) {
-            let token = token_at(&self.bindings().strings[string], offset);
-            return Some(At::String {
+    /// What is at byte `offset`.
+    pub fn at(&self, offset: usize) -> Option<At<'_>> {
+        match self.string_at(offset) {
+            Some((string, offset)) => Some(self.in_string(string, offset)),
+            None => self.tag_at(offset),
+        }
+    }
+
+    fn in_string(&self, string: StringId, offset: usize) -> At<'_> {
+        let found = &self.bindings().strings[string];
+        let token = token_at(found, offset);
+        let subject = Subject::of_string(&self.compiled, string);
+        let named = |name| Subject::of_part(&self.compiled, self.part_named(name)?);
+        let meant = match (token.as_ref().map(|token| token.item), &found.annotation) {
+            (None | Some(Item::Sign | Item::Name | Item::Remark), _) => subject,
+            (Some(Item::Parent), Annotation::Part(part)) => {
+                part.parent.as_ref().and_then(|parent| named(&parent.text))
+            }
+            (Some(Item::Argument(index, argument)), annotation) => {
+                followed(&attributes(annotation)[index], argument).and_then(named)
+            }
+            _ => None,
+        };
+        At {
+            span: match &token {
+                Some(token) => found.text.span(token.range.clone()),
+                None => found.text.whole(),
+            },
+            found: Found::String {
                 string,
                 offset,
                 token,
-            });
+            },
+            part: self.part_of_string(string),
+            subject,
+            meant,
         }
-        let shape = self.drawing().shapes.position(|shape| {
-            shape.element.span.touches(offset) && shape.element.span.start < shape.element.span.end
-        })?;
-        let part = self.part_of_shape(shape);
-        Some(At::Tag { shape, part })
+    }
+
+    fn tag_at(&self, offset: usize) -> Option<At<'_>> {
+        let is_there = |element: &Element| {
+            element.span.touches(offset) && element.span.start < element.span.end
+        };
+        let shapes = &self.drawing().shapes;
+        let (span, shape, part) = match shapes.position(|shape| is_there(&shape.element)) {
+            Some(shape) => {
+                let span = shapes[shape].element.span;
+                (span, shape, self.part_of_shape(shape))
+            }
+            None => {
+                let bindings = self.bindings();
+                let mut parts = 0..bindings.parts.len();
+                let (part, naming) = parts.find_map(|part| {
+                    let naming = bindings.naming_element(self.drawing(), part);
+                    Some((part, naming.filter(|naming| is_there(naming))?))
+                })?;
+                (naming.span, bindings.parts[part].shape, Some(part))
+            }
+        };
+        let subject = match part {
+            Some(part) => Subject::of_part(&self.compiled, part),
+            None => Subject::of_shape(&self.compiled, shape),
+        };
+        Some(At {
+            span,
+            found: Found::Tag { shape },
+            part,
+            subject,
+            meant: subject,
+        })
+    }
+
+    /// The name that the preview's page has for what is at byte `offset`.
+    pub fn part_at(&self, offset: usize) -> Option<&str> {
+        self.at(offset)?.subject?.shown_name()
+    }
+
+    /// The span of the text of what the preview's page calls so.
+    pub fn place_of(&self, name: &str) -> Option<Span> {
+        Subject::named(&self.compiled, name).map(Subject::span)
     }
 
     /// The string at byte `offset`, and the offset in its decoded characters.
@@ -93,16 +174,32 @@ impl Analysis {
         Some((string, text.offset_of(offset).filter(|_| inside)?))
     }
 
-    /// The part of a shape; the fill if fill and border are two.
     pub(super) fn part_of_shape(&self, shape: ShapeId) -> Option<usize> {
-        let mut parts = self.bindings().parts.iter();
-        parts.position(|part| part.shape == shape)
+        subject::part_of_shape(&self.compiled, shape)
     }
 
     pub(super) fn part_of_string(&self, string: StringId) -> Option<usize> {
-        let binding = self.bindings().strings[string].binding?;
-        let part = &self.bindings().parts[binding.part];
-        (part.string == Some(string)).then_some(binding.part)
+        subject::part_of_string(&self.compiled, string)
+    }
+
+    pub(super) fn span_of_part(&self, part: usize) -> Span {
+        subject::span_of_part(&self.compiled, part)
+    }
+
+    pub(super) fn span_of_string(&self, string: StringId) -> Span {
+        subject::span_of_string(&self.compiled, string)
+    }
+}
+
+/// The name of the part that an argument of `Follow` means.
+fn followed(attribute: &Attribute, argument: usize) -> Option<&str> {
+    match &attribute.arguments[argument].kind {
+        ArgumentKind::Word(name) | ArgumentKind::Quoted(name)
+            if attribute.keyword == Keyword::Follow =>
+        {
+            Some(name)
+        }
+        _ => None,
     }
 }
 
@@ -180,9 +277,9 @@ mod tests {
 
     fn item(strings: [&str; 5]) -> Option<Item> {
         let (analysis, at) = analysis(&figure(strings));
-        match analysis.at(at) {
-            Some(At::String { token, .. }) => token.map(|token| token.item),
-            _ => None,
+        match analysis.at(at)?.found {
+            Found::String { token, .. } => token.map(|token| token.item),
+            Found::Tag { .. } => None,
         }
     }
 
@@ -219,13 +316,9 @@ mod tests {
         let source = figure(["Body", "Arm@Body", "", "", ""])
             .replace("<rect id=\"right\"", "<re¦ct id=\"right\"");
         let (analysis, at) = analysis(&source);
-        let Some(At::Tag {
-            part: Some(part), ..
-        }) = analysis.at(at)
-        else {
-            panic!("the tag is not found");
-        };
-        assert_eq!(analysis.bindings().parts[part].name, "Arm");
-        assert_eq!(analysis.at(0), None);
+        let found = analysis.at(at).unwrap();
+        assert!(matches!(found.found, Found::Tag { .. }));
+        assert_eq!(found.subject.unwrap().name(), "Arm");
+        assert!(analysis.at(0).is_none());
     }
 }

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use super::at::{At, Item, attributes};
-use super::{Analysis, Symbol};
+use super::at::{At, Found, Item, attributes};
+use super::subject::span_of_shape;
+use super::{Analysis, Symbol, Which};
 use crate::bind::{SetBy, StringId};
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
 use crate::lang::parameter_at;
-use crate::report::own_name;
 use crate::source::Span;
 
 /// The target of a definition.
@@ -27,67 +27,39 @@ impl Analysis {
     /// name to the file. The name of a region leads to its partners in the other views of the character, and so does the tag
     /// of a region without a string; the string of a view leads to those of the other views.
     pub fn definition(&self, offset: usize) -> Option<(Span, Vec<Target>)> {
-        match self.at(offset)? {
-            At::Tag { shape, part } => {
-                let parts = &self.bindings().parts;
-                let string =
-                    part.and_then(|part| parts[part].string.or(parts[parts[part].main].string));
-                let from = self.drawing().shapes[shape].element.span;
-                let to = match string {
-                    Some(string) => vec![self.span_of_string(string)],
-                    None => self.partners_of_shape(shape),
-                };
-                let to: Vec<Target> = to.into_iter().map(Target::Here).collect();
-                (!to.is_empty()).then_some((from, to))
-            }
-            At::String { string, token, .. } => {
-                let text = &self.bindings().strings[string].text;
-                let Some(token) = token else {
-                    return Some((text.whole(), self.named_by(string)?));
-                };
-                let from = text.span(token.range.clone());
-                let to = match token.item {
-                    Item::Name | Item::Sign | Item::Remark => self.named_by(string)?,
-                    Item::Keyword(index) => self.overruled(string, index)?,
-                    Item::Flag(..) => return None,
-                    Item::Parent | Item::Feature | Item::Argument(..) => {
-                        return self
-                            .defined_at(offset)
-                            .or_else(|| Some((from, vec![self.file(string, token.item)?])));
-                    }
-                };
-                Some((from, to))
-            }
-        }
-    }
-
-    /// The name of the part whose string, or whose shape's tag, is at byte `offset`.
-    pub fn part_at(&self, offset: usize) -> Option<&str> {
         let at = self.at(offset)?;
-        let mut layers = self.compiled.layers.iter();
-        let here = layers.find(|layer| match &at {
-            At::Tag { shape, .. } => layer.sources.iter().any(|tiles| tiles.shape == *shape),
-            At::String { string, .. } => layer.string == *string,
-        });
-        if let Some(layer) = here {
-            return Some(&layer.name);
-        }
-        let part = match at {
-            At::Tag { part, .. } => part?,
-            At::String { string, .. } => self.bindings().strings[string].binding?.part,
+        let to = match &at.found {
+            Found::Tag { shape } => match self.string_of_tag(&at) {
+                Some(string) => vec![Target::Here(self.span_of_string(string))],
+                None => {
+                    let partners = self.partners_of_shape(*shape).into_iter();
+                    partners.map(Target::Here).collect()
+                }
+            },
+            Found::String { string, token, .. } => match token.as_ref().map(|token| token.item) {
+                None | Some(Item::Name | Item::Sign | Item::Remark) => {
+                    self.named_by(*string, at.part)?
+                }
+                Some(Item::Keyword(index)) => self.overruled(*string, at.part?, index)?,
+                Some(Item::Flag(..)) => return None,
+                Some(item @ (Item::Parent | Item::Feature | Item::Argument(..))) => {
+                    let file = || Some((at.span, vec![self.file(*string, item)?]));
+                    return self.defined_at(offset).or_else(file);
+                }
+            },
         };
-        Some(own_name(&self.compiled, &self.bindings().parts[part]))
+        (!to.is_empty()).then_some((at.span, to))
     }
 
-    /// The span of the string of a part or a landscape, or of a part's tag if it has none.
-    pub fn place_of(&self, name: &str) -> Option<Span> {
-        let mut parts = self.bindings().parts.iter().enumerate();
-        if let Some((part, _)) = parts.find(|(_, part)| own_name(&self.compiled, part) == name) {
-            return Some(self.span_of_part(part));
-        }
-        let mut layers = self.compiled.layers.iter();
-        let layer = layers.find(|layer| layer.name == name)?;
-        Some(self.bindings().strings[layer.string].text.whole())
+    /// The string of a tag's part or landscape; for a sub-part without one, that of its main part.
+    fn string_of_tag(&self, at: &At<'_>) -> Option<StringId> {
+        let parts = &self.bindings().parts;
+        let own = |part: usize| parts[part].string.or(parts[parts[part].main].string);
+        let landscape = || match at.subject?.which {
+            Which::Landscape(_) => at.subject?.string_id(),
+            _ => None,
+        };
+        at.part.and_then(own).or_else(landscape)
     }
 
     /// The span of the symbol at byte `offset`, and its definitions.
@@ -107,18 +79,16 @@ impl Analysis {
     }
 
     /// What a string names: in the other views of a character, or else its own shape.
-    fn named_by(&self, string: StringId) -> Option<Vec<Target>> {
+    fn named_by(&self, string: StringId, part: Option<usize>) -> Option<Vec<Target>> {
         if let Some(others) = self.in_other_views(string) {
             return Some(others);
         }
-        let part = &self.bindings().parts[self.part_of_string(string)?];
-        let element = &self.drawing().shapes[part.shape].element;
+        let element = &self.drawing().shapes[self.bindings().parts[part?].shape].element;
         Some(vec![Target::Here(element.span)])
     }
 
     /// The setting of a legend or default that an attribute of a part's own string overrides.
-    fn overruled(&self, string: StringId, index: usize) -> Option<Vec<Target>> {
-        let part = self.part_of_string(string)?;
+    fn overruled(&self, string: StringId, part: usize, index: usize) -> Option<Vec<Target>> {
         let keyword = attributes(&self.bindings().strings[string].annotation)[index].keyword;
         let others = self.bindings().inherited(part, keyword)?;
         Some(vec![Target::Here(
@@ -156,28 +126,24 @@ impl Analysis {
             spans.extend(partners.into_iter().filter(|span| !is_use(span)));
             return spans;
         }
-        let part_name = match self.at(offset) {
-            Some(At::Tag { shape, .. }) if !self.regions_of_shape(shape).is_empty() => {
-                let own = match self.part_of_shape(shape) {
-                    Some(part) => self.span_of_part(part),
-                    None => self.drawing().shapes[shape].element.span,
-                };
-                let own = Some(own).filter(|_| with_definition);
-                return own
-                    .into_iter()
-                    .chain(self.partners_of_shape(shape))
-                    .collect();
-            }
-            Some(At::Tag {
-                part: Some(part), ..
-            }) => self.bindings().parts[part].name.clone(),
-            Some(At::String {
-                string,
-                token: Some(token),
-                ..
-            }) => return self.inheriting_parts(string, token.item),
-            _ => return vec![],
+        let Some(at) = self.at(offset) else {
+            return vec![];
         };
+        let shape = match at.found {
+            Found::Tag { shape } => shape,
+            Found::String { string, token, .. } => {
+                return token.map_or(vec![], |token| self.inheriting_parts(string, token.item));
+            }
+        };
+        if !self.regions_of_shape(shape).is_empty() {
+            let own = Some(span_of_shape(&self.compiled, shape)).filter(|_| with_definition);
+            let partners = self.partners_of_shape(shape);
+            return own.into_iter().chain(partners).collect();
+        }
+        let Some(part) = at.part else {
+            return vec![];
+        };
+        let part_name = self.bindings().parts[part].name.clone();
         let uses = self.uses(&Symbol::Part(part_name));
         uses.iter().map(|found| self.span_of(found)).collect()
     }

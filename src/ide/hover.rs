@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::at::{At, Item, attributes};
-use super::{Analysis, Symbol};
+use super::at::{At, Found, Item, attributes};
+use super::subject::bound_by;
+use super::{Analysis, Subject, Symbol, Which};
 use crate::bind::{BoundBy, NamedBy, PartKind, SetBy, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
@@ -43,45 +44,41 @@ impl Analysis {
 
     /// What is at an offset, and its description.
     fn card_at(&self, offset: usize) -> Option<(Span, String)> {
-        Some(match self.at(offset)? {
-            At::Tag { shape, part } => (
-                self.drawing().shapes[shape].element.span,
-                match self.tiles_card(shape).or_else(|| self.picture_card(shape)) {
-                    Some(card) => card,
-                    None => self.part_card(part?),
-                },
-            ),
-            At::String {
-                string,
-                offset,
-                token,
-            } => {
-                let text = &self.bindings().strings[string].text;
-                match token {
-                    None => (text.whole(), self.string_card(string)?),
-                    Some(token) => (
-                        text.span(token.range.clone()),
-                        self.token_card(string, token.item, offset)?,
-                    ),
-                }
+        let at = self.at(offset)?;
+        let card = match &at.found {
+            Found::Tag { shape } => {
+                let content = self.tiles_card(*shape);
+                let content = content.or_else(|| self.picture_card(*shape));
+                content.or_else(|| Some(self.part_card(at.part?)))
             }
-        })
+            Found::String { string, token, .. } => match token {
+                None => self.string_card(*string, &at),
+                Some(token) => self.token_card(*string, token.item, offset, &at),
+            },
+        };
+        Some((at.span, card?))
     }
 
-    fn token_card(&self, string: StringId, item: Item, offset: usize) -> Option<String> {
+    fn token_card(
+        &self,
+        string: StringId,
+        item: Item,
+        offset: usize,
+        at: &At<'_>,
+    ) -> Option<String> {
         let annotation = &self.bindings().strings[string].annotation;
         let attribute = |index: usize| &attributes(annotation)[index];
         match item {
-            Item::Sign | Item::Name | Item::Remark => self.string_card(string),
+            Item::Sign | Item::Name | Item::Remark => self.string_card(string, at),
             Item::Parent => {
                 let Annotation::Part(part) = annotation else {
                     return None;
                 };
                 let name = &part.parent.as_ref()?.text;
-                match self.part_named(name) {
-                    Some(part) => Some(self.part_card(part)),
-                    None => Some(format!("There is no part named `{name}`.")),
-                }
+                let unknown = || Some(format!("There is no part named `{name}`."));
+                at.meant
+                    .and_then(|meant| self.subject_card(meant))
+                    .or_else(unknown)
             }
             Item::Feature => Some(FEATURE.to_owned()),
             Item::Keyword(index) => {
@@ -111,6 +108,9 @@ impl Analysis {
                     && let Some(card) = self.joint_card(string, name)
                 {
                     return Some(card);
+                }
+                if let Some(meant) = at.meant {
+                    return self.subject_card(meant);
                 }
                 let card = self.argument_card(string, (index, argument), slot, offset)?;
                 let has_clips = matches!(
@@ -153,10 +153,7 @@ impl Analysis {
             (Takes::Names, ArgumentKind::Word(name) | ArgumentKind::Quoted(name))
                 if slot.owner == Keyword::Follow.name() =>
             {
-                return match self.part_named(name) {
-                    Some(part) => Some(self.part_card(part)),
-                    None => self.joint_card(string, name),
-                };
+                return self.joint_card(string, name);
             }
             (takes, _) => format!(
                 "`{}` of `{}`: {}\n\n*{}*",
@@ -171,20 +168,16 @@ impl Analysis {
         {
             let _ = write!(out, "\n\nIts value here is {value}.");
         }
-        if let Some(variable) = self.variable_card(string, offset) {
+        if let Some(variable) = self.variable_card(offset) {
             let _ = write!(out, "\n\n{variable}");
         }
         let _ = write!(out, "\n\n```\n{usage}\n```\n");
         Some(out)
     }
 
-    /// The variable at an offset of a string: its value and its `Let`.
-    fn variable_card(&self, string: StringId, offset: usize) -> Option<String> {
-        let at = self.bindings().strings[string]
-            .text
-            .span(offset..offset)
-            .start;
-        let (Symbol::Variable(name), _) = self.symbol_at(at)? else {
+    /// The variable at a byte offset: its value and its `Let`.
+    fn variable_card(&self, offset: usize) -> Option<String> {
+        let (Symbol::Variable(name), _) = self.symbol_at(offset)? else {
             return None;
         };
         let variables = &self.bindings().variables;
@@ -198,19 +191,15 @@ impl Analysis {
         })
     }
 
-    fn string_card(&self, string: StringId) -> Option<String> {
-        let bindings = self.bindings();
-        match &bindings.strings[string].annotation {
+    fn string_card(&self, string: StringId, at: &At<'_>) -> Option<String> {
+        match &self.bindings().strings[string].annotation {
             Annotation::Defaults(_) => Some(self.defaults_card(string)),
-            Annotation::Legend(_) => self.legend_card(string),
-            Annotation::Unused => {
-                let part = bindings.strings[string].binding?.part;
-                Some(format!(
-                    "{} is left out of the model.",
-                    self.element_of(part)
-                ))
-            }
-            Annotation::Part(_) => match self.part_of_string(string) {
+            Annotation::Legend(_) => Some(self.legend_card(string, at.part?)),
+            Annotation::Unused => Some(format!(
+                "{} is left out of the model.",
+                self.element_of(at.part?)
+            )),
+            Annotation::Part(_) => match at.part {
                 Some(part) => Some(self.part_card(part)),
                 None => self
                     .landscape_card(string)
@@ -221,6 +210,14 @@ impl Analysis {
             | Annotation::Comment
             | Annotation::Caption
             | Annotation::Feature(_) => None,
+        }
+    }
+
+    /// What another string names.
+    fn subject_card(&self, subject: Subject<'_>) -> Option<String> {
+        match subject.which {
+            Which::Part(part) => Some(self.part_card(part)),
+            _ => None,
         }
     }
 
@@ -254,11 +251,7 @@ impl Analysis {
         if part.kind == PartKind::Main {
             let _ = write!(out, "\n\n{}", self.lineage(index));
         }
-        let bound = bindings.parts[index]
-            .string
-            .and_then(|string| bindings.strings[string].binding)
-            .map(|binding| binding.by);
-        let why = match bound {
+        let why = match bound_by(&self.compiled, index) {
             None if part.host.is_some() => "a stroke that lies on it",
             None if part.kind != PartKind::Main => "it has no string",
             None => match part.named_by {
@@ -273,10 +266,12 @@ impl Analysis {
             Some(BoundBy::Nearest) => "by the string that is nearest to it",
         };
         let _ = write!(out, "\n\n{}, {why}", self.element_of(index));
-        if matches!(part.kind, PartKind::Main | PartKind::Sub) {
+        if matches!(part.kind, PartKind::Main | PartKind::Sub)
+            && let Some(subject) = Subject::of_part(&self.compiled, index)
+        {
             // A list, since many editors do not render tables.
             out.push_str("\n\n");
-            for attribute in bindings.resolved(self.drawing(), index) {
+            for attribute in subject.attributes() {
                 let from = match attribute.from {
                     SetBy::Own => "its own string",
                     SetBy::Legend => "the legend of its paint",
@@ -350,8 +345,7 @@ impl Analysis {
         out
     }
 
-    fn legend_card(&self, string: StringId) -> Option<String> {
-        let part = self.bindings().strings[string].binding?.part;
+    fn legend_card(&self, string: StringId, part: usize) -> String {
         let mut out = format!(
             "A legend for all parts that are painted like {}.",
             self.element_of(part)
@@ -362,7 +356,7 @@ impl Analysis {
             }
             None => out.push_str("\n\nNo part uses it."),
         }
-        Some(out)
+        out
     }
 
     /// The parts that inherit an attribute from a legend or a `%` string.

@@ -1,10 +1,12 @@
 //! The answers to an editor's requests about a drawing, in plain terms: byte offsets, texts, edits.
 //!
 //! Everything here is a pure function of an [`Analysis`], a drawing with what the compiler found in it.
-//! Hover, definition, highlights and the rest use one query, [`Analysis::at`]; names and variables
-//! use [`Symbol`]. No module here knows any protocol.
+//! Hover, definition, the preview's page, highlights and the rest use one query, [`Analysis::at`], whose answer is a [`Subject`];
+//! `inspect` lists the same subjects. Names and variables use [`Symbol`]. No module here knows any protocol.
 
 mod actions;
+#[cfg(test)]
+mod agreement_tests;
 mod at;
 mod colors;
 mod completion;
@@ -24,6 +26,7 @@ mod regions;
 mod rename;
 mod selection;
 mod signature;
+mod subject;
 mod symbols;
 mod tiles;
 mod tokens;
@@ -38,16 +41,16 @@ pub use inlay::Inlay;
 pub(crate) use letters::has_letters;
 pub use rename::RenameError;
 pub use signature::{SignatureHelp, signature};
+pub use subject::{Subject, Which};
 pub use symbols::Outline;
 pub use tokens::{SemanticToken, TokenClass};
 pub use uses::{Symbol, Use};
 
 use std::sync::Arc;
 
-use crate::bind::{Bindings, PartKind, StringId};
+use crate::bind::{Bindings, PartKind};
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
-use crate::source::Span;
 use crate::svg::Drawing;
 
 /// A drawing with its compilation.
@@ -108,31 +111,6 @@ impl Analysis {
     fn part_named(&self, name: &str) -> Option<usize> {
         let named = |part: &crate::bind::Part| part.kind == PartKind::Main && part.name == name;
         self.bindings().parts.iter().position(named)
-    }
-
-    /// The span that names a part: in its string, or the tag of its shape or group.
-    fn span_of_part(&self, part: usize) -> Span {
-        let bindings = self.bindings();
-        let naming = bindings.naming_element(self.drawing(), part);
-        let part = &bindings.parts[part];
-        match part.string {
-            Some(string) => self.span_of_string(string),
-            None => naming.map_or(self.drawing().shapes[part.shape].element.span, |element| {
-                element.span
-            }),
-        }
-    }
-
-    /// The span that names a string's part: the name, or the whole string.
-    fn span_of_string(&self, string: StringId) -> Span {
-        let string = &self.bindings().strings[string];
-        let name = at::tokens(string)
-            .into_iter()
-            .find(|token| token.item == Item::Name);
-        match name {
-            Some(name) => string.text.span(name.range),
-            None => string.text.whole(),
-        }
     }
 
     /// Whether a variable of this name is defined.

@@ -8,7 +8,7 @@ use super::hover::escaped;
 use crate::bind::{PartKind, StringId};
 use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
-use crate::report::{cut_frames, frame_ranges, undriven};
+use crate::limited::frame_ranges;
 use crate::rig::{FigureClip, JointId};
 use crate::source::Span;
 
@@ -43,7 +43,7 @@ impl Analysis {
                 Some(joint) => {
                     format!("driven by {}: {}", code(clip.joint_name(joint)), drive.why)
                 }
-                None => undriven(clip, drive),
+                None => clip.undriven(drive),
             };
             match lines.iter_mut().find(|(known, _)| *known == line) {
                 Some((_, names)) => names.push(&clip.name),
@@ -123,7 +123,7 @@ impl Analysis {
             .iter()
             .filter(|clip| clip.limited_at == Some(span));
         let lines = clips.map(|clip| {
-            let (omitted, held) = cut_frames(clip);
+            let (omitted, held) = clip.cut_frames();
             let what = |frames: &[u32]| {
                 if frames.is_empty() {
                     String::new()

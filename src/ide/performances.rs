@@ -3,8 +3,7 @@
 use super::Analysis;
 use super::motion::{code, list};
 use crate::bind::StringId;
-use crate::report::{Performance, PerformedMark, performance, performed_mark};
-use crate::rig::FigureClip;
+use crate::rig::{FigureClip, Performance, PerformedMark};
 use crate::source::Span;
 
 /// How many marks are listed individually.
@@ -15,7 +14,7 @@ impl Analysis {
     pub(super) fn performance_card(&self, span: Span) -> Option<String> {
         let lines = self.compiled.clips.iter().filter_map(|clip| {
             let performed = clip.performed.as_ref()?;
-            let performance = performance(&self.compiled, clip)?;
+            let performance = clip.performance(self.bindings())?;
             (performed.requested_at == span).then(|| self.performed_line(clip, &performance))
         });
         list(lines.collect())
@@ -46,7 +45,7 @@ impl Analysis {
             let performed = clip.performed.as_ref()?;
             let mut channels = performed.channels.iter();
             let channel = channels.position(|channel| channel.parts.contains(&part))?;
-            let mark = performed_mark(&self.compiled, performed, channel);
+            let mark = performed.mark(self.bindings(), channel);
             Some(format!(
                 "clip {}: of {}, {}",
                 code(&clip.name),

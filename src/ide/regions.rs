@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::hover::escaped;
+use super::subject::span_of_shape;
 use super::{Analysis, Target};
 use crate::billboard::{
     Candidate, Character, Pair, Reason, RegionInView, TrackId, Unmatched, ViewId,
@@ -309,11 +310,7 @@ impl Analysis {
 
     /// The span that names a region, or the tag of its shape.
     fn span_of_region(&self, region: Region<'_>) -> Option<Span> {
-        let shape = region.shape()?;
-        Some(match self.part_of_shape(shape) {
-            Some(part) => self.span_of_part(part),
-            None => self.drawing().shapes[shape].element.span,
-        })
+        Some(span_of_shape(&self.compiled, region.shape()?))
     }
 
     /// Where what a string names is in the other views of a character: the partners of its region, or the strings of the other

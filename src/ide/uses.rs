@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Analysis;
-use super::at::{At, Item, attributes};
+use super::at::{Found, Item, attributes};
 use crate::bind::{DrawingString, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
@@ -45,11 +45,11 @@ impl Symbol {
 impl Analysis {
     /// The symbol at byte `offset`, and its use there.
     pub fn symbol_at(&self, offset: usize) -> Option<(Symbol, Use)> {
-        let At::String {
+        let Found::String {
             string,
             offset,
             token,
-        } = self.at(offset)?
+        } = self.at(offset)?.found
         else {
             return None;
         };

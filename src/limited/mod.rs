@@ -16,6 +16,7 @@ mod omit;
 mod pose_list;
 mod poses;
 mod queue;
+mod ranges;
 mod segments;
 
 #[cfg(test)]
@@ -28,6 +29,7 @@ pub use exposure::{Drawing, Exposure, every, every_through};
 pub use key_times::KeyTimes;
 pub use measured::Measured;
 pub use poses::{Poses, ssd};
+pub use ranges::frame_ranges;
 
 use pose_list::PoseList;
 

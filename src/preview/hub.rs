@@ -12,7 +12,7 @@ use super::message::{Build, Listed, PartOrKept, ToPage, findings};
 use crate::compile::Compiled;
 use crate::export::{self, GLB};
 use crate::render::{self, Options, PosedModel, write_png};
-use crate::report::{characters, clips, landscapes, parts};
+use crate::report::{clips, everything};
 use crate::resolver::MemoryResolver;
 use crate::watch::BuildTimes;
 
@@ -191,9 +191,7 @@ impl Hub {
     pub fn publish(&self, id: &str, [folder, name]: [&str; 2], shown: &Shown<'_>) {
         // Everything that takes long happens before the lock is taken.
         let found = findings(&shown.compiled.diagnostics, shown.text);
-        let mut parts = parts(shown.compiled, shown.text);
-        parts.extend(landscapes(shown.compiled, shown.text));
-        parts.extend(characters(shown.compiled));
+        let parts = everything(shown.compiled, shown.text);
         let parts = parts.iter().flat_map(to_raw_value).collect::<Vec<_>>();
         let clips = to_raw_value(&clips(shown.compiled)).unwrap_or_default();
         let originals = shown.model.and_then(|_| originals(shown.compiled));

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::parts::Part;
 use crate::billboard::{Character, RegionId, RegionModel, TrackId, ViewId};
 use crate::compile::Compiled;
 use crate::scene::view_axes;
@@ -72,30 +71,8 @@ fn region<'a>(
     }
 }
 
-/// The characters and their regions as parts, for lists of everything in the model.
-pub fn characters<'a>(compiled: &'a Compiled) -> Vec<Part<'a>> {
-    let mut parts = Vec::new();
-    for character in &compiled.characters {
-        let layer = &compiled.bindings.layers[character.layers[ViewId::FIRST]];
-        let frame = &character.frames[ViewId::FIRST];
-        parts.push(Part {
-            element: compiled.drawing.groups[layer.group].element.id.as_deref(),
-            ..Part::plain(&character.name, "character", frame.center)
-        });
-        parts.extend(character.regions.iter().map(|region| {
-            Part {
-                parent: Some(&character.name),
-                element: (region.shape)
-                    .and_then(|shape| compiled.drawing.shapes[shape].element.id.as_deref()),
-                ..Part::plain(&region.name, "region", middle(character, region))
-            }
-        }));
-    }
-    parts
-}
-
 /// The middle of a region in the first view, drawing units, y down.
-fn middle(character: &Character, region: &RegionModel) -> glam::DVec2 {
+pub(super) fn middle(character: &Character, region: &RegionModel) -> glam::DVec2 {
     let [right, up, _] = view_axes(character.turn.views[ViewId::FIRST]);
     let place = region.positions[ViewId::FIRST];
     let at = glam::DVec2::new(place.dot(right), place.dot(up));

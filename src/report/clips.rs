@@ -4,10 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::own_name;
-use super::performances::{Performance, performance};
 use crate::compile::Compiled;
-use crate::rig::{FigureClip, PartDrive};
+use crate::rig::{FigureClip, PartDrive, Performance};
 
 /// The most speeds in a report: more cannot be told apart on a screen.
 const MAX_SPEEDS: usize = 4096;
@@ -58,12 +56,12 @@ pub fn clips(compiled: &Compiled) -> Vec<Clip<'_>> {
 }
 
 fn report<'a>(compiled: &'a Compiled, clip: &'a FigureClip) -> Clip<'a> {
-    let name = |part: usize| own_name(compiled, &compiled.bindings.parts[part]);
+    let name = |part: usize| compiled.bindings.parts[part].name.as_str();
     let (driven, unmatched): (Vec<_>, Vec<_>) =
         clip.parts.iter().partition(|drive| drive.joint.is_some());
     let joint = |drive: &&PartDrive| Some((name(drive.part), clip.joint_name(drive.joint?)));
     let reason = |drive: &&'a PartDrive| (name(drive.part), drive.why.as_str());
-    let (omitted, held) = cut_frames(clip);
+    let (omitted, held) = clip.cut_frames();
     let drawings = clip.cut.iter().flat_map(|cut| cut.exposure.drawings());
     let speeds = clip.speeds();
     let step = speeds.len().div_ceil(MAX_SPEEDS).max(1);
@@ -87,18 +85,6 @@ fn report<'a>(compiled: &'a Compiled, clip: &'a FigureClip) -> Clip<'a> {
         joints: driven.iter().filter_map(joint).collect(),
         joint_reasons: driven.iter().map(reason).collect(),
         unmatched: unmatched.iter().map(|drive| name(drive.part)).collect(),
-        performance: performance(compiled, clip),
+        performance: clip.performance(&compiled.bindings),
     }
-}
-
-/// The frames of a clip that were omitted, and those that are covered by holding the pose before, in order.
-pub fn cut_frames(clip: &FigureClip) -> (Vec<u32>, Vec<u32>) {
-    let Some(cut) = &clip.cut else {
-        return (Vec::new(), Vec::new());
-    };
-    let mut omitted: Vec<u32> = cut.omitted.to_vec();
-    let mut held: Vec<u32> = cut.held.iter().map(|hold| hold.covered).collect();
-    omitted.sort_unstable();
-    held.sort_unstable();
-    (omitted, held)
 }

@@ -1,6 +1,5 @@
 //! How far in front of others parts lie, and why, for people.
 
-use crate::bind::Bindings;
 use crate::compile::Compiled;
 use crate::figure::Reason;
 
@@ -9,16 +8,15 @@ const NONE: f64 = 5e-3;
 
 /// Why a main part lies at its depth; `None` for one that lies in the plane of what it hangs on, and for parts without a node.
 pub fn depth_reason(compiled: &Compiled, part: usize) -> Option<String> {
-    let Compiled {
-        bindings, depths, ..
-    } = compiled;
+    let (parts, depths) = (&compiled.bindings.parts, &compiled.depths);
+    let name = |part: usize| &parts[parts[part].main].name;
     let own = depths[part]?;
     let from = |other: usize| match depths[other] {
         Some(other) => own.depth - other.depth,
         None => 0.0,
     };
     let place = |other: usize| {
-        let (name, by) = (name(bindings, other), from(other));
+        let (name, by) = (name(other), from(other));
         match by {
             _ if by.abs() < NONE => format!("as deep as {name}"),
             by if by > 0.0 => format!("in front of {name} by {}", short(by)),
@@ -30,20 +28,15 @@ pub fn depth_reason(compiled: &Compiled, part: usize) -> Option<String> {
         Reason::Given => "depth given".to_owned(),
         Reason::DrawnOver { part } => format!("{}: drawn over it", place(part)),
         Reason::DrawnUnder { part } => format!("{}: drawn before it", place(part)),
-        Reason::With { part } => format!("lies on {}", name(bindings, part)),
+        Reason::With { part } => format!("lies on {}", name(part)),
         Reason::Backdrop { of } => format!("{}: covered by it", place(of)),
         Reason::Twin { of } => {
-            let parent = bindings.parts[part].parent;
+            let parent = parts[part].parent;
             let parent = parent.map(|parent| format!("{}: ", place(parent)));
             let parent = parent.unwrap_or_default();
-            format!("{parent}twin of {}", name(bindings, of))
+            format!("{parent}twin of {}", name(of))
         }
     })
-}
-
-fn name(bindings: &Bindings, part: usize) -> &str {
-    let part = &bindings.parts[part];
-    &bindings.parts[part.main].name
 }
 
 /// A length with two digits after the point, without zeros at its end.

@@ -9,20 +9,17 @@ mod inspection;
 mod joints;
 mod matches;
 mod parts;
-mod performances;
 #[cfg(test)]
 pub(crate) mod samples;
 mod terrain;
 
-pub use billboards::{Billboard, billboards, characters, describe_character};
-pub use clips::{Clip, clips, cut_frames};
+pub use billboards::{Billboard, billboards, describe_character};
+pub use clips::{Clip, clips};
 pub use depths::depth_reason;
 pub use findings::{Findings, Likeness, findings_json};
 pub use inspection::inspection_json;
-pub use joints::{drivers, frame_ranges, undriven};
 pub use matches::picture_of_matches;
-pub use parts::{Part, landscapes, own_name, part_count, parts};
-pub use performances::{Performance, PerformedMark, performance, performed_mark};
+pub use parts::{Part, everything, part_count, parts};
 pub use terrain::{Terrain, terrain};
 
 /// Indented JSON. Reports hold only text and numbers, so this cannot fail.

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 use serde::Serialize;
 
+use super::billboards::middle;
 use super::depths::depth_reason;
-use super::drivers;
-use crate::bind::{self, DrawingString, PartKind, SetBy};
+use super::joints::{Driver, drivers};
+use crate::billboard::ViewId;
 use crate::compile::Compiled;
+use crate::ide::{Subject, Which};
 use crate::source::LineIndex;
-use crate::terrain::Layer;
 
 /// A part. Coordinates are drawing units, y down.
 #[derive(Debug, Clone, Serialize)]
@@ -22,8 +23,7 @@ pub struct Part<'a> {
     pub named_by: Option<&'static str>,
     /// The name of its parent; `None` for the root.
     pub parent: Option<&'a str>,
-    /// `main`, `sub`, `legend` or `unused`; `terrain` in [`landscapes`], `character` and `region` in
-    /// [`characters`](super::characters).
+    /// `main`, `sub`, `legend` or `unused`; in [`everything`] also `terrain`, `character` and `region`.
     pub kind: &'static str,
     /// For ink, the name of the part on which it lies.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -80,140 +80,127 @@ pub struct AttributeReport {
     pub from: &'static str,
 }
 
-impl<'a> Part<'a> {
-    /// A part without anything that only parts of figures have.
-    pub(super) fn plain(name: &'a str, kind: &'static str, center: DVec2) -> Self {
-        let center = center.to_array();
-        Self {
-            name,
-            named_by: None,
-            parent: None,
-            kind,
-            ink_on: None,
-            element: None,
-            string: None,
-            center,
-            ends: [center; 2],
-            origin: center,
-            axis: [1.0, 0.0],
-            depth: None,
-            depth_why: None,
-            attributes: BTreeMap::new(),
-            joint: None,
-            joint_why: None,
-        }
-    }
-}
-
 /// The parts of a drawing, in paint order.
 pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
-    let bindings = &compiled.bindings;
-    let lines = LineIndex::new(text);
-    let drivers = drivers(compiled);
-    let parts = bindings.parts.iter().enumerate();
-    let parts = parts.filter(|(_, part)| !matches!(part.kind, PartKind::Tile | PartKind::Region));
-    let report = |(index, part): (usize, &'a bind::Part)| Part {
-        name: own_name(compiled, part),
-        named_by: (part.kind == PartKind::Main).then(|| part.named_by.name()),
-        parent: match part.kind {
-            PartKind::Main => part
-                .parent
-                .map(|parent| bindings.parts[parent].name.as_str()),
-            _ => (part.main != index).then(|| own_name(compiled, &bindings.parts[part.main])),
-        },
-        kind: part.kind.name(),
-        ink_on: part
-            .host
-            .map(|host| own_name(compiled, &bindings.parts[host])),
-        element: compiled.drawing.shapes[part.shape].element.id.as_deref(),
-        string: part.string.map(|string| {
-            let string = &bindings.strings[string];
-            string_report(compiled, string, &lines)
-        }),
-        center: part.measure.center.to_array(),
-        ends: part.measure.ends.map(|end| end.to_array()),
-        origin: part.origin.to_array(),
-        axis: part.measure.axis.to_array(),
-        depth: compiled.depths[index].map(|node| node.depth),
-        depth_why: depth_reason(compiled, index),
-        attributes: attributes(compiled, index),
-        joint: drivers[index].and_then(|driver| driver.joint),
-        joint_why: drivers[index].map(|driver| driver.why),
+    let parts = Subject::all(compiled);
+    let parts = parts.filter(|subject| matches!(subject.which, Which::Part(_)));
+    reports(compiled, text, parts)
+}
+
+/// The parts of a drawing, its landscapes, and its characters with their regions: everything in the model.
+pub fn everything<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
+    reports(compiled, text, Subject::all(compiled))
+}
+
+fn reports<'a>(
+    compiled: &'a Compiled,
+    text: &str,
+    subjects: impl Iterator<Item = Subject<'a>>,
+) -> Vec<Part<'a>> {
+    let (lines, drivers) = (LineIndex::new(text), drivers(compiled));
+    let report = |subject: Subject<'a>| {
+        let driver = match subject.which {
+            Which::Part(part) => drivers[part],
+            _ => None,
+        };
+        let string = string_report(compiled, subject, &lines);
+        report(compiled, subject, string, driver)
     };
-    parts.map(report).collect()
+    subjects.map(report).collect()
 }
 
-/// The number of parts in the model of a drawing, as every command and page counts them: main parts, landscapes and the regions of
-/// characters. Sub-parts, which are solids of a main part, and copies do not count.
-pub fn part_count(compiled: &Compiled) -> usize {
-    let parts = compiled.bindings.parts.iter();
-    let main = parts.filter(|part| part.kind == PartKind::Main).count();
-    let regions = compiled.characters.iter();
-    let regions = regions.map(|character| character.regions.len());
-    main + compiled.layers.len() + regions.sum::<usize>()
-}
-
-/// The landscapes of a drawing as parts of the kind `terrain`, for lists of everything in the model.
-pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
-    let (bindings, lines) = (&compiled.bindings, LineIndex::new(text));
-    let report = |layer: &'a Layer| {
-        let [low, high] = layer.bounds();
-        let (center, middle) = ((low + high) / 2.0, (low.y + high.y) / 2.0);
-        let string = &bindings.strings[layer.string];
-        let settings = string.settings.iter().map(|setting| {
-            let report = AttributeReport {
-                value: setting.text.clone(),
-                from: SetBy::Own.name(),
-            };
-            (setting.keyword.name(), report)
-        });
-        Part {
-            parent: layer.parent.map(|part| bindings.parts[part].name.as_str()),
-            element: compiled.drawing.groups[layer.group].element.id.as_deref(),
-            string: Some(string_report(compiled, string, &lines)),
-            ends: [[low.x, middle], [high.x, middle]],
-            attributes: settings.collect(),
-            ..Part::plain(&layer.name, "terrain", center)
+fn report<'a>(
+    compiled: &'a Compiled,
+    subject: Subject<'a>,
+    string: Option<StringReport<'a>>,
+    driver: Option<Driver<'a>>,
+) -> Part<'a> {
+    let at = |center: DVec2| ([center; 2], center, DVec2::X, center);
+    let (ends, origin, axis, center) = match subject.which {
+        Which::Part(part) => {
+            let part = &compiled.bindings.parts[part];
+            let measure = &part.measure;
+            (measure.ends, part.origin, measure.axis, measure.center)
+        }
+        Which::Landscape(layer) => {
+            let [low, high] = compiled.layers[layer].bounds();
+            let (center, middle) = ((low + high) / 2.0, (low.y + high.y) / 2.0);
+            let ends = [low, high].map(|end| DVec2::new(end.x, middle));
+            (ends, center, DVec2::X, center)
+        }
+        Which::Character(character) => {
+            at(compiled.characters[character].frames[ViewId::FIRST].center)
+        }
+        Which::Region(character, region) => {
+            let character = &compiled.characters[character];
+            at(middle(character, &character.regions[region]))
         }
     };
-    compiled.layers.iter().map(report).collect()
-}
-
-fn string_report<'a>(
-    compiled: &Compiled,
-    string: &'a DrawingString,
-    lines: &LineIndex<&str>,
-) -> StringReport<'a> {
-    let (line, column) = lines.line_column(string.text.whole().start);
-    StringReport {
-        line,
-        column,
-        text: string.text.as_str(),
-        bound_by: string.binding.map_or("none", |binding| binding.by.name()),
-        may_mean: string.runner_up.map(|part| {
-            let shape = compiled.bindings.parts[part].shape;
-            compiled.drawing.describe(shape)
-        }),
-    }
-}
-
-/// A part's name; the name of its element for sub-parts, legends and unused parts without one.
-pub fn own_name<'a>(compiled: &'a Compiled, part: &'a bind::Part) -> &'a str {
-    if part.name.is_empty() {
-        compiled.drawing.shapes[part.shape].element.own_name()
-    } else {
-        &part.name
-    }
-}
-
-fn attributes(compiled: &Compiled, part: usize) -> BTreeMap<&'static str, AttributeReport> {
-    let resolved = compiled.bindings.resolved(&compiled.drawing, part);
-    let reports = resolved.into_iter().map(|attribute| {
+    let (depth, depth_why) = match subject.which {
+        Which::Part(part) => {
+            let depth = compiled.depths[part].map(|node| node.depth);
+            (depth, depth_reason(compiled, part))
+        }
+        _ => (None, None),
+    };
+    let attributes = subject.attributes().into_iter().map(|attribute| {
         let report = AttributeReport {
             value: attribute.value,
             from: attribute.from.name(),
         };
         (attribute.keyword.name(), report)
     });
-    reports.collect()
+    Part {
+        name: subject.name(),
+        named_by: subject.named_by().map(|by| by.name()),
+        parent: subject.parent().map(Subject::name),
+        kind: subject.kind(),
+        ink_on: subject.host().map(Subject::name),
+        element: subject.element().and_then(|element| element.id.as_deref()),
+        string,
+        center: center.to_array(),
+        ends: ends.map(|end| end.to_array()),
+        origin: origin.to_array(),
+        axis: axis.to_array(),
+        depth,
+        depth_why,
+        attributes: attributes.collect(),
+        joint: driver.and_then(|driver| driver.joint),
+        joint_why: driver.map(|driver| driver.why),
+    }
+}
+
+/// The number of parts in the model of a drawing, as every command and page counts them: main parts, landscapes and the regions of
+/// characters. Sub-parts, which are solids of a main part, and copies do not count.
+pub fn part_count(compiled: &Compiled) -> usize {
+    let counts = |subject: &Subject<'_>| match subject.which {
+        Which::Part(_) => subject.is_main(),
+        Which::Landscape(_) | Which::Region(..) => true,
+        Which::Character(_) => false,
+    };
+    Subject::all(compiled).filter(counts).count()
+}
+
+/// The string of a part or a landscape.
+fn string_report<'a>(
+    compiled: &Compiled,
+    subject: Subject<'a>,
+    lines: &LineIndex<&str>,
+) -> Option<StringReport<'a>> {
+    if matches!(subject.which, Which::Character(_)) {
+        // It has one in each view.
+        return None;
+    }
+    let string = subject.string()?;
+    let (line, column) = lines.line_column(string.text.whole().start);
+    Some(StringReport {
+        line,
+        column,
+        text: string.text.as_str(),
+        bound_by: subject.bound_by().map_or("none", |by| by.name()),
+        may_mean: string.runner_up.map(|part| {
+            let shape = compiled.bindings.parts[part].shape;
+            compiled.drawing.describe(shape)
+        }),
+    })
 }

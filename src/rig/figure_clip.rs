@@ -115,6 +115,27 @@ impl FigureClip {
         index.ok().map(|index| &self.parts[index])
     }
 
+    /// What happens to a part that no joint drives, and why, for people.
+    pub fn undriven(&self, drive: &PartDrive) -> String {
+        if drive.part == self.root {
+            format!("no joint drives it: {}", drive.why)
+        } else {
+            format!("follows its parent: {}", drive.why)
+        }
+    }
+
+    /// The frames that were omitted, and those that are covered by holding the pose before, in order.
+    pub fn cut_frames(&self) -> (Vec<u32>, Vec<u32>) {
+        let Some(cut) = &self.cut else {
+            return (Vec::new(), Vec::new());
+        };
+        let mut omitted: Vec<u32> = cut.omitted.to_vec();
+        let mut held: Vec<u32> = cut.held.iter().map(|hold| hold.covered).collect();
+        omitted.sort_unstable();
+        held.sort_unstable();
+        (omitted, held)
+    }
+
     /// The name of a joint.
     pub fn joint_name(&self, joint: JointId) -> &str {
         &self.skeleton().joints[joint].name

@@ -5,6 +5,7 @@
 
 mod builder;
 mod diagnostics;
+mod effects;
 mod figure_clip;
 mod figures;
 mod measured;
@@ -34,6 +35,7 @@ use crate::svg::Drawing;
 
 use builder::{ClipBuilder, Requested};
 use diagnostics::MatchProblems;
+pub use effects::{Performance, PerformedMark};
 pub use figure_clip::{FigureClip, PartDrive, originals};
 pub use figures::{FigureGroup, find as find_figures};
 use motion_files::MotionFiles;

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 use super::columns;
 use crate::cli::counted;
 use crate::compile::Compiled;
-use crate::report::{Performance, cut_frames, frame_ranges, performance, undriven};
+use crate::limited::frame_ranges;
+use crate::rig::Performance;
 
 /// How many runs of frames are listed individually.
 const MAX_RANGES: usize = 12;
@@ -25,7 +26,7 @@ pub(super) fn clips(compiled: &Compiled) -> String {
             counted(clip.frames(), "frame"),
             counted(clip.drawings(), "drawing"),
         );
-        let (omitted, held) = cut_frames(clip);
+        let (omitted, held) = clip.cut_frames();
         for (what, frames) in [("omitted", omitted), ("held", held)] {
             if !frames.is_empty() {
                 let ranges = frame_ranges(&frames, MAX_RANGES);
@@ -36,14 +37,14 @@ pub(super) fn clips(compiled: &Compiled) -> String {
                 );
             }
         }
-        if let Some(performance) = performance(compiled, clip) {
+        if let Some(performance) = clip.performance(&compiled.bindings) {
             out.push_str(&performed(&performance));
         }
         let rows = clip.parts.iter().map(|drive| {
             let name = format!("   {}", parts[drive.part].name);
             match drive.joint {
                 Some(joint) => [name, clip.joint_name(joint).to_owned(), drive.why.clone()],
-                None => [name, "-".to_owned(), undriven(clip, drive)],
+                None => [name, "-".to_owned(), clip.undriven(drive)],
             }
         });
         out.push_str(&columns(&rows.collect::<Vec<_>>()));

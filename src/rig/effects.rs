@@ -2,10 +2,9 @@
 
 use serde::Serialize;
 
-use super::own_name;
-use crate::compile::Compiled;
+use super::{FigureClip, Performed};
+use crate::bind::Bindings;
 use crate::performance::{Filming, Information};
-use crate::rig::{FigureClip, Performed};
 
 /// The most values of a curve in a report: more cannot be told apart on a screen.
 const MAX_VALUES: usize = 4096;
@@ -69,61 +68,61 @@ pub struct PerformedMark<'a> {
     pub damped: bool,
 }
 
-/// What a clip's performance does to it; `None` for a clip without one.
-pub fn performance<'a>(compiled: &'a Compiled, clip: &'a FigureClip) -> Option<Performance<'a>> {
-    let performed = clip.performed.as_ref()?;
-    let plan = &performed.plan;
-    let channels = 0..performed.channels.len();
-    let (input_curves, input_step) = thinned(&plan.input);
-    let (motion_curves, motion_step) = thinned(&plan.motion);
-    Some(Performance {
-        track: &performed.file,
-        marks: channels
-            .map(|channel| performed_mark(compiled, performed, channel))
-            .collect(),
-        keys: plan
-            .keys
-            .map(|[performed, motion]| Frames { performed, motion }),
-        shown: plan.key_frame().and_then(|key| clip.shown_in(key)),
-        timed: plan.timing.is_some(),
-        lengths: Frames {
-            performed: plan.input.frames(),
-            motion: plan.motion.frames(),
-        },
-        filming: match plan.filming {
-            Filming::Camera => "camera",
-            Filming::Character => "root",
-            Filming::None => "none",
-        },
-        nearest: clip.filmed.nearest(),
-        timing: plan.timing_points(),
-        input_curves,
-        input_step,
-        motion_curves,
-        motion_step,
-    })
+impl FigureClip {
+    /// What the performance does to it; `None` for a clip without one.
+    pub fn performance<'a>(&'a self, bindings: &'a Bindings) -> Option<Performance<'a>> {
+        let performed = self.performed.as_ref()?;
+        let plan = &performed.plan;
+        let channels = 0..performed.channels.len();
+        let (input_curves, input_step) = thinned(&plan.input);
+        let (motion_curves, motion_step) = thinned(&plan.motion);
+        Some(Performance {
+            track: &performed.file,
+            marks: channels
+                .map(|channel| performed.mark(bindings, channel))
+                .collect(),
+            keys: plan
+                .keys
+                .map(|[performed, motion]| Frames { performed, motion }),
+            shown: plan.key_frame().and_then(|key| self.shown_in(key)),
+            timed: plan.timing.is_some(),
+            lengths: Frames {
+                performed: plan.input.frames(),
+                motion: plan.motion.frames(),
+            },
+            filming: match plan.filming {
+                Filming::Camera => "camera",
+                Filming::Character => "root",
+                Filming::None => "none",
+            },
+            nearest: self.filmed.nearest(),
+            timing: plan.timing_points(),
+            input_curves,
+            input_step,
+            motion_curves,
+            motion_step,
+        })
+    }
 }
 
-/// What a mark of a performance does; its channel must exist.
-pub fn performed_mark<'a>(
-    compiled: &'a Compiled,
-    performed: &'a Performed,
-    channel: usize,
-) -> PerformedMark<'a> {
-    let plan = &performed.plan;
-    let parts = &performed.channels[channel];
-    let track = &performed.tracks.marks[parts.mark];
-    let [red, green, blue] = track.color;
-    let emphasized = plan.emphasized == Some(channel);
-    let ratio = plan.ratio(channel);
-    let name = |part: &usize| own_name(compiled, &compiled.bindings.parts[*part]);
-    PerformedMark {
-        name: &track.name,
-        color: format!("#{red:02x}{green:02x}{blue:02x}"),
-        performs: parts.parts.iter().map(name).collect(),
-        ratio,
-        emphasized,
-        damped: plan.is_damping && !emphasized && ratio < 1.0,
+impl Performed {
+    /// What a mark of the performance does; its channel must exist.
+    pub fn mark<'a>(&'a self, bindings: &'a Bindings, channel: usize) -> PerformedMark<'a> {
+        let plan = &self.plan;
+        let parts = &self.channels[channel];
+        let track = &self.tracks.marks[parts.mark];
+        let [red, green, blue] = track.color;
+        let emphasized = plan.emphasized == Some(channel);
+        let ratio = plan.ratio(channel);
+        let name = |part: &usize| bindings.parts[*part].name.as_str();
+        PerformedMark {
+            name: &track.name,
+            color: format!("#{red:02x}{green:02x}{blue:02x}"),
+            performs: parts.parts.iter().map(name).collect(),
+            ratio,
+            emphasized,
+            damped: plan.is_damping && !emphasized && ratio < 1.0,
+        }
     }
 }
 
@@ -188,7 +187,6 @@ fn thinned(information: &Information) -> (Vec<Vec<f64>>, usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::clips;
     use super::*;
     use crate::compile::{Options, compile};
     use crate::resolver::MemoryResolver;
@@ -200,8 +198,8 @@ mod tests {
         let track = include_str!("../../tests/cases/perform-plays/hands.json");
         let files = MemoryResolver::default().with("hands.json", track.as_bytes());
         let compiled = compile(drawing, &Options::default(), &files);
-        let clips = clips(&compiled);
-        let [clip, limited] = [0, 1].map(|clip| clips[clip].performance.as_ref().unwrap());
+        let clips = [0, 1].map(|clip| &compiled.clips[clip]);
+        let [clip, limited] = clips.map(|clip| clip.performance(&compiled.bindings).unwrap());
         assert_eq!(clip.track, "hands.json");
         let keys = clip.keys.unwrap();
         assert_eq!((keys.performed, keys.motion), (36, 25));
