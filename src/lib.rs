@@ -78,6 +78,7 @@
     not(feature = "cli"),
     allow(
         dead_code,
+        unreachable_pub,
         unused_imports,
         reason = "what only the rim uses is unused without it"
     )

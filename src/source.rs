@@ -8,8 +8,9 @@ mod line_index;
 
 use std::ops::Range;
 
-pub use change::Change;
-pub use line_index::{LineEnds, LineIndex, starts_character};
+pub(crate) use change::Change;
+pub use line_index::LineIndex;
+pub(crate) use line_index::{LineEnds, starts_character};
 
 /// A byte range of the drawing's text, half open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]

@@ -25,7 +25,7 @@ pub use world::world_transform;
 
 /// A drawing's scene, and what is in it.
 #[derive(Debug, Default)]
-pub struct Assembled {
+pub(crate) struct Assembled {
     /// The model.
     pub scene: Scene,
     /// The tile maps.
@@ -40,7 +40,7 @@ pub struct Assembled {
 
 /// What a surface of a scene is made from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Owner {
+pub(crate) enum Owner {
     /// The part with this index.
     Part(usize),
     /// The tile layer with this index.
@@ -50,7 +50,7 @@ pub enum Owner {
 /// A scene in which no two parts, and no two tile layers, have a material in common: the material of a surface says what it is
 /// made from. It has no clips.
 #[derive(Debug, Default)]
-pub struct Apart {
+pub(crate) struct Apart {
     /// The model.
     pub scene: Scene,
     /// Per material of the scene what it belongs to; `None` for the materials of linked models and of regions of pictures.
@@ -58,7 +58,7 @@ pub struct Apart {
 }
 
 /// Builds the scene of a drawing.
-pub fn assemble(
+pub(crate) fn assemble(
     drawing: &Drawing,
     bindings: &Bindings,
     resolver: &dyn Resolver,
@@ -124,7 +124,7 @@ fn parts_of(characters: &[Character]) -> Vec<usize> {
 
 /// Builds the scene of a drawing so that its materials say what each surface is made from: a region of a character from its part in
 /// the first view that shows it. `characters` are those of the drawing.
-pub fn assemble_apart(
+pub(crate) fn assemble_apart(
     drawing: &Drawing,
     bindings: &Bindings,
     characters: &[Character],

@@ -93,7 +93,7 @@ pub enum Fill {
 }
 
 /// Reads the characters of a drawing.
-pub fn read(
+pub(crate) fn read(
     drawing: &Drawing,
     bindings: &Bindings,
     memo: &Memo,

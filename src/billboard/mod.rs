@@ -23,9 +23,11 @@ pub mod stages;
 mod tests;
 mod turn;
 
-pub use character::{Character, RegionModel, read};
-pub use matching::{Candidate, Pair, Reason, RegionInView, Track, TrackId, Unmatched};
-pub use nodes::{RegionMaterials, add};
-pub use region::{RegionId, View};
+pub use character::Character;
+pub(crate) use character::{RegionModel, read};
+pub(crate) use matching::{Candidate, Pair, Reason, RegionInView, Track, TrackId, Unmatched};
+pub(crate) use nodes::{RegionMaterials, add};
+pub use region::RegionId;
+pub(crate) use region::View;
 
 pub use crate::scene::ViewId;

@@ -21,7 +21,7 @@ const SECONDS: f64 = 1.0;
 const KEYS: f64 = 8.0;
 
 /// The materials of regions.
-pub struct RegionMaterials<'a> {
+pub(crate) struct RegionMaterials<'a> {
     /// Per part the material with its texture, and the map from the drawing to texture coordinates, if it has one.
     pub textured: &'a [PartMaterial],
     /// The materials without a texture, by the part to which they belong and their colours.
@@ -31,11 +31,11 @@ pub struct RegionMaterials<'a> {
 }
 
 /// What tells materials without a texture apart: a part, if they are not shared, and sRGB with straight alpha as bits.
-pub type FlatMaterial = (Option<usize>, [u64; 4]);
+pub(crate) type FlatMaterial = (Option<usize>, [u64; 4]);
 
 impl<'a> RegionMaterials<'a> {
     /// No materials but those with textures.
-    pub fn new(textured: &'a [PartMaterial], are_apart: bool) -> Self {
+    pub(crate) fn new(textured: &'a [PartMaterial], are_apart: bool) -> Self {
         Self {
             textured,
             flat: FxHashMap::default(),
@@ -65,7 +65,7 @@ impl<'a> RegionMaterials<'a> {
 }
 
 /// Adds the nodes of characters and of their regions to a scene, and the clips that turn them.
-pub fn add(
+pub(crate) fn add(
     characters: &[Character],
     drawing: &Drawing,
     bindings: &Bindings,

@@ -15,16 +15,18 @@ mod reports;
 mod tests;
 mod words;
 
-pub use attributes::{
+pub(crate) use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
     MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, SignedAxis,
 };
-pub use bindings::{
-    Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, StringHolder, StringId,
+pub use bindings::PartKind;
+pub(crate) use bindings::{
+    Bindings, BoundBy, DrawingString, NamedBy, Part, StringHolder, StringId,
 };
-pub use matching::{BindRule, DistanceMode, LayerKind, in_layers_of_pixels};
-pub use names::written_by_a_person;
-pub use reports::locate;
+pub use matching::in_layers_of_pixels;
+pub(crate) use matching::{BindRule, DistanceMode, LayerKind};
+pub(crate) use names::written_by_a_person;
+pub(crate) use reports::locate;
 
 use crate::diagnostic::Diagnostic;
 use crate::memo::Memo;

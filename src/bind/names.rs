@@ -25,7 +25,7 @@ pub(super) struct OwnName {
 /// Programs make words of theirs, alone or with numbers (`path123`, `Layer 1 copy`), runs of hexadecimal digits, and single
 /// letters with numbers. Escapes of Illustrator and CorelDRAW are decoded, and the number dropped that Illustrator adds to an id
 /// that is taken (`arm_x5F_left_2_`).
-pub fn written_by_a_person(raw: &str) -> Option<String> {
+pub(crate) fn written_by_a_person(raw: &str) -> Option<String> {
     let raw = raw.trim();
     // Inkscape shows ids as `#id`, and old versions wrote that into the label.
     let raw = raw.strip_prefix('#').unwrap_or(raw);

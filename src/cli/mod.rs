@@ -22,8 +22,8 @@ mod preview;
 mod progress;
 mod puppet;
 mod render;
-pub mod report;
-pub mod sarif;
+pub(crate) mod report;
+pub(crate) mod sarif;
 mod track;
 mod watch;
 

@@ -9,7 +9,7 @@ use crate::source::LineIndex;
 use crate::source::Span;
 
 /// The findings as SARIF, with a line feed at the end.
-pub fn sarif(drawings: &[Findings]) -> String {
+pub(crate) fn sarif(drawings: &[Findings]) -> String {
     let results = drawings.iter().flat_map(|findings| {
         let places = LineIndex::new(findings.text);
         let uri = uri(findings.path);

@@ -122,7 +122,7 @@ impl Legs {
 
 /// A clip, centimetres, 24 frames a second; +y is up, and the body travels to +z. Its last frame is the first one again, as far
 /// ahead as it has travelled.
-pub fn clip(which: BuiltIn, legs: Legs) -> (Clip, Anatomy) {
+pub(crate) fn clip(which: BuiltIn, legs: Legs) -> (Clip, Anatomy) {
     let body = Body::on(legs);
     let poses = match Gait::of(which, legs) {
         Some(gait) => gait.poses(&body),

@@ -11,7 +11,7 @@ use crate::export::Output;
 
 /// Writes a file into okoshi's folder in the user's cache, atomically, and returns its path; `None` if the user has no
 /// cache folder.
-pub fn write_cached(
+pub(crate) fn write_cached(
     name: &str,
     fill: impl FnOnce(&mut dyn Output) -> io::Result<()>,
 ) -> Option<PathBuf> {

@@ -10,7 +10,7 @@ use super::search::files;
 use crate::resolver::{LinkError, Resolver, first_spelling, folder_and_ending, inside, relative};
 
 /// The largest linked file that is read, in bytes.
-pub const LINK_LIMIT: u64 = 256 << 20;
+pub(crate) const LINK_LIMIT: u64 = 256 << 20;
 
 /// Reads the links of the drawings in one folder: files below it, or below another folder that a person allowed, and
 /// nothing outside of both, symbolic links included.

@@ -13,15 +13,17 @@ mod text;
 mod watch;
 mod write;
 
-pub use cache::write_cached;
+pub(crate) use cache::write_cached;
 pub use folder::FolderResolver;
-pub use read::{ReadError, is_packed, open_stream, read_drawing, read_file};
-pub use scratch::Scratch;
-pub use search::{Stamp, below, files, is_drawing, stamp};
-pub use target::{Inputs, Naming, Target, rewrite};
+pub(crate) use read::{ReadError, is_packed, open_stream, read_drawing, read_file};
+pub(crate) use scratch::Scratch;
+pub(crate) use search::{Stamp, below, files, is_drawing, stamp};
+pub(crate) use target::{Inputs, Naming, Target, rewrite};
 pub use text::decode;
-pub use watch::{ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths};
-pub use write::{WriteError, make_folder, write_new};
+pub(crate) use watch::{
+    ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths,
+};
+pub(crate) use write::{WriteError, make_folder, write_new};
 
 use std::path::Path;
 
@@ -29,6 +31,6 @@ use std::path::Path;
 const STANDARD_STREAM: &str = "-";
 
 /// Whether a path stands for stdin or stdout.
-pub fn is_standard_stream(path: &Path) -> bool {
+pub(crate) fn is_standard_stream(path: &Path) -> bool {
     path.as_os_str() == STANDARD_STREAM
 }

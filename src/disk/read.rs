@@ -10,15 +10,15 @@ use super::sniff::NotADrawing;
 use super::{search, sniff};
 
 /// The largest drawing that is read, in bytes.
-pub const DRAWING_LIMIT: u64 = 1 << 30;
+pub(crate) const DRAWING_LIMIT: u64 = 1 << 30;
 
 /// The largest size to which a compressed drawing (`.svgz`) may expand, in bytes. A small file can
 /// expand to any size.
-pub const UNPACKED_LIMIT: u64 = 256 << 20;
+pub(crate) const UNPACKED_LIMIT: u64 = 256 << 20;
 
 /// Why a drawing cannot be read. Each message names the file and says how to fix it.
 #[derive(Debug, thiserror::Error)]
-pub enum ReadError {
+pub(crate) enum ReadError {
     /// No such file.
     #[error("`{}` is not there; {}", .path.display(), way_to(.near.as_deref()))]
     Missing {
@@ -88,7 +88,7 @@ fn such_as(drawing: Option<&Path>) -> String {
 
 impl ReadError {
     /// That there is no file at `path`.
-    pub fn missing(path: &Path) -> Self {
+    pub(crate) fn missing(path: &Path) -> Self {
         Self::Missing {
             path: path.to_owned(),
             near: search::similar(path),
@@ -110,7 +110,7 @@ impl ReadError {
 ///
 /// # Errors
 /// If the file cannot be read, is too large, cannot be decompressed, or is a file of another kind.
-pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
+pub(crate) fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = read_file(path)?;
     match sniff::not_a_drawing(&bytes) {
         Some(kind) => Err(ReadError::NotADrawing {
@@ -125,7 +125,7 @@ pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
 ///
 /// # Errors
 /// If the file cannot be read, is too large, or cannot be decompressed.
-pub fn read_file(path: &Path) -> Result<Vec<u8>, ReadError> {
+pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = if super::is_standard_stream(path) {
         read_limited(io::stdin().lock(), DRAWING_LIMIT, 0)
     } else {
@@ -141,7 +141,7 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, ReadError> {
 ///
 /// # Errors
 /// If the file cannot be opened.
-pub fn open_stream(path: &Path) -> Result<Box<dyn Read>, ReadError> {
+pub(crate) fn open_stream(path: &Path) -> Result<Box<dyn Read>, ReadError> {
     if super::is_standard_stream(path) {
         return Ok(Box::new(io::stdin().lock()));
     }
@@ -169,7 +169,7 @@ fn open(path: &Path) -> Result<io::Result<Option<Vec<u8>>>, ReadError> {
 const GZIP: [u8; 2] = [0x1F, 0x8B];
 
 /// Whether the file at `path` is compressed.
-pub fn is_packed(path: &Path) -> bool {
+pub(crate) fn is_packed(path: &Path) -> bool {
     let mut first = [0; 2];
     let read = File::open(path).and_then(|mut file| file.read_exact(&mut first));
     read.is_ok() && first == GZIP

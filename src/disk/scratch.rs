@@ -7,7 +7,7 @@ use super::temporary::Temporary;
 
 /// A file for the output of another program. It vanishes with this value, or with the program.
 #[derive(Debug)]
-pub struct Scratch(Temporary);
+pub(crate) struct Scratch(Temporary);
 
 impl Scratch {
     /// An empty file in a folder.
@@ -19,7 +19,7 @@ impl Scratch {
     }
 
     /// A path by which other programs can open it while this program runs.
-    pub fn path(&self) -> PathBuf {
+    pub(crate) fn path(&self) -> PathBuf {
         self.0.path()
     }
 
@@ -27,7 +27,7 @@ impl Scratch {
     ///
     /// # Errors
     /// If it cannot be read, or `out` cannot be written.
-    pub fn copy_to(&mut self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    pub(crate) fn copy_to(&mut self, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
         let file = self.0.file();
         file.rewind()?;
         io::copy(file, out).map(|_| ())

@@ -15,7 +15,7 @@ const SKIPPED: &[&str] = &["node_modules", "target"];
 
 /// The contents of a folder and its subfolders.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Below {
+pub(crate) struct Below {
     /// The files, sorted by name, those in subfolders last.
     pub files: Vec<PathBuf>,
     /// The folders; the folder itself comes first.
@@ -23,7 +23,7 @@ pub struct Below {
 }
 
 /// The files and folders below a folder, without hidden ones and symbolic links.
-pub fn below(folder: &Path) -> Below {
+pub(crate) fn below(folder: &Path) -> Below {
     let mut found = Below::default();
     let mut folders = vec![(folder.to_owned(), 0)];
     let mut seen = 0;
@@ -57,7 +57,7 @@ pub fn below(folder: &Path) -> Below {
 }
 
 /// Whether a file is a drawing, judged by its name.
-pub fn is_drawing(path: &Path) -> bool {
+pub(crate) fn is_drawing(path: &Path) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy());
     let hidden = name.is_none_or(|name| name.starts_with('.'));
     let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
@@ -70,7 +70,7 @@ pub(super) fn drawings(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// The plain and other files in a folder that are wanted, sorted by name.
-pub fn files(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let files = entries.take(MAX_FILES).map(|entry| entry.path());
     let mut files: Vec<PathBuf> = files.filter(|file| wanted(file)).collect();
@@ -103,10 +103,10 @@ pub(super) fn similar(path: &Path) -> Option<PathBuf> {
 }
 
 /// The length and modification time of a file; if they are equal, the file counts as unchanged.
-pub type Stamp = (u64, SystemTime);
+pub(crate) type Stamp = (u64, SystemTime);
 
 /// The stamp of a file; `None` if it does not exist.
-pub fn stamp(path: &Path) -> Option<Stamp> {
+pub(crate) fn stamp(path: &Path) -> Option<Stamp> {
     let metadata = fs::metadata(path).ok()?;
     Some((metadata.len(), metadata.modified().ok()?))
 }

@@ -2,7 +2,7 @@
 
 /// A kind of file that people give in place of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct NotADrawing {
+pub(crate) struct NotADrawing {
     /// What the file is, with its article.
     pub what: &'static str,
     /// What to do instead.

@@ -23,7 +23,7 @@ const MARK_RANGE: u64 = 4 << 10;
 
 /// How an output got its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Naming {
+pub(crate) enum Naming {
     /// A person named this very file.
     Given,
     /// It follows from the name of the drawing.
@@ -40,24 +40,24 @@ enum Role {
 
 /// The files that a command reads, and those that it wrote. None of its outputs may replace one of them.
 #[derive(Debug, Clone, Default)]
-pub struct Inputs(Vec<(PathBuf, Role)>);
+pub(crate) struct Inputs(Vec<(PathBuf, Role)>);
 
 impl Inputs {
     /// The file that the command was called with.
-    pub fn of(file: &Path) -> Self {
+    pub(crate) fn of(file: &Path) -> Self {
         Self(vec![(file.to_owned(), Role::Read)])
     }
 
     /// Adds another file that it reads.
     #[must_use]
-    pub fn reading(mut self, file: &Path) -> Self {
+    pub(crate) fn reading(mut self, file: &Path) -> Self {
         self.0.push((file.to_owned(), Role::Read));
         self
     }
 
     /// Adds files that it links to, whether they exist or not.
     #[must_use]
-    pub fn linking(mut self, files: impl IntoIterator<Item = PathBuf>) -> Self {
+    pub(crate) fn linking(mut self, files: impl IntoIterator<Item = PathBuf>) -> Self {
         let linked = files.into_iter().map(|file| (file, Role::Linked));
         self.0.extend(linked);
         self
@@ -65,7 +65,7 @@ impl Inputs {
 
     /// Adds another output of the command.
     #[must_use]
-    pub fn writing(mut self, file: &Path) -> Self {
+    pub(crate) fn writing(mut self, file: &Path) -> Self {
         self.0.push((file.to_owned(), Role::Written));
         self
     }
@@ -74,7 +74,7 @@ impl Inputs {
     ///
     /// # Errors
     /// If it is an input under any name, or a drawing; if its name is derived, also if another program wrote it.
-    pub fn target(&self, path: &Path, naming: Naming) -> Result<Target, WriteError> {
+    pub(crate) fn target(&self, path: &Path, naming: Naming) -> Result<Target, WriteError> {
         if !is_standard_stream(path) {
             self.check(path, naming)?;
         }
@@ -114,14 +114,14 @@ impl Inputs {
 
 /// A file that may be written, or standard output.
 #[derive(Debug, Clone)]
-pub struct Target(PathBuf);
+pub(crate) struct Target(PathBuf);
 
 impl Target {
     /// Writes the file through `fill`, completely or not at all.
     ///
     /// # Errors
     /// If the file cannot be written, or `fill` fails.
-    pub fn write<T>(
+    pub(crate) fn write<T>(
         &self,
         fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
     ) -> Result<T, WriteError> {
@@ -132,7 +132,7 @@ impl Target {
     ///
     /// # Errors
     /// If no file can be created there.
-    pub fn scratch(&self) -> Result<Scratch, WriteError> {
+    pub(crate) fn scratch(&self) -> Result<Scratch, WriteError> {
         scratch_for(&self.0)
     }
 }
@@ -141,7 +141,7 @@ impl Target {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn rewrite(path: &Path, content: &[u8]) -> Result<(), WriteError> {
+pub(crate) fn rewrite(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     write_atomic(path, |out| out.write_all(content))
 }
 

@@ -24,7 +24,7 @@ const MAX_DELAY: Duration = Duration::from_secs(1);
 
 /// How changes are detected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ChangeDetection {
+pub(crate) enum ChangeDetection {
     /// The operating system reports them.
     #[default]
     Native,
@@ -34,7 +34,7 @@ pub enum ChangeDetection {
 
 /// Files that changed and have settled.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Changed {
+pub(crate) struct Changed {
     /// The files, and the folders in which something was created or deleted, with the paths that the system reports.
     pub paths: BTreeSet<PathBuf>,
     /// When the first change was detected.
@@ -43,7 +43,7 @@ pub struct Changed {
 
 /// Watches folders rather than files, because programs replace files as well as write them, and files may not exist yet.
 #[derive(Debug)]
-pub struct FolderWatch {
+pub(crate) struct FolderWatch {
     backend: Backend,
 }
 
@@ -60,7 +60,7 @@ impl FolderWatch {
     /// # Errors
     ///
     /// If the system cannot report changes.
-    pub fn new(
+    pub(crate) fn new(
         detection: ChangeDetection,
         changed: impl FnMut(Changed) + Send + 'static,
     ) -> Result<Self, WatchError> {
@@ -86,7 +86,7 @@ impl FolderWatch {
     }
 
     /// Sets the folders to watch. Returns those that cannot be watched, with the reasons.
-    pub fn set(&self, folders: &BTreeSet<PathBuf>) -> Vec<(PathBuf, WatchError)> {
+    pub(crate) fn set(&self, folders: &BTreeSet<PathBuf>) -> Vec<(PathBuf, WatchError)> {
         let watch = match &self.backend {
             Backend::Native(watch) => watch,
             Backend::Polling(poll) => {
@@ -119,7 +119,7 @@ impl FolderWatch {
 /// Why changes cannot be reported.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-pub struct WatchError(#[from] notify::Error);
+pub(crate) struct WatchError(#[from] notify::Error);
 
 /// The state of a file after a change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,7 +172,7 @@ fn debounce(receiver: &Receiver<(Vec<PathBuf>, State)>, mut changed: impl FnMut(
 
 /// The path by which the system reports a file: symbolic links in the path of its folder are resolved. The file need not
 /// exist.
-pub fn event_path(file: &Path) -> PathBuf {
+pub(crate) fn event_path(file: &Path) -> PathBuf {
     let folder = match file.parent() {
         Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
         Some(folder) => folder,
@@ -186,7 +186,7 @@ pub fn event_path(file: &Path) -> PathBuf {
 }
 
 /// All paths by which the system may report a file: its own, and that of the file it links to.
-pub fn event_paths(file: &Path) -> BTreeSet<PathBuf> {
+pub(crate) fn event_paths(file: &Path) -> BTreeSet<PathBuf> {
     let target = std::fs::canonicalize(file);
     target.into_iter().chain([event_path(file)]).collect()
 }

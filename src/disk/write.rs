@@ -13,7 +13,7 @@ use crate::export::{Output, SeekableOutput};
 
 /// Why an output cannot be written. Each message names the file and says how to fix it.
 #[derive(Debug, thiserror::Error)]
-pub enum WriteError {
+pub(crate) enum WriteError {
     /// A folder instead of a file.
     #[error("`{}` is a folder; name a file in it", .0.display())]
     Folder(PathBuf),
@@ -139,7 +139,7 @@ pub(super) fn scratch_for(path: &Path) -> Result<Scratch, WriteError> {
 ///
 /// # Errors
 /// If the system cannot create one of them.
-pub fn make_folder(path: &Path) -> Result<(), WriteError> {
+pub(crate) fn make_folder(path: &Path) -> Result<(), WriteError> {
     fs::create_dir_all(path).map_err(|source| failure(path, source))
 }
 
@@ -147,7 +147,7 @@ pub fn make_folder(path: &Path) -> Result<(), WriteError> {
 ///
 /// # Errors
 /// If something with this name exists, or the file cannot be written.
-pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
+pub(crate) fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     if ends_with_separator(path) {
         return Err(WriteError::Folder(path.to_owned()));
     }

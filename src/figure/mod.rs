@@ -33,15 +33,15 @@ use layers::Layers;
 use models::Models;
 use tree::FigureNode;
 
-pub use layers::{NodeDepth, Reason};
-pub use nodes::PartNode;
+pub(crate) use layers::{NodeDepth, Reason};
+pub(crate) use nodes::PartNode;
 
 /// The linked models of a drawing's figures, read before anything else: parts that are models need no material.
-pub struct LinkedModels(Models);
+pub(crate) struct LinkedModels(Models);
 
 impl LinkedModels {
     /// Reads the models that `Shape model` links to.
-    pub fn read(
+    pub(crate) fn read(
         bindings: &Bindings,
         resolver: &dyn Resolver,
         memo: &Memo,
@@ -51,18 +51,18 @@ impl LinkedModels {
     }
 
     /// Whether a part is a model, with materials of its own.
-    pub fn has(&self, part: usize) -> bool {
+    pub(crate) fn has(&self, part: usize) -> bool {
         self.0.has(part)
     }
 
     /// Adds the models' materials to a scene.
-    pub fn add_materials(&mut self, scene: &mut Scene) {
+    pub(crate) fn add_materials(&mut self, scene: &mut Scene) {
         self.0.add_materials(scene);
     }
 }
 
 /// The figures of a drawing, laid out: frames, hierarchy and depths.
-pub struct Figures<'a> {
+pub(crate) struct Figures<'a> {
     context: FigureContext<'a>,
     layers: Layers,
     frames: Vec<Frame>,
@@ -77,7 +77,7 @@ const INVISIBLE: f64 = 5e-5;
 const MAX_INK_STEP: f64 = 0.5;
 
 /// The nodes of a drawing's figures, in the order in which they are in the scene.
-pub struct FigureNodes {
+pub(crate) struct FigureNodes {
     /// Per part its rest frame.
     pub frames: Vec<Frame>,
     /// Per main part the parts whose solids are in its node.
@@ -94,7 +94,7 @@ pub struct FigureNodes {
 
 impl<'a> Figures<'a> {
     /// Lays out the figures of a drawing.
-    pub fn lay_out(
+    pub(crate) fn lay_out(
         drawing: &'a Drawing,
         bindings: &'a Bindings,
         world: &WorldTransform,
@@ -120,7 +120,7 @@ impl<'a> Figures<'a> {
     }
 
     /// Adds the figures' nodes and meshes to a scene that has nothing but materials.
-    pub fn build(
+    pub(crate) fn build(
         self,
         models: &LinkedModels,
         materials: &[PartMaterial],

@@ -13,7 +13,7 @@ use crate::threads::GRAIN;
 
 /// A node that shows a part, and how it lies in the hierarchy.
 #[derive(Debug, Clone, Copy)]
-pub struct PartNode {
+pub(crate) struct PartNode {
     /// Index of the part.
     pub part: usize,
     /// The parent node; `None` for a root.

@@ -43,7 +43,7 @@ pub fn resolve_overlaps(rings: Vec<Ring>, rule: FillRule) -> Outline {
 }
 
 /// The same, and how often the rings cross, which the time grows with. More than 20,000 times count as 50,000.
-pub fn resolve_crossings(rings: Vec<Ring>, rule: FillRule) -> (Outline, usize) {
+pub(crate) fn resolve_crossings(rings: Vec<Ring>, rule: FillRule) -> (Outline, usize) {
     resolve(rings, rule).unwrap_or_else(|tangled| {
         // What is left crosses where rings touch only, unless it is all dots.
         let area = resolve(pictured(&tangled, rule), FillRule::EvenOdd);
@@ -144,7 +144,7 @@ pub fn intersect(a: &Outline, b: &Outline) -> Outline {
 }
 
 /// The area that the first of two outlines covers, and the second does not.
-pub fn subtract(a: &Outline, b: &Outline) -> Outline {
+pub(crate) fn subtract(a: &Outline, b: &Outline) -> Outline {
     if a.polygons.is_empty() || b.polygons.is_empty() {
         return a.clone();
     }
@@ -152,7 +152,7 @@ pub fn subtract(a: &Outline, b: &Outline) -> Outline {
 }
 
 /// The area that at least one of some outlines covers.
-pub fn union(outlines: &[Outline]) -> Outline {
+pub(crate) fn union(outlines: &[Outline]) -> Outline {
     let filled: Vec<_> = outlines.iter().filter(|o| !o.polygons.is_empty()).collect();
     match filled[..] {
         [] => Outline::default(),

@@ -23,7 +23,7 @@ const STEPS: usize = 8;
 /// Every subpath of a path as a closed ring, off by at most about `tolerance`.
 ///
 /// Points that are not finite and repeated points are dropped, and so are subpaths with fewer than three points left.
-pub fn flatten(path: &BezPath, tolerance: f64) -> Vec<Ring> {
+pub(crate) fn flatten(path: &BezPath, tolerance: f64) -> Vec<Ring> {
     let extent = extent(path);
     let tolerance = tolerance.max(MIN_TOLERANCE * extent) * SLACK;
     let same = SAME * extent;

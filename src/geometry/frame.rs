@@ -6,7 +6,7 @@ use super::Measure;
 
 /// A part's frame in the drawing plane, y up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Frame {
+pub(crate) struct Frame {
     /// The joint.
     pub origin: DVec2,
     /// The part's centre.
@@ -16,14 +16,14 @@ pub struct Frame {
 }
 
 /// A point of the drawing in a plane with y up.
-pub fn y_up(point: DVec2) -> DVec2 {
+pub(crate) fn y_up(point: DVec2) -> DVec2 {
     DVec2::new(point.x, -point.y)
 }
 
 impl Frame {
     /// The frame of a part whose joint is at `origin`. +Y leads along the axis from the joint to the far end; where the joint is
     /// the centre, up, or right when the axis is level.
-    pub fn new(measure: &Measure, origin: DVec2) -> Self {
+    pub(crate) fn new(measure: &Measure, origin: DVec2) -> Self {
         let origin = y_up(origin);
         let center = y_up(measure.center);
         let axis = y_up(measure.axis);
@@ -44,12 +44,12 @@ impl Frame {
     }
 
     /// A point of the plane in this frame.
-    pub fn to_local(self, point: DVec2) -> DVec2 {
+    pub(crate) fn to_local(self, point: DVec2) -> DVec2 {
         DVec2::from_angle(-self.angle).rotate(point - self.origin)
     }
 
     /// The map from the drawing, y down, to axes turned like this frame's with the part's centre at the origin.
-    pub fn drawing_about_center(self) -> DAffine2 {
+    pub(crate) fn drawing_about_center(self) -> DAffine2 {
         let flip = DAffine2::from_scale(DVec2::new(1.0, -1.0));
         DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.center) * flip
     }

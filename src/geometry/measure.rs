@@ -35,7 +35,7 @@ pub struct Measure {
 
 /// How far a solid reaches to the back and to the front.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Thickness {
+pub(crate) struct Thickness {
     /// Its least and its greatest depth in the frame of its node, drawing units.
     pub depths: [f64; 2],
     /// Whether it is thinner towards its outline.
@@ -43,7 +43,7 @@ pub struct Thickness {
 }
 
 /// The measure of an outline along its principal axis; `None` if it has no area.
-pub fn measure(outline: &Outline) -> Option<Measure> {
+pub(crate) fn measure(outline: &Outline) -> Option<Measure> {
     let (low, high) = query::bounds(outline)?;
     let extent = (high - low).max_element();
     if !(extent > 0.0 && extent.is_finite()) {
@@ -86,7 +86,7 @@ pub fn measure(outline: &Outline) -> Option<Measure> {
 }
 
 /// The measure of an outline along a given axis; `None` if either is empty.
-pub fn measure_along(outline: &Outline, axis: DVec2) -> Option<Measure> {
+pub(crate) fn measure_along(outline: &Outline, axis: DVec2) -> Option<Measure> {
     within(outline, axis, query::bounds(outline)?)
 }
 

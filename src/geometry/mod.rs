@@ -20,27 +20,27 @@ mod simplify;
 mod tangled;
 mod touching;
 
-pub use boolean::{intersect, resolve_crossings, resolve_overlaps, subtract, union};
+pub use boolean::{intersect, resolve_overlaps};
 pub(crate) use boolean::{is_convex, remove_collinear};
+pub(crate) use boolean::{resolve_crossings, subtract, union};
 pub(crate) use boxes::{BoxTree, OrderedBoxes, area_around, indexed_box};
 pub(crate) use contact::{Body, connected, touching};
-pub use flatten::flatten;
-pub use frame::{Frame, y_up};
-pub use measure::{Measure, Thickness, measure, measure_along};
-pub use offset::offset;
-pub use pixels::pixel_borders;
-pub use query::{
-    area, border_distance_squared, bounds, bounds_of, centroid, contains, distance_squared,
-};
+pub(crate) use flatten::flatten;
+pub(crate) use frame::{Frame, y_up};
+pub(crate) use measure::{Measure, Thickness, measure, measure_along};
+pub(crate) use offset::offset;
+pub(crate) use pixels::pixel_borders;
+pub use query::{area, border_distance_squared, bounds, contains};
+pub(crate) use query::{bounds_of, centroid, distance_squared};
 pub(crate) use query::{crosses, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
 pub(crate) use simplify::simplify;
-pub use tangled::crossings as count_crossings;
+pub(crate) use tangled::crossings as count_crossings;
 
 use glam::DVec2;
 
 /// A closed ring of points; the first point is not repeated at the end.
-pub type Ring = Vec<DVec2>;
+pub(crate) type Ring = Vec<DVec2>;
 
 /// Which points a path fills.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -9,7 +9,7 @@ use super::{FillRule, Outline, resolve_overlaps, subtract, union};
 const ROUND: f64 = 0.3;
 
 /// The outline moved outwards by a distance, user units, or inwards if that is negative. Corners that move apart become round.
-pub fn offset(outline: &Outline, distance: f64) -> Outline {
+pub(crate) fn offset(outline: &Outline, distance: f64) -> Outline {
     let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
     let rings = rings.map(|ring| ring.iter().map(|p| p.to_array()).collect());
     let rings: Vec<Vec<[f64; 2]>> = rings.collect();

@@ -11,7 +11,11 @@ const BORDER_TOLERANCE: f64 = 0.75;
 
 /// The rings of pixel edges between solid and other pixels, with the solid side on the right, simplified. The unit is a pixel, y
 /// is down.
-pub fn pixel_borders(width: u32, height: u32, is_solid: impl Fn(u32, u32) -> bool) -> Vec<Ring> {
+pub(crate) fn pixel_borders(
+    width: u32,
+    height: u32,
+    is_solid: impl Fn(u32, u32) -> bool,
+) -> Vec<Ring> {
     // In a picture with one more pixel on each side, which is not solid.
     let padded = width as usize + 2;
     let is_inside = |at: usize| {

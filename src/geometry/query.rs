@@ -42,7 +42,7 @@ pub(crate) fn crosses([a, b]: [DVec2; 2], point: DVec2) -> bool {
 }
 
 /// The square of the distance from a point to the filled area: 0 inside, infinite if there is no area.
-pub fn distance_squared(outline: &Outline, point: DVec2) -> f64 {
+pub(crate) fn distance_squared(outline: &Outline, point: DVec2) -> f64 {
     if contains(outline, point) {
         0.0
     } else {
@@ -66,14 +66,14 @@ pub fn bounds(outline: &Outline) -> Option<(DVec2, DVec2)> {
 }
 
 /// The lower and the upper corner of the bounding box of points; `None` without points.
-pub fn bounds_of(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
+pub(crate) fn bounds_of(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
     let mut points = points.into_iter();
     let first = points.next()?;
     Some(points.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
 }
 
 /// The centre of gravity of the filled area; `None` if there is none.
-pub fn centroid(outline: &Outline) -> Option<DVec2> {
+pub(crate) fn centroid(outline: &Outline) -> Option<DVec2> {
     let (low, _) = bounds(outline)?;
     let (mut twice, mut sum) = (0.0, DVec2::ZERO);
     for [a, b] in edges(outline) {

@@ -16,7 +16,7 @@ const MAX_POINTS: usize = 100_000;
 
 /// How often the edges of rings cross, or a number above 20,000: sweep and prune along the axis along which edges are
 /// shorter.
-pub fn crossings(rings: &[Ring]) -> usize {
+pub(crate) fn crossings(rings: &[Ring]) -> usize {
     let count: usize = rings.iter().map(Vec::len).sum();
     let mut edges: Vec<[DVec2; 2]> = Vec::with_capacity(count);
     for ring in rings {

@@ -30,7 +30,7 @@ use snippets::{example_arguments, filled, kind_arguments, plain};
 use unfinished::{can_end, open_parenthesis, open_quote};
 
 /// The input of a completion.
-pub struct Context<'a> {
+pub(crate) struct Context<'a> {
     /// The drawing's present text.
     pub source: &'a str,
     /// Its last analysis, which has the names.
@@ -41,7 +41,7 @@ pub struct Context<'a> {
 
 /// Proposals, and the word that they replace.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Completion {
+pub(crate) struct Completion {
     /// The span that is replaced: the word at the cursor.
     pub span: Span,
     /// The proposals, the likeliest first.
@@ -53,7 +53,7 @@ pub struct Completion {
 
 /// A proposal.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Proposal {
+pub(crate) struct Proposal {
     /// The label that is shown.
     pub label: String,
     /// What it is.
@@ -70,7 +70,7 @@ pub struct Proposal {
 
 /// The kind of a proposal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ProposalKind {
+pub(crate) enum ProposalKind {
     /// A whole string.
     String,
     /// A keyword.
@@ -105,7 +105,7 @@ struct Cursor<'a> {
 }
 
 /// The completion at byte `offset` of the present text; `None` outside of strings.
-pub fn completion(context: &Context<'_>, offset: usize) -> Option<Completion> {
+pub(crate) fn completion(context: &Context<'_>, offset: usize) -> Option<Completion> {
     let analysis = context.analysis;
     let is_current = analysis.is_sound() && **analysis.source() == *context.source;
     if let Some((string, at)) = is_current.then(|| analysis.string_at(offset)).flatten() {

@@ -33,18 +33,18 @@ mod tokens;
 mod typed;
 mod uses;
 
-pub use at::Item;
-pub use colors::Swatch;
-pub use completion::{Context, Proposal, ProposalKind, completion};
-pub use goto::Target;
-pub use inlay::Inlay;
+pub(crate) use at::Item;
+pub(crate) use colors::Swatch;
+pub(crate) use completion::{Context, Proposal, ProposalKind, completion};
+pub(crate) use goto::Target;
+pub(crate) use inlay::Inlay;
 pub(crate) use letters::has_letters;
-pub use rename::RenameError;
-pub use signature::{SignatureHelp, signature};
-pub use subject::{Subject, Which};
-pub use symbols::Outline;
-pub use tokens::{SemanticToken, TokenClass};
-pub use uses::{Symbol, Use};
+pub(crate) use rename::RenameError;
+pub(crate) use signature::{SignatureHelp, signature};
+pub(crate) use subject::{Subject, Which};
+pub(crate) use symbols::Outline;
+pub(crate) use tokens::{SemanticToken, TokenClass};
+pub(crate) use uses::{Symbol, Use};
 
 use std::sync::Arc;
 

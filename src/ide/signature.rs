@@ -14,7 +14,7 @@ use crate::source::Text;
 
 /// The forms of an attribute, and the parameter at the cursor.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SignatureHelp {
+pub(crate) struct SignatureHelp {
     /// The forms.
     pub signatures: Vec<Signature>,
     /// The form that is being written.
@@ -25,7 +25,7 @@ pub struct SignatureHelp {
 
 /// One form of an attribute.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Signature {
+pub(crate) struct Signature {
     /// The form: `Shape roundv [a0 a1]`.
     pub label: String,
     /// A one-line summary.
@@ -35,7 +35,7 @@ pub struct Signature {
 }
 
 /// The signature of the attribute at byte `offset` of the present text; `None` after its last parameter.
-pub fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<SignatureHelp> {
+pub(crate) fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<SignatureHelp> {
     let is_current = analysis.is_sound() && **analysis.source() == *source;
     let (head, place) = match is_current.then(|| analysis.string_at(offset)).flatten() {
         Some((string, at)) => {

@@ -14,7 +14,7 @@ use super::pose::Pose;
 use super::{ImportError, NodeId, id, malformed};
 
 /// The largest number of keys in a file; those of an accessor count once for each channel that uses it.
-pub const MAX_KEYS: usize = 32 << 20;
+pub(crate) const MAX_KEYS: usize = 32 << 20;
 
 /// An animation of nodes.
 #[derive(Debug)]

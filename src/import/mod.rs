@@ -21,8 +21,9 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 use crate::resolver::{LinkError, Resolver};
 pub(crate) use crate::scene::{CameraProjection, NodeId};
 
+pub use animations::Clip;
+pub(crate) use animations::MAX_KEYS;
 pub(crate) use animations::read as read_clips;
-pub use animations::{Clip, MAX_KEYS};
 pub(crate) use buffers::Buffers;
 pub use cameras::ModelCamera;
 pub(crate) use cameras::{CameraPose, read as read_cameras};
@@ -30,7 +31,8 @@ pub(crate) use pictures::decode;
 pub use pose::Pose;
 pub(crate) use pose::{Geometry, TriangleSoup};
 use pose::{Node, Skin};
-pub use static_model::{StaticModel, read_static_model};
+pub(crate) use static_model::StaticModel;
+pub use static_model::read_static_model;
 pub(crate) use travel::Travellers;
 
 /// The largest number of triangles in a file; those of a mesh count once for each node that uses it.
@@ -38,7 +40,7 @@ pub const MAX_TRIANGLES: usize = 32 << 20;
 
 /// How much memory the vertices of all primitives may need beyond the length of the file's data, bytes. Accessors can give the
 /// same data many times over, or zeros without any data.
-pub const MAX_REPEATED: usize = 256 << 20;
+pub(crate) const MAX_REPEATED: usize = 256 << 20;
 
 /// Why a file cannot be read. Messages follow the name of the file.
 #[derive(Debug, Clone, thiserror::Error)]

@@ -40,7 +40,7 @@ impl PartDraft {
 /// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, since it
 /// faces the viewer. If the head lies more beside the body than above it, the figure is seen in profile, and limbs drawn later
 /// are on its near side.
-pub fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
+pub(crate) fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
     label_drawn(figure).labels
 }
 

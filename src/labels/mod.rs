@@ -24,8 +24,8 @@ use typed_index_collections::TiSlice;
 
 use crate::mocap::{JointId, Skeleton, Transform};
 
-pub use drawn_figure::{Carry, Figure, FigurePart};
-pub use figure::label_figure;
+pub(crate) use drawn_figure::{Carry, Figure, FigurePart};
+pub(crate) use figure::label_figure;
 pub(crate) use figure::{LabeledFigure, label_drawn};
 pub use skeleton::{Anatomy, Limb, label_clip};
 

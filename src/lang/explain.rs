@@ -14,7 +14,7 @@ const PLANNED: &str = "*This version reads and checks it, but it has no effect y
 /// The page on `word`: a keyword, a kind of `Shape`, or a diagnostic's code, ignoring case.
 ///
 /// A keyword has precedence over a kind of the same name.
-pub fn page(word: &str) -> Option<String> {
+pub(crate) fn page(word: &str) -> Option<String> {
     Keyword::from_name(word)
         .map(keyword)
         .or_else(|| super::keyword::kinds::from_name(word).map(kind))
@@ -22,7 +22,7 @@ pub fn page(word: &str) -> Option<String> {
 }
 
 /// All words that have a page.
-pub fn topics() -> impl Iterator<Item = &'static str> {
+pub(crate) fn topics() -> impl Iterator<Item = &'static str> {
     let keywords = Keyword::ALL.iter().map(|keyword| keyword.name());
     let kinds = KINDS.iter().map(|kind| kind.name);
     keywords
@@ -31,7 +31,7 @@ pub fn topics() -> impl Iterator<Item = &'static str> {
 }
 
 /// The page on a keyword.
-pub fn keyword(keyword: Keyword) -> String {
+pub(crate) fn keyword(keyword: Keyword) -> String {
     let row = keyword.row();
     let mut out = format!(
         "# {}\n\n{}.\n\n```\n",
@@ -69,7 +69,7 @@ pub fn keyword(keyword: Keyword) -> String {
 }
 
 /// The page on a kind of `Shape`.
-pub fn kind(kind: &Kind) -> String {
+pub(crate) fn kind(kind: &Kind) -> String {
     let mut out = format!(
         "# Shape {}\n\n{}.\n\n```\nShape {}\n```\n\n",
         kind.name,
@@ -86,7 +86,7 @@ pub fn kind(kind: &Kind) -> String {
 }
 
 /// The page on a diagnostic's code.
-pub fn code(code: Code) -> String {
+pub(crate) fn code(code: Code) -> String {
     format!(
         "# {}: {}\n\n*{}*\n\n{}",
         code.id(),
@@ -97,7 +97,7 @@ pub fn code(code: Code) -> String {
 }
 
 /// What a diagnostic's code means and what to do about it: its page without the example.
-pub fn code_in_short(code: Code) -> String {
+pub(crate) fn code_in_short(code: Code) -> String {
     let mut out = format!("**{}: {}**\n\n", code.id(), code.title());
     let page = paragraphs(code.manual());
     let mut was_empty = true;
@@ -112,7 +112,7 @@ pub fn code_in_short(code: Code) -> String {
 }
 
 /// A page for a small window: headings are bold lines.
-pub fn without_headings(page: &str) -> String {
+pub(crate) fn without_headings(page: &str) -> String {
     let mut out = String::new();
     for (line, fenced) in lines(page) {
         let heading = line.trim_start_matches('#').strip_prefix(' ');
@@ -139,7 +139,7 @@ fn lines(page: &str) -> impl Iterator<Item = (&str, bool)> {
 }
 
 /// An overview of the language.
-pub fn overview() -> String {
+pub(crate) fn overview() -> String {
     let mut out = String::from("# The strings of a drawing\n\n");
     for row in &STRINGS {
         let start = match row.sign {

@@ -10,10 +10,10 @@ mod part;
 mod terrain;
 mod views;
 
-pub mod colors;
-pub mod kinds;
-pub mod signature;
-pub mod vocabulary;
+pub(crate) mod colors;
+pub(crate) mod kinds;
+pub(crate) mod signature;
+pub(crate) mod vocabulary;
 
 use signature::{Form, NO_ARGUMENTS};
 

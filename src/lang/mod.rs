@@ -7,16 +7,16 @@
 //! A string goes through three steps: [`parse()`] builds its syntax tree, [`Variables::collect`] reads
 //! the `Let` of all `%` strings, and [`settings`] checks the attributes and computes their values.
 
-pub mod ast;
-pub mod check;
-pub mod explain;
-pub mod keyword;
-pub mod parameter;
+pub(crate) mod ast;
+pub(crate) mod check;
+pub(crate) mod explain;
+pub(crate) mod keyword;
+pub(crate) mod parameter;
 pub mod parse;
-pub mod quoting;
+pub(crate) mod quoting;
 pub mod reference;
-pub mod value;
-pub mod variables;
+pub(crate) mod value;
+pub(crate) mod variables;
 
 mod evaluate;
 mod normalize;
@@ -24,13 +24,13 @@ mod normalize;
 mod tests;
 
 pub use check::settings;
-pub use normalize::normalize;
-pub use parameter::{ParameterRef, parameter_at};
-pub use parse::{
-    Container, annotates, describes, is_name_char, is_word_char, looks_like_string, parse,
-    strings_in,
+pub(crate) use normalize::normalize;
+pub(crate) use parameter::{ParameterRef, parameter_at};
+pub use parse::{Container, parse};
+pub(crate) use parse::{
+    annotates, describes, is_name_char, is_word_char, looks_like_string, strings_in,
 };
-pub use variables::Variables;
+pub(crate) use variables::Variables;
 
 use crate::diagnostic::Diagnostic;
 use crate::source::Text;

@@ -107,7 +107,7 @@ impl<'a> Normalized<'a> {
 }
 
 /// `text` with full-width characters replaced by ASCII, except in comments and quotes.
-pub fn normalize(text: &str) -> Cow<'_, str> {
+pub(crate) fn normalize(text: &str) -> Cow<'_, str> {
     Normalized::new(text).text
 }
 

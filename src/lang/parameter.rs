@@ -6,7 +6,7 @@ use super::keyword::{Keyword, colors, kinds};
 
 /// The parameter that an argument is for.
 #[derive(Debug, Clone, Copy)]
-pub struct ParameterRef {
+pub(crate) struct ParameterRef {
     /// The keyword, or for a kind's own parameters the kind: `Offset`, `roundv`.
     pub owner: &'static str,
     /// The kind of `Shape` whose parameter it is.
@@ -19,14 +19,14 @@ pub struct ParameterRef {
 
 impl ParameterRef {
     /// The parameter.
-    pub fn parameter(&self) -> &'static Parameter {
+    pub(crate) fn parameter(&self) -> &'static Parameter {
         &self.form.parameters[self.index]
     }
 }
 
 /// The parameter that argument `index` of an attribute is for. The argument need not exist yet. `None` after the
 /// last parameter.
-pub fn parameter_at(
+pub(crate) fn parameter_at(
     attribute: &Attribute,
     index: usize,
     is_variable: &dyn Fn(&str) -> bool,

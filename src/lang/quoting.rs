@@ -5,7 +5,7 @@ use super::{is_name_char, is_word_char, normalize};
 
 /// The place of a name in a string, which decides whether it needs quotes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum NamePlace {
+pub(crate) enum NamePlace {
     /// Before or after `@`.
     Head,
     /// Among the arguments of an attribute.
@@ -13,7 +13,7 @@ pub enum NamePlace {
 }
 
 /// Whether `name` is read as itself without quotes.
-pub fn can_be_bare(name: &str, place: NamePlace) -> bool {
+pub(crate) fn can_be_bare(name: &str, place: NamePlace) -> bool {
     if name.is_empty() || normalize(name) != name {
         return false;
     }
@@ -30,7 +30,7 @@ pub fn can_be_bare(name: &str, place: NamePlace) -> bool {
 }
 
 /// `name` as it is written in a string.
-pub fn quoted_if_needed(name: &str, place: NamePlace) -> String {
+pub(crate) fn quoted_if_needed(name: &str, place: NamePlace) -> String {
     if can_be_bare(name, place) {
         name.to_owned()
     } else {
@@ -40,7 +40,7 @@ pub fn quoted_if_needed(name: &str, place: NamePlace) -> String {
 
 /// The name that a user means who types `input`, with or without quotes, as the parser would read it: white space is
 /// collapsed, and outside quotes full-width characters become ASCII. `None` if there is no such name.
-pub fn read_name(input: &str) -> Option<String> {
+pub(crate) fn read_name(input: &str) -> Option<String> {
     let input = input.trim();
     let inner = input
         .strip_prefix('"')

@@ -6,7 +6,7 @@ use super::poses::Poses;
 use super::segments::{self, Segments};
 
 /// For how many frames a drawing is held at most, by default.
-pub const MAX_HOLD: usize = 8;
+pub(crate) const MAX_HOLD: usize = 8;
 /// The largest value of that limit; larger ones are reduced to it.
 const MAX_HOLD_LIMIT: usize = 64;
 

@@ -88,7 +88,7 @@ pub fn every(frames: u32, n: u32) -> Exposure {
 }
 
 /// The same, so that the frame `key` is a drawing: the first drawing is held for fewer frames if necessary.
-pub fn every_through(frames: u32, n: u32, key: u32) -> Exposure {
+pub(crate) fn every_through(frames: u32, n: u32, key: u32) -> Exposure {
     let n = n.max(1);
     let late = |frame: u32| (frame + n - key % n) % n;
     Exposure::new(

@@ -23,22 +23,25 @@ mod segments;
 mod tests;
 
 pub use camera::Camera;
-pub use drawings::{BestDrawings, MAX_HOLD, drawings};
-pub use error::{Error, Method, compare, error};
-pub use exposure::{Drawing, Exposure, every, every_through};
-pub use key_times::KeyTimes;
+pub use drawings::drawings;
+pub(crate) use drawings::{BestDrawings, MAX_HOLD};
+pub(crate) use error::Error;
+pub use error::{Method, compare, error};
+pub(crate) use exposure::every_through;
+pub use exposure::{Drawing, Exposure, every};
+pub(crate) use key_times::KeyTimes;
 pub use measured::Measured;
 pub use poses::{Poses, ssd};
-pub use ranges::frame_ranges;
+pub(crate) use ranges::frame_ranges;
 
 use pose_list::PoseList;
 
 /// For how many frames a copied pose may be shown (5.2.2, 5.2.3).
-pub const MAX_COPIED_FRAMES: u32 = 3;
+pub(crate) const MAX_COPIED_FRAMES: u32 = 3;
 /// Omitted poses by default (5.3: 4 to 6 look right).
-pub const DEFAULT_OMITTED: usize = 4;
+pub(crate) const DEFAULT_OMITTED: usize = 4;
 /// One of this many frames is held by default (5.3: a third of the frames).
-pub const DEFAULT_HELD: usize = 3;
+pub(crate) const DEFAULT_HELD: usize = 3;
 /// More omitted poses in a row than this tear a motion apart (5.3).
 pub const MAX_OMITTED_RUN: usize = 6;
 

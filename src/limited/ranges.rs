@@ -1,7 +1,7 @@
 //! Runs of frames as text.
 
 /// Sorted frames as text for people, who count from 1, runs abbreviated: `3-6, 9`. After `most` runs the rest is only counted.
-pub fn frame_ranges(frames: &[u32], most: usize) -> String {
+pub(crate) fn frame_ranges(frames: &[u32], most: usize) -> String {
     let runs = frames.chunk_by(|a, b| a + 1 == *b);
     let mut texts: Vec<String> = Vec::new();
     let mut more = 0;

@@ -59,7 +59,7 @@ const PIPE: usize = 64 << 10;
 ///
 /// # Errors
 /// If the system gives no threads to serve with.
-pub fn serve() -> std::io::Result<bool> {
+pub(crate) fn serve() -> std::io::Result<bool> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
         .enable_all()

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 /// The places of a mark, with those between the frames around them where it was lost: on a straight line by time, and before the first and
 /// after the last sight where it was seen next. If it never was seen, all places are `otherwise`.
-pub fn bridge(times: &[f64], seen: &[Option<DVec2>], otherwise: DVec2) -> Vec<DVec2> {
+pub(crate) fn bridge(times: &[f64], seen: &[Option<DVec2>], otherwise: DVec2) -> Vec<DVec2> {
     let mut places: Vec<DVec2> = Vec::with_capacity(seen.len());
     for (frame, place) in seen.iter().enumerate() {
         if let Some(next) = *place {

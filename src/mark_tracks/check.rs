@@ -5,20 +5,20 @@ use std::collections::HashSet;
 use super::write::TICKS;
 
 /// The most frames of a track: more than two hours of 60 a second.
-pub const MAX_FRAMES: usize = 1 << 19;
+pub(crate) const MAX_FRAMES: usize = 1 << 19;
 /// The most marks.
-pub const MAX_MARKS: usize = 64;
+pub(crate) const MAX_MARKS: usize = 64;
 /// The longest name of a mark, in characters.
-pub const MAX_NAME: usize = 64;
+pub(crate) const MAX_NAME: usize = 64;
 /// The largest width and height of a clip's pictures, pixels.
-pub const MAX_SIDE: u32 = 1 << 16;
+pub(crate) const MAX_SIDE: u32 = 1 << 16;
 /// Coordinates are within this many pixels of the picture's corner.
 pub(super) const MAX_COORDINATE: f64 = 1e6;
 /// Times are below this many seconds.
 pub(super) const MAX_TIME: f64 = 1e6;
 
 /// Whether a mark can have this name: letters of any script, digits, `-` and `_`.
-pub fn is_name(name: &str) -> bool {
+pub(crate) fn is_name(name: &str) -> bool {
     let is_part = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
     !name.is_empty() && name.chars().all(is_part) && name.chars().nth(MAX_NAME).is_none()
 }
@@ -43,7 +43,7 @@ pub(super) fn size_problem(size: [u32; 2]) -> Option<String> {
 }
 
 /// The first name that an earlier mark has already, by its index.
-pub fn repeated_name<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<usize> {
+pub(crate) fn repeated_name<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<usize> {
     let mut seen = HashSet::new();
     names.into_iter().position(|name| !seen.insert(name))
 }

@@ -3,12 +3,12 @@
 use std::str::FromStr;
 
 /// A colour as `#rrggbb`.
-pub fn hex([r, g, b]: [u8; 3]) -> String {
+pub(crate) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
 /// The colour that `#rrggbb` or `#rgb` is.
-pub fn parse_hex(text: &str) -> Option<[u8; 3]> {
+pub(crate) fn parse_hex(text: &str) -> Option<[u8; 3]> {
     let digits: Vec<u8> = text
         .strip_prefix('#')?
         .chars()
@@ -22,7 +22,7 @@ pub fn parse_hex(text: &str) -> Option<[u8; 3]> {
 }
 
 /// The colour with this CSS name, in small or capital letters.
-pub fn named_color(name: &str) -> Option<[u8; 3]> {
+pub(crate) fn named_color(name: &str) -> Option<[u8; 3]> {
     let is_word = name.bytes().all(|byte| byte.is_ascii_alphabetic());
     let color = svgtypes::Color::from_str(&name.to_ascii_lowercase()).ok()?;
     (is_word && color.alpha == 255).then_some([color.red, color.green, color.blue])
@@ -30,7 +30,7 @@ pub fn named_color(name: &str) -> Option<[u8; 3]> {
 
 /// A colour by its hue.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hsv {
+pub(crate) struct Hsv {
     /// Degrees: red 0, green 120, blue 240; 0 for greys.
     pub hue: f64,
     /// 0 for greys, 1 for pure colours. Does not depend on the light.
@@ -41,7 +41,7 @@ pub struct Hsv {
 
 impl Hsv {
     /// The hue, saturation and chroma of an sRGB colour.
-    pub fn of(rgb: [u8; 3]) -> Self {
+    pub(crate) fn of(rgb: [u8; 3]) -> Self {
         let [r, g, b] = rgb.map(f64::from);
         let (most, least) = (r.max(g).max(b), r.min(g).min(b));
         let range = most - least;
@@ -68,6 +68,6 @@ impl Hsv {
 }
 
 /// How far a hue is from another, from -180 to 180 degrees.
-pub fn hue_difference(hue: f64, other: f64) -> f64 {
+pub(crate) fn hue_difference(hue: f64, other: f64) -> f64 {
     (hue - other + 180.0).rem_euclid(360.0) - 180.0
 }

@@ -22,13 +22,14 @@ use crate::index::index_type;
 use check::ticks;
 use write::TICKS;
 
-pub use bridge::bridge;
-pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, is_name, repeated_name};
-pub use color::{Hsv, hex, hue_difference, named_color, parse_hex};
-pub use error::{Error, ErrorLocation};
+pub(crate) use bridge::bridge;
+pub(crate) use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, is_name, repeated_name};
+pub(crate) use color::{Hsv, hex, hue_difference, named_color, parse_hex};
+pub(crate) use error::Error;
+pub use error::ErrorLocation;
 
 /// The largest file that is read, in bytes.
-pub const MAX_BYTES: usize = 256 << 20;
+pub(crate) const MAX_BYTES: usize = 256 << 20;
 
 index_type!(
     /// A mark among those of a clip.
@@ -101,6 +102,6 @@ impl MarkTracks {
 }
 
 /// Whether two names of marks are the same, but for small and capital letters.
-pub fn same_name(a: &str, b: &str) -> bool {
+pub(crate) fn same_name(a: &str, b: &str) -> bool {
     a.to_lowercase() == b.to_lowercase()
 }

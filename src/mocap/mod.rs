@@ -3,13 +3,13 @@
 //! Knows no figures, no drawings and no files on disk. Frames and joints count from 0; angles in files are degrees, lengths are in
 //! the file's unit.
 
-pub mod bvh;
-pub mod resample;
+pub(crate) mod bvh;
+pub(crate) mod resample;
 mod skeleton;
-pub mod travel;
+pub(crate) mod travel;
 pub(crate) mod turns;
 mod up;
 
 pub(crate) use skeleton::height;
 pub use skeleton::{Axis, Channel, Clip, Joint, JointId, Pose, Skeleton, Transform};
-pub use up::UpAxis;
+pub(crate) use up::UpAxis;

@@ -18,7 +18,7 @@ pub enum Ending {
 ///
 /// It is smooth, so that the sway of each step remains when it is subtracted: in a loop the straight way from the first to the last
 /// place, else the mean of the way half a second around each frame.
-pub fn travel(path: &[DVec3], up: DVec3, fps: f64, ending: Ending) -> Vec<DVec3> {
+pub(crate) fn travel(path: &[DVec3], up: DVec3, fps: f64, ending: Ending) -> Vec<DVec3> {
     let (Some(&first), Some(&last)) = (path.first(), path.last()) else {
         return Vec::new();
     };
@@ -44,7 +44,7 @@ pub fn travel(path: &[DVec3], up: DVec3, fps: f64, ending: Ending) -> Vec<DVec3>
 
 /// The clip without the travel of a joint, its hips. `up` is the axis of the clip's world that points up.
 #[must_use]
-pub fn in_place(clip: &Clip, hips: JointId, up: DVec3, ending: Ending) -> Clip {
+pub(crate) fn in_place(clip: &Clip, hips: JointId, up: DVec3, ending: Ending) -> Clip {
     let positions = clip.positions();
     let poses = positions.chunks_exact(clip.skeleton.joints.len().max(1));
     let place = |pose: &[DVec3]| TiSlice::<JointId, DVec3>::from_ref(pose)[hips];

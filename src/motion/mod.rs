@@ -3,12 +3,12 @@
 //! This is what `okoshi motion` does. `rig` does the same for figures.
 
 mod chart;
-pub mod edit;
+pub(crate) mod edit;
 mod measured;
 mod perform;
 mod skeleton_model;
 
-pub use chart::{Chart, chart};
+pub(crate) use chart::{Chart, chart};
 pub use measured::PointChoice;
-pub use perform::{JointChannel, PerformedClip, perform};
-pub use skeleton_model::{add_camera, skeleton_model};
+pub(crate) use perform::{JointChannel, PerformedClip, perform};
+pub(crate) use skeleton_model::{add_camera, skeleton_model};

@@ -12,7 +12,7 @@ use crate::retarget::to_drawing;
 
 /// A joint that a mark performs.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct JointChannel {
+pub(crate) struct JointChannel {
     /// The mark.
     pub mark: MarkId,
     /// The joint.
@@ -23,7 +23,7 @@ pub struct JointChannel {
 
 /// A motion as it is performed.
 #[derive(Debug)]
-pub struct PerformedClip {
+pub(crate) struct PerformedClip {
     /// The motion, retimed and damped.
     pub prepared: PreparedClip,
     /// What was done to it.
@@ -31,7 +31,7 @@ pub struct PerformedClip {
 }
 
 /// Performs a motion: its timing first, then its emphasis. Every index in `channels` must be valid.
-pub fn perform(
+pub(crate) fn perform(
     prepared: PreparedClip,
     tracks: &MarkTracks,
     channels: &[JointChannel],

@@ -23,7 +23,7 @@ const KNOB: f64 = 0.01;
 
 /// A model of the clip's skeleton with its animation: linear from frame to frame without an exposure sheet, else one step per
 /// drawing. `to_model` rotates the clip's world so that it stands upright and faces +z.
-pub fn skeleton_model(
+pub(crate) fn skeleton_model(
     clip: &Clip,
     exposure: Option<&Exposure>,
     name: &str,
@@ -80,7 +80,7 @@ pub fn skeleton_model(
 }
 
 /// Films the model of a clip's skeleton, which [`skeleton_model`] made: a camera keeps a joint in the middle of its picture.
-pub fn add_camera(
+pub(crate) fn add_camera(
     scene: &mut Scene,
     clip: &Clip,
     exposure: Option<&Exposure>,

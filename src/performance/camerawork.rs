@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::smoothing::ease;
 
 /// The vertical field of view of the camera, radians: that of an 85 mm lens on a square of 36 mm.
-pub const CAMERA_FOV: f64 = 0.417_4;
+pub(crate) const CAMERA_FOV: f64 = 0.417_4;
 /// How much of the distance is left where the camera is nearest.
 const NEAREST: f64 = 0.5;
 /// The empty border around the figure where the camera is farthest, as a share of the picture.
@@ -27,7 +27,7 @@ pub struct CameraPath {
 ///
 /// The camera comes nearer until the frame in which the joint is nearest to the viewer (of equal ones the first), to half its distance,
 /// and then goes back. The joint is always in the middle of the picture; where the camera is farthest, all of the figure is in it.
-pub fn camerawork(joint: &[DVec3], front: DVec3, reach: f64, depth: f64) -> CameraPath {
+pub(crate) fn camerawork(joint: &[DVec3], front: DVec3, reach: f64, depth: f64) -> CameraPath {
     let mut nearest = (0, f64::NEG_INFINITY);
     for (frame, at) in joint.iter().enumerate() {
         let height = at.dot(front);

@@ -5,7 +5,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 use crate::labels::Class;
 
 /// The nodes of a figure or skeleton, and the limbs that they belong to. `Node` counts them: places of parts, or joints.
-pub struct Limbs<'a, Node> {
+pub(crate) struct Limbs<'a, Node> {
     /// Per node its parent. Chains that never end are climbed only once around.
     pub parents: &'a TiSlice<Node, Option<Node>>,
     /// Per node what it is a part of; `None` for what has no class of its own, such as fingers.
@@ -49,7 +49,7 @@ where
 /// `channels` are the nodes of each characteristic joint, `followers` those that are edited along with them, and `largest` the largest
 /// input of their marks. The nodes of the `emphasized` one stay, and so do their limbs and what they hang on. Of several ratios for
 /// one node the largest counts.
-pub fn ratios<Node>(
+pub(crate) fn ratios<Node>(
     limbs: &Limbs<'_, Node>,
     channels: &[Vec<Node>],
     followers: &[Vec<Node>],

@@ -115,7 +115,7 @@ fn second(envelope: &[f64], first: usize) -> Option<usize> {
 
 /// The movement of joints: per joint and frame the step since the frame before, relative to the hips. `paths` are the joints' positions,
 /// frame by frame, in any unit.
-pub fn joint_steps(paths: &[Vec<DVec3>], hips: &[DVec3]) -> Vec<Vec<DVec3>> {
+pub(crate) fn joint_steps(paths: &[Vec<DVec3>], hips: &[DVec3]) -> Vec<Vec<DVec3>> {
     let steps = |path: &Vec<DVec3>| {
         let places = path.iter().zip(hips);
         let relative: Vec<DVec3> = places.map(|(at, hips)| *at - *hips).collect();

@@ -16,7 +16,7 @@ const MAX_FRAMES: f64 = (1 << 18) as f64;
 /// The movement of some marks, brought to `fps` frames a second by their times: per mark and frame |dx| + |dy| since the frame before,
 /// in fractions of the picture's diagonal. Frames count from the first frame of the track. Steps from or to a frame in which the mark
 /// was lost are 0, and so is what noise may be. Every index in `marks` must be valid.
-pub fn mark_movements(tracks: &MarkTracks, marks: &[MarkId], fps: f64) -> Vec<Vec<f64>> {
+pub(crate) fn mark_movements(tracks: &MarkTracks, marks: &[MarkId], fps: f64) -> Vec<Vec<f64>> {
     let size = DVec2::new(tracks.size[0].into(), tracks.size[1].into());
     let samples = samples(&tracks.times, fps);
     let movement = |mark: &MarkId| {

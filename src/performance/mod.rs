@@ -11,8 +11,9 @@ mod information;
 mod marks;
 mod plan;
 
-pub use emphasis::{Limbs, ratios};
-pub use filmed::Filmed;
-pub use information::{Information, joint_steps};
-pub use marks::mark_movements;
-pub use plan::{Effects, Filming, Finding, Plan, Request, plan};
+pub(crate) use emphasis::{Limbs, ratios};
+pub(crate) use filmed::Filmed;
+pub(crate) use information::{Information, joint_steps};
+pub(crate) use marks::mark_movements;
+pub use plan::Filming;
+pub(crate) use plan::{Effects, Finding, Plan, Request, plan};

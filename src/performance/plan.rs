@@ -25,7 +25,7 @@ pub enum Filming {
 
 /// Which effects a performance has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Effects {
+pub(crate) struct Effects {
     /// Whether the motion gets the performance's timing.
     pub timing: bool,
     /// Whether what is not emphasised is damped.
@@ -46,7 +46,7 @@ impl Default for Effects {
 
 /// What a person asks of a performance, instead of what follows from the movements.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
-pub struct Request {
+pub(crate) struct Request {
     /// Its effects.
     pub effects: Effects,
     /// The channel that is emphasised.
@@ -137,7 +137,12 @@ impl Plan {
 
 /// Plans a performance. `input` holds the movements of marks, `steps` those of the joints of the same channels, at the same frame rate;
 /// `viewer` is the direction from the motion to the viewer, a unit vector.
-pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: &Request) -> Plan {
+pub(crate) fn plan(
+    input: Vec<Vec<f64>>,
+    steps: &[Vec<DVec3>],
+    viewer: DVec3,
+    request: &Request,
+) -> Plan {
     let length = |steps: &Vec<DVec3>| steps.iter().map(|step| step.length()).collect();
     let motion = steps.iter().map(length).collect();
     let (input, motion) = (Information::new(input), Information::new(motion));

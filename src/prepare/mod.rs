@@ -15,8 +15,9 @@ use crate::mocap::travel::{self, Ending};
 use crate::mocap::{Axis, Clip, JointId};
 use crate::retarget::{self, Landmarks};
 
-pub use lead_in::{LeadInKind, find_lead_in};
-pub use looping::Cycle;
+pub(crate) use lead_in::LeadInKind;
+pub use lead_in::find_lead_in;
+pub(crate) use looping::Cycle;
 use looping::looped;
 
 /// What to do with the T-pose that many clips begin with.

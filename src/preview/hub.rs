@@ -21,7 +21,7 @@ const THUMBNAIL_SIZE: u32 = 320;
 
 /// All drawings that pages can show. Each page asks for the updates since its last request, so that a slow page gets only
 /// the newest ones, and nothing is queued for a page that does not read.
-pub struct Hub {
+pub(crate) struct Hub {
     state: Mutex<State>,
     /// Counts the updates.
     clock: watch::Sender<u64>,
@@ -44,7 +44,7 @@ type OnPick = dyn Fn(&str, Picked<'_>) + Send + Sync;
 
 /// Something that was clicked on a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Picked<'a> {
+pub(crate) enum Picked<'a> {
     /// A part, by its name.
     Part(&'a str),
     /// A position in the drawing's text. Lines and columns count from 1, columns in characters.
@@ -140,7 +140,7 @@ impl StoredModel {
 
 /// How builds are sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Builds {
+pub(crate) enum Builds {
     /// Each by itself.
     Whole,
     /// Without the parts that are the same as in the build before, where that was sent.
@@ -149,7 +149,7 @@ pub enum Builds {
 
 /// A build to show.
 #[derive(Debug, Clone, Copy)]
-pub struct Shown<'a> {
+pub(crate) struct Shown<'a> {
     /// The drawing's text.
     pub text: &'a str,
     /// The compiled drawing.
@@ -162,7 +162,7 @@ pub struct Shown<'a> {
 
 impl Hub {
     /// A hub without drawings; `on_pick` is called when something is clicked on a page.
-    pub fn new(on_pick: impl Fn(&str, Picked<'_>) + Send + Sync + 'static) -> Arc<Self> {
+    pub(crate) fn new(on_pick: impl Fn(&str, Picked<'_>) + Send + Sync + 'static) -> Arc<Self> {
         Arc::new(Self {
             state: Mutex::default(),
             clock: watch::Sender::new(0),
@@ -188,7 +188,7 @@ impl Hub {
     }
 
     /// Shows a build of the drawing `id`, which is listed with its folder and name.
-    pub fn publish(&self, id: &str, [folder, name]: [&str; 2], shown: &Shown<'_>) {
+    pub(crate) fn publish(&self, id: &str, [folder, name]: [&str; 2], shown: &Shown<'_>) {
         // Everything that takes long happens before the lock is taken.
         let found = findings(&shown.compiled.diagnostics, shown.text);
         let parts = everything(shown.compiled, shown.text);
@@ -277,7 +277,7 @@ impl Hub {
     }
 
     /// Reports that a drawing's file is gone; its last build stays.
-    pub fn gone(&self, id: &str) {
+    pub(crate) fn gone(&self, id: &str) {
         self.change(|state, now| {
             if let Some(entry) = state.drawings.get_mut(id) {
                 entry.gone = Some(now);
@@ -286,7 +286,7 @@ impl Hub {
     }
 
     /// Removes a drawing.
-    pub fn remove(&self, id: &str) {
+    pub(crate) fn remove(&self, id: &str) {
         self.change(|state, now| {
             if state.drawings.remove(id).is_some() {
                 state.listed = now;
@@ -295,7 +295,7 @@ impl Hub {
     }
 
     /// Highlights a part, or none.
-    pub fn light(&self, id: &str, part: Option<&str>) {
+    pub(crate) fn light(&self, id: &str, part: Option<&str>) {
         let lit = |state: &State| state.drawings.get(id).map(|entry| entry.light.1.clone());
         if lit(&self.state()).is_none_or(|lit| lit.as_deref() == part) {
             return;
@@ -308,14 +308,14 @@ impl Hub {
     }
 
     /// Whether a model of a drawing without errors was shown.
-    pub fn was_good(&self, id: &str) -> bool {
+    pub(crate) fn was_good(&self, id: &str) -> bool {
         let state = self.state();
         let entry = state.drawings.get(id);
         entry.is_some_and(|entry| entry.was_good)
     }
 
     /// Whether a drawing is shown.
-    pub fn shows(&self, id: &str) -> bool {
+    pub(crate) fn shows(&self, id: &str) -> bool {
         self.state().drawings.contains_key(id)
     }
 
@@ -330,7 +330,7 @@ impl Hub {
     }
 
     /// The bytes of a model, by the address in a message, or what changed since another one (`?since=` and its address).
-    pub fn bytes(&self, address: &str) -> Option<Arc<[u8]>> {
+    pub(crate) fn bytes(&self, address: &str) -> Option<Arc<[u8]>> {
         let (address, since) = match address.split_once("?since=") {
             Some((address, since)) => (address, since.split_once('/').map(|(_, file)| file)),
             None => (address, None),
@@ -349,13 +349,18 @@ impl Hub {
     }
 
     /// Changes whenever there are updates.
-    pub fn clock(&self) -> watch::Receiver<u64> {
+    pub(crate) fn clock(&self) -> watch::Receiver<u64> {
         self.clock.subscribe()
     }
 
     /// The updates since a time, of all drawings or only one, as messages, and the current time. Whoever has got all messages
     /// until that time can be sent parts of builds.
-    pub fn updates(&self, since: u64, only: Option<&str>, builds: Builds) -> (Vec<Arc<str>>, u64) {
+    pub(crate) fn updates(
+        &self,
+        since: u64,
+        only: Option<&str>,
+        builds: Builds,
+    ) -> (Vec<Arc<str>>, u64) {
         let state = self.state();
         let wanted = |id: &&String| only.is_none_or(|only| *id == only);
         let drawings = || state.drawings.iter().filter(|(id, _)| wanted(id));

@@ -18,5 +18,5 @@ mod page;
 mod server;
 mod socket;
 
-pub use hub::{Builds, Hub, Picked, Shown};
-pub use server::{bind, serve};
+pub(crate) use hub::{Builds, Hub, Picked, Shown};
+pub(crate) use server::{bind, serve};

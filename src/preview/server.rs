@@ -40,14 +40,14 @@ const ACCEPT_RETRY_INTERVAL: Duration = Duration::from_millis(50);
 
 /// A port to serve on.
 #[derive(Debug)]
-pub struct Bound {
+pub(crate) struct Bound {
     listener: std::net::TcpListener,
     address: SocketAddr,
 }
 
 impl Bound {
     /// The page's address.
-    pub fn url(&self) -> String {
+    pub(crate) fn url(&self) -> String {
         format!("http://{}/", self.address)
     }
 }
@@ -56,7 +56,7 @@ impl Bound {
 ///
 /// # Errors
 /// If the given port is not available.
-pub fn bind(port: Option<u16>) -> io::Result<Bound> {
+pub(crate) fn bind(port: Option<u16>) -> io::Result<Bound> {
     let take = |port| std::net::TcpListener::bind((Ipv4Addr::LOCALHOST, port));
     let listener = match port {
         Some(port) => take(port),
@@ -71,7 +71,7 @@ pub fn bind(port: Option<u16>) -> io::Result<Bound> {
 ///
 /// # Errors
 /// If the system cannot listen.
-pub async fn serve(bound: Bound, hub: Arc<Hub>) -> io::Result<std::convert::Infallible> {
+pub(crate) async fn serve(bound: Bound, hub: Arc<Hub>) -> io::Result<std::convert::Infallible> {
     let router = router(hub, Hosts::of(bound.address));
     let listener = TcpListener::from_std(bound.listener)?;
     let permits = Arc::new(Semaphore::new(MAX_CONNECTIONS));

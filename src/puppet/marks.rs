@@ -48,7 +48,7 @@ pub enum MarkOrigin {
 
 /// Per piece its mark. If no string gives one, the ends of the arms get marks; if these are fewer than two, also those of the
 /// legs, and else what is farthest from the piece that carries the others.
-pub fn marks(
+pub(crate) fn marks(
     drawing: &Drawing,
     bindings: &Bindings,
     pieces: &[PaperPiece],

@@ -24,7 +24,8 @@ use crate::threads;
 
 use instructions::Texts;
 use layout::{EDGE, GAP, Layout, Task};
-pub use marks::{MarkOrigin, PieceMark, marks};
+pub use marks::MarkOrigin;
+pub(crate) use marks::{PieceMark, marks};
 pub use pieces::{PaperPiece, pieces};
 use sheet::Printed;
 

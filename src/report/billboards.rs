@@ -8,7 +8,7 @@ use crate::scene::view_axes;
 
 /// A character.
 #[derive(Debug, Clone, Serialize)]
-pub struct Billboard<'a> {
+pub(crate) struct Billboard<'a> {
     /// Its name.
     pub name: &'a str,
     /// The directions of its views, degrees: around and up.
@@ -19,7 +19,7 @@ pub struct Billboard<'a> {
 
 /// A region of a character.
 #[derive(Debug, Clone, Serialize)]
-pub struct BillboardRegion<'a> {
+pub(crate) struct BillboardRegion<'a> {
     /// Its name.
     pub name: &'a str,
     /// Per view the `id` of its element; `None` where the view does not show it, and for a region of a picture.
@@ -33,7 +33,7 @@ pub struct BillboardRegion<'a> {
 }
 
 /// The characters of a drawing.
-pub fn billboards(compiled: &Compiled) -> Vec<Billboard<'_>> {
+pub(crate) fn billboards(compiled: &Compiled) -> Vec<Billboard<'_>> {
     let characters = compiled.characters.iter();
     characters
         .map(|character| Billboard {
@@ -80,7 +80,7 @@ pub(super) fn middle(character: &Character, region: &RegionModel) -> glam::DVec2
 }
 
 /// A character for people.
-pub fn describe_character(character: &Character) -> String {
+pub(crate) fn describe_character(character: &Character) -> String {
     let views: Vec<String> = character
         .turn
         .views

@@ -12,7 +12,7 @@ const MAX_SPEEDS: usize = 4096;
 
 /// A clip of a figure. Frames are counted from 0.
 #[derive(Debug, Clone, Serialize)]
-pub struct Clip<'a> {
+pub(crate) struct Clip<'a> {
     /// The animation's name.
     pub name: &'a str,
     /// The name of the figure's root.
@@ -50,7 +50,7 @@ pub struct Clip<'a> {
 }
 
 /// The clips of a drawing, in the order of the strings that request them.
-pub fn clips(compiled: &Compiled) -> Vec<Clip<'_>> {
+pub(crate) fn clips(compiled: &Compiled) -> Vec<Clip<'_>> {
     let clips = compiled.clips.iter();
     clips.map(|clip| report(compiled, clip)).collect()
 }

@@ -7,7 +7,7 @@ use crate::figure::Reason;
 const NONE: f64 = 5e-3;
 
 /// Why a main part lies at its depth; `None` for one that lies in the plane of what it hangs on, and for parts without a node.
-pub fn depth_reason(compiled: &Compiled, part: usize) -> Option<String> {
+pub(crate) fn depth_reason(compiled: &Compiled, part: usize) -> Option<String> {
     let (parts, depths) = (&compiled.bindings.parts, &compiled.depths);
     let name = |part: usize| &parts[parts[part].main].name;
     let own = depths[part]?;

@@ -35,7 +35,7 @@ pub struct Likeness {
 ///
 /// Lines and columns count from 1, columns in characters; `start` and `end` are bytes of the drawing's
 /// text. Ends are exclusive.
-pub fn findings_json(drawings: &[Findings]) -> String {
+pub(crate) fn findings_json(drawings: &[Findings]) -> String {
     let report = Report {
         version: 1,
         drawings: drawings.iter().map(drawing).collect(),

@@ -15,7 +15,7 @@ struct Inspection<'a> {
 }
 
 /// A drawing's content as JSON, with a line feed at the end. `path` is as the user wrote it, `text` what was compiled.
-pub fn inspection_json(path: &str, compiled: &Compiled, text: &str) -> String {
+pub(crate) fn inspection_json(path: &str, compiled: &Compiled, text: &str) -> String {
     pretty(&Inspection {
         drawing: path,
         parts: parts(compiled, text),

@@ -4,7 +4,7 @@ use crate::compile::Compiled;
 
 /// The joint that drives a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Driver<'a> {
+pub(crate) struct Driver<'a> {
     /// Its name; `None` for a part that follows its parent.
     pub joint: Option<&'a str>,
     /// The reason.
@@ -13,7 +13,7 @@ pub struct Driver<'a> {
 
 /// Per part the joint that drives it, from the first clip of its figure in which one does, else the first clip's reason why none does.
 /// `None` for parts of figures that do not move.
-pub fn drivers(compiled: &Compiled) -> Vec<Option<Driver<'_>>> {
+pub(crate) fn drivers(compiled: &Compiled) -> Vec<Option<Driver<'_>>> {
     let mut drivers: Vec<Option<Driver>> = vec![None; compiled.bindings.parts.len()];
     for clip in &compiled.clips {
         for drive in &clip.parts {

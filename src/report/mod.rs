@@ -13,14 +13,15 @@ mod parts;
 pub(crate) mod samples;
 mod terrain;
 
-pub use billboards::{Billboard, billboards, describe_character};
-pub use clips::{Clip, clips};
-pub use depths::depth_reason;
-pub use findings::{Findings, Likeness, findings_json};
-pub use inspection::inspection_json;
+pub(crate) use billboards::{Billboard, billboards, describe_character};
+pub(crate) use clips::{Clip, clips};
+pub(crate) use depths::depth_reason;
+pub use findings::Findings;
+pub(crate) use findings::{Likeness, findings_json};
+pub(crate) use inspection::inspection_json;
 pub use matches::picture_of_matches;
-pub use parts::{Part, everything, part_count, parts};
-pub use terrain::{Terrain, terrain};
+pub(crate) use parts::{Part, everything, part_count, parts};
+pub(crate) use terrain::{Terrain, terrain};
 
 /// Indented JSON. Reports hold only text and numbers, so this cannot fail.
 pub(crate) fn pretty(report: &impl serde::Serialize) -> String {

@@ -15,7 +15,7 @@ use crate::source::LineIndex;
 
 /// A part. Coordinates are drawing units, y down.
 #[derive(Debug, Clone, Serialize)]
-pub struct Part<'a> {
+pub(crate) struct Part<'a> {
     /// Its name.
     pub name: &'a str,
     /// Where its name is from: `string`, `label`, `id`, `automatic`; `None` for parts that are not in the hierarchy.
@@ -57,7 +57,7 @@ pub struct Part<'a> {
 
 /// A string. Lines and columns count from 1, columns in characters.
 #[derive(Debug, Clone, Serialize)]
-pub struct StringReport<'a> {
+pub(crate) struct StringReport<'a> {
     /// Its line.
     pub line: usize,
     /// Its column.
@@ -73,7 +73,7 @@ pub struct StringReport<'a> {
 
 /// An attribute.
 #[derive(Debug, Clone, Serialize)]
-pub struct AttributeReport {
+pub(crate) struct AttributeReport {
     /// Its value, variables resolved.
     pub value: String,
     /// `own`, `legend`, `default` or `builtin`.
@@ -81,14 +81,14 @@ pub struct AttributeReport {
 }
 
 /// The parts of a drawing, in paint order.
-pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
+pub(crate) fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let parts = Subject::all(compiled);
     let parts = parts.filter(|subject| matches!(subject.which, Which::Part(_)));
     reports(compiled, text, parts)
 }
 
 /// The parts of a drawing, its landscapes, and its characters with their regions: everything in the model.
-pub fn everything<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
+pub(crate) fn everything<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     reports(compiled, text, Subject::all(compiled))
 }
 
@@ -172,7 +172,7 @@ fn report<'a>(
 
 /// The number of parts in the model of a drawing, as every command and page counts them: main parts, landscapes and the regions of
 /// characters. Sub-parts, which are solids of a main part, and copies do not count.
-pub fn part_count(compiled: &Compiled) -> usize {
+pub(crate) fn part_count(compiled: &Compiled) -> usize {
     let counts = |subject: &Subject<'_>| match subject.which {
         Which::Part(_) => subject.is_main(),
         Which::Landscape(_) | Which::Region(..) => true,

@@ -6,7 +6,7 @@ use crate::compile::Compiled;
 
 /// A landscape. All lengths are tiles.
 #[derive(Debug, Clone, Serialize)]
-pub struct Terrain<'a> {
+pub(crate) struct Terrain<'a> {
     /// Its name.
     pub name: &'a str,
     /// Columns and rows of its map.
@@ -23,7 +23,7 @@ pub struct Terrain<'a> {
 
 /// A group of ground or a body of water.
 #[derive(Debug, Clone, Serialize)]
-pub struct Group {
+pub(crate) struct Group {
     /// `ground` or `water`.
     pub kind: &'static str,
     /// Its height.
@@ -36,7 +36,7 @@ pub struct Group {
 
 /// A house.
 #[derive(Debug, Clone, Serialize)]
-pub struct House {
+pub(crate) struct House {
     /// The height of its floor.
     pub base: i32,
     /// The width of its walls.
@@ -50,7 +50,7 @@ pub struct House {
 }
 
 /// The landscapes of a drawing.
-pub fn terrain(compiled: &Compiled) -> Vec<Terrain<'_>> {
+pub(crate) fn terrain(compiled: &Compiled) -> Vec<Terrain<'_>> {
     let layers = compiled.layers.iter();
     let report = layers.map(|layer| {
         let (map, land) = (&layer.map, &layer.landscape);

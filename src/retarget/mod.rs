@@ -24,9 +24,8 @@ use crate::labels::Facing;
 use crate::mocap::{Clip, JointId, Pose, Transform};
 
 pub use axes::Landmarks;
-pub use matching::{
-    Drive, Follow, MatchedPart, Matching, Problem, bent_arms, joints_named, match_figure,
-};
+pub use matching::{Drive, Follow};
+pub(crate) use matching::{MatchedPart, Matching, Problem, bent_arms, joints_named, match_figure};
 pub use rest_pose::RestSource;
 pub use turns::Turns;
 
@@ -139,7 +138,7 @@ pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip
 
 /// From a clip's world to the axes of a drawing whose figure faces in a direction: y up, z towards the viewer. The front of the body is
 /// that of the first frame.
-pub fn to_drawing(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> DQuat {
+pub(crate) fn to_drawing(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> DQuat {
     axes::Axes::of(clip, landmarks, facing).first.inverse()
 }
 

@@ -212,7 +212,7 @@ impl FigureClip {
 
 /// The nodes of a scene without their meshes, and the animations of clips before they were performed and limited, under the names that
 /// they have in the scene. `None` if no clip is either.
-pub fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
+pub(crate) fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
     let mut animations = Vec::new();
     for original in clips.iter().filter_map(FigureClip::original) {
         tracks::add(&mut animations, original);

@@ -11,7 +11,7 @@ const GAP: f64 = 0.02;
 
 /// The parts of one figure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FigureGroup {
+pub(crate) struct FigureGroup {
     /// Its parts, indices into the bindings' parts.
     pub parts: Vec<usize>,
     /// Per part its parent, an index into `parts`: by its string, or because they touch.
@@ -61,7 +61,7 @@ impl FigureGroup {
 }
 
 /// The figures of a drawing, in the drawing order of their first parts.
-pub fn find(bindings: &Bindings) -> Vec<FigureGroup> {
+pub(crate) fn find(bindings: &Bindings) -> Vec<FigureGroup> {
     let trees = trees(bindings);
     let near = touching(bindings, &trees);
     let groups = connected(&near).into_iter();

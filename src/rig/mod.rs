@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 use typed_index_collections::TiVec;
 
-pub use crate::mocap::JointId;
+pub(crate) use crate::mocap::JointId;
 
 use crate::bind::{Bindings, MotionSource};
 use crate::clips::BuiltIn;
@@ -35,13 +35,15 @@ use crate::svg::Drawing;
 
 use builder::{ClipBuilder, Requested};
 use diagnostics::MatchProblems;
-pub use effects::{Performance, PerformedMark};
-pub use figure_clip::{FigureClip, PartDrive, originals};
-pub use figures::{FigureGroup, find as find_figures};
+pub(crate) use effects::{Performance, PerformedMark};
+pub use figure_clip::FigureClip;
+pub(crate) use figure_clip::{PartDrive, originals};
+pub(crate) use figures::FigureGroup;
+pub(crate) use figures::find as find_figures;
 use motion_files::MotionFiles;
 use performances::Performances;
-pub use performed::Performed;
-pub use rigging::RestNode;
+pub(crate) use performed::Performed;
+pub(crate) use rigging::RestNode;
 use rigging::RestNodes;
 use tracks::AnimatedNodes;
 
@@ -52,7 +54,7 @@ const MAX_KEYS: usize = 1 << 24;
 const MAX_MATCHES: usize = 1 << 18;
 
 /// The drawing whose figures are animated.
-pub struct Context<'a> {
+pub(crate) struct Context<'a> {
     /// The drawing.
     pub drawing: &'a Drawing,
     /// Its bindings.
@@ -77,7 +79,7 @@ enum Motion {
 
 /// Adds the clips that strings ask for to the scene, and returns what they are. `nodes` are the scene's first nodes, parents before
 /// children.
-pub fn add_clips(
+pub(crate) fn add_clips(
     context: &Context<'_>,
     nodes: TiVec<NodeId, RestNode>,
     resolver: &dyn Resolver,

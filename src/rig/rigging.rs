@@ -147,7 +147,7 @@ pub(super) fn rig(
 
 /// A node of the scene at rest, and the part that it shows.
 #[derive(Debug, Clone, Copy)]
-pub struct RestNode {
+pub(crate) struct RestNode {
     /// The part.
     pub part: usize,
     /// Whether it is a child of the model's root.

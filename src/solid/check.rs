@@ -9,7 +9,7 @@ use crate::scene::Surface;
 ///
 /// # Errors
 /// An edge or a triangle that breaks the rule.
-pub fn closed(surface: &Surface) -> Result<(), String> {
+pub(crate) fn closed(surface: &Surface) -> Result<(), String> {
     let mut ids = HashMap::new();
     let welded: Vec<usize> = surface
         .positions
@@ -56,7 +56,7 @@ pub fn closed(surface: &Surface) -> Result<(), String> {
 }
 
 /// The enclosed volume, positive where the surface is wound outward.
-pub fn volume(surface: &Surface) -> f64 {
+pub(crate) fn volume(surface: &Surface) -> f64 {
     let at = |i: u32| glam::Vec3::from(surface.positions[i as usize]).as_dvec3();
     let Some(first) = surface.positions.first() else {
         return 0.0;

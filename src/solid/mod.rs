@@ -33,8 +33,8 @@ use glam::{DMat2, DVec2, DVec3};
 use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
-pub use kinds::{Kind, Profile};
-pub use pile::{Body, LaidSolid, Lay, LayForm, Pile, RecentHeights, SolidHeights};
+pub(crate) use kinds::Profile;
+pub(crate) use pile::{Body, LaidSolid, Lay, LayForm, Pile, RecentHeights, SolidHeights};
 pub use source::{Sides, Solid};
 
 /// What a solid depends on besides its outline and its profile.
@@ -76,7 +76,7 @@ impl Placement {
 }
 
 /// The solid of an outline in its part's frame; nothing for an outline without area.
-pub fn build(outline: &Outline, profile: &Profile, options: &Options) -> Surface {
+pub(crate) fn build(outline: &Outline, profile: &Profile, options: &Options) -> Surface {
     match half_extents(outline) {
         Some(half) => profile.surface(outline, half, options),
         None => Surface::default(),

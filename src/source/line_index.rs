@@ -141,7 +141,7 @@ impl<T: Deref<Target = str>> LineIndex<T> {
 }
 
 /// Whether a byte of UTF-8 is the first of a character.
-pub fn starts_character(byte: u8) -> bool {
+pub(crate) fn starts_character(byte: u8) -> bool {
     (byte & 0xC0) != 0x80
 }
 

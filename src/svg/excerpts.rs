@@ -17,7 +17,7 @@ const PREFIX: &str = "drawn-";
 
 /// Excerpts of a drawing, each with its own shapes only.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Excerpts {
+pub(crate) struct Excerpts {
     /// What they refer to: gradients, patterns, clips and masks, the content of a `<defs>` that may use the prefix `xlink`.
     pub definitions: String,
     /// The markup of each, in user units from the page's top left corner.
@@ -28,7 +28,7 @@ pub struct Excerpts {
 /// [`Shape::leaf`](super::Shape::leaf). Clones, style sheets and links are resolved. Texts and filters are left out.
 ///
 /// `None` if the drawing cannot be read. Needs a large stack, as [`read`](super::read) does.
-pub fn excerpts(
+pub(crate) fn excerpts(
     text: &str,
     resolver: &dyn Resolver,
     count: usize,

@@ -181,7 +181,7 @@ impl PictureSource {
 /// # Errors
 ///
 /// If the picture passes a limit or cannot be read.
-pub fn pixels_of(file: &[u8]) -> Result<image::DynamicImage, (Code, String)> {
+pub(crate) fn pixels_of(file: &[u8]) -> Result<image::DynamicImage, (Code, String)> {
     let (pixels, _) = texture::pixels(file).map_err(unreadable)?;
     Ok(pixels)
 }

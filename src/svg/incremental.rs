@@ -8,7 +8,7 @@ use crate::source::{Change, Span, Text};
 
 /// An edit that only changes the characters of one text: everything else in the drawing stays, or moves as a whole.
 #[derive(Debug, Clone, Copy)]
-pub struct TextEdit<'a> {
+pub(crate) struct TextEdit<'a> {
     change: Change,
     inserted: &'a str,
 }
@@ -20,7 +20,7 @@ impl<'a> TextEdit<'a> {
     /// The change must lie in character data that is written as it is read and that became part of a label or a
     /// description. The inserted text must neither be markup nor complete any. Nothing may change that depends on
     /// whether there is a text, on its lines, or on the ids that `prepare` generates.
-    pub fn find(drawing: &Drawing, old: &str, new: &'a str, change: Change) -> Option<Self> {
+    pub(crate) fn find(drawing: &Drawing, old: &str, new: &'a str, change: Change) -> Option<Self> {
         let Change {
             start,
             old_end,
@@ -71,7 +71,7 @@ impl<'a> TextEdit<'a> {
     }
 
     /// Edits the drawing's texts, and moves the spans behind the edit.
-    pub fn apply(self, drawing: &mut Drawing) {
+    pub(crate) fn apply(self, drawing: &mut Drawing) {
         for group in &mut drawing.groups {
             self.apply_to_element(&mut group.element);
         }
@@ -100,7 +100,7 @@ impl<'a> TextEdit<'a> {
     }
 
     /// Moves the spans of a diagnostic about the drawing, not about its texts.
-    pub fn apply_to_diagnostic(self, diagnostic: &mut Diagnostic) {
+    pub(crate) fn apply_to_diagnostic(self, diagnostic: &mut Diagnostic) {
         let move_span = |span: &mut Span| *span = self.change.moved(*span);
         move_span(&mut diagnostic.span);
         for related in &mut diagnostic.related {

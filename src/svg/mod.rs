@@ -36,16 +36,16 @@ use glam::DVec2;
 use typed_index_collections::TiVec;
 
 pub(crate) use entities::character;
-pub use excerpts::{Excerpts, excerpts};
-pub use image::{PictureSource, pixels_of};
-pub use incremental::TextEdit;
+pub(crate) use excerpts::{Excerpts, excerpts};
+pub(crate) use image::{PictureSource, pixels_of};
+pub(crate) use incremental::TextEdit;
 pub(crate) use links::broken_link;
-pub use oklab::oklab;
-pub use paths::StrokeSource;
+pub(crate) use oklab::oklab;
+pub(crate) use paths::StrokeSource;
 pub(crate) use pictures::LARGE;
 pub use raster::{LeftOut, raster};
-pub use text::Label;
-pub use unseen::{ConvertedText, Hidden, Unseen};
+pub(crate) use text::Label;
+pub(crate) use unseen::{ConvertedText, Hidden, Unseen};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Outline;
@@ -193,7 +193,7 @@ pub struct Line {
 
 /// A function that says, per group, whether its pictures are read pixel by pixel. Such pictures are not traced: their
 /// outlines and textures would take longer to make than everything else about them.
-pub type PixelGroups<'a> = &'a (dyn Fn(&Drawing) -> TiVec<GroupId, bool> + Sync);
+pub(crate) type PixelGroups<'a> = &'a (dyn Fn(&Drawing) -> TiVec<GroupId, bool> + Sync);
 
 /// Reads a drawing. `tolerance` is how far a flattened curve may deviate, as a share of its shape's larger extent;
 /// `pixel_groups` is called only if there are pictures.

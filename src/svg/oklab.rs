@@ -2,7 +2,7 @@
 
 /// Oklab: lightness and two colour axes (Ottosson, *A perceptual color space for image processing*, 2020) of an sRGB
 /// colour.
-pub fn oklab(color: [u8; 3]) -> [f64; 3] {
+pub(crate) fn oklab(color: [u8; 3]) -> [f64; 3] {
     let [r, g, b] = color.map(|channel| {
         let channel = f64::from(channel) / 255.0;
         if channel <= 0.040_45 {

@@ -53,7 +53,7 @@ pub const EDGE_RIGHT: u8 = 1;
 pub const EDGE_BELOW: u8 = 2;
 
 /// The largest number of cells in a map.
-pub const MAX_CELLS: usize = 1 << 26;
+pub(crate) const MAX_CELLS: usize = 1 << 26;
 
 /// A tile map. Rows count from the top, towards the viewer; columns from the left.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -21,6 +21,7 @@ mod surface;
 
 pub use ambiguities::AmbiguityKind;
 pub use landscape::{DEFAULT_ROOF, HouseInfo, Landscape};
-pub use map::{EDGE_BELOW, EDGE_RIGHT, MAX_CELLS, Map, Tile};
-pub use nodes::node;
-pub use reading::{Layer, TileMaterial, TileTexture, read};
+pub(crate) use map::MAX_CELLS;
+pub use map::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
+pub(crate) use nodes::node;
+pub(crate) use reading::{Layer, TileMaterial, TileTexture, read};

@@ -13,7 +13,7 @@ use crate::svg::Drawing;
 
 /// The node of a landscape. `parent` is the node of the part that the layer hangs on, with the part's frame; `material_of` gives
 /// the scene's material for a material of the layer, if that is drawn.
-pub fn node(
+pub(crate) fn node(
     layer: &Layer,
     drawing: &Drawing,
     bindings: &Bindings,

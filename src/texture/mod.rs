@@ -17,8 +17,8 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DMat2, DVec2};
 
-pub use gradient::{Focus, Gradient, Spread, Stop};
-pub use picture::{Decoded, Holes, PictureError, decode, picture, pixels};
+pub(crate) use gradient::{Focus, Gradient, Spread, Stop};
+pub(crate) use picture::{Decoded, Holes, PictureError, decode, picture, pixels};
 
 use crate::scene::{Filter, MediaType, Wrap};
 
@@ -264,7 +264,7 @@ impl Plan {
 /// abandoned.
 ///
 /// Linear gradients keep their size: they are small, and their map depends on it.
-pub fn fit(plans: &mut [Plan]) {
+pub(crate) fn fit(plans: &mut [Plan]) {
     let drawn = |plan: &&mut Plan| matches!(plan.source, Source::Radial(..) | Source::Pattern(_));
     let pixels = |plan: &mut Plan| f64::from(plan.size[0]) * f64::from(plan.size[1]);
     let total: f64 = plans.iter_mut().filter(drawn).map(pixels).sum();

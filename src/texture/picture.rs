@@ -22,7 +22,7 @@ const STRAY_SHARE: usize = 1000;
 
 /// A decoded picture.
 #[derive(Debug, Clone)]
-pub struct Decoded {
+pub(crate) struct Decoded {
     /// Its pixels, sRGB with straight alpha.
     pub pixels: RgbaImage,
     /// The format of the file, if glTF allows it as it is.
@@ -31,7 +31,7 @@ pub struct Decoded {
 
 /// Why a picture cannot be read. Messages follow `the picture`.
 #[derive(Debug, thiserror::Error)]
-pub enum PictureError {
+pub(crate) enum PictureError {
     /// It is too large.
     #[error("has more than {MAX_SIDE} pixels along one side, or needs more than 512 MiB")]
     TooLarge,
@@ -51,7 +51,7 @@ impl From<image::ImageError> for PictureError {
 
 /// What shows the holes of a picture with sharp borders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Holes {
+pub(crate) enum Holes {
     /// The outline of the part; its texture is opaque, so that walls have colour up to the edge.
     Outline,
     /// The alpha of the texture.
@@ -62,7 +62,7 @@ pub enum Holes {
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
+pub(crate) fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
     let (pixels, media_type) = pixels(bytes)?;
     Ok(Decoded {
         pixels: pixels.into_rgba8(),
@@ -74,7 +74,7 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
 ///
 /// # Errors
 /// See [`PictureError`].
-pub fn pixels(bytes: &[u8]) -> Result<(DynamicImage, Option<MediaType>), PictureError> {
+pub(crate) fn pixels(bytes: &[u8]) -> Result<(DynamicImage, Option<MediaType>), PictureError> {
     let mut reader = image::ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(image::ImageError::IoError)?;
@@ -107,7 +107,7 @@ fn is_plain_png(bytes: &[u8]) -> bool {
 }
 
 /// The image file for a picture in the model: the original if it is opaque. `None` if there is not enough memory.
-pub fn picture(decoded: Decoded, bytes: &Arc<[u8]>, holes: Holes) -> Option<Picture> {
+pub(crate) fn picture(decoded: Decoded, bytes: &Arc<[u8]>, holes: Holes) -> Option<Picture> {
     let Decoded {
         mut pixels,
         media_type,

@@ -1,10 +1,10 @@
 //! The names of hues.
 
-pub use crate::mark_tracks::Hsv;
+pub(crate) use crate::mark_tracks::Hsv;
 pub(super) use crate::mark_tracks::hue_difference;
 
 /// The names of hues, and where they are on the circle, in degrees.
-pub const HUES: [(&str, f64); 8] = [
+pub(crate) const HUES: [(&str, f64); 8] = [
     ("red", 0.0),
     ("orange", 30.0),
     ("yellow", 57.0),
@@ -16,7 +16,7 @@ pub const HUES: [(&str, f64); 8] = [
 ];
 
 /// The name of the nearest hue.
-pub fn hue_name(hue: f64) -> &'static str {
+pub(crate) fn hue_name(hue: f64) -> &'static str {
     let mut nearest = HUES[0];
     for named in HUES {
         if hue_difference(hue, named.1).abs() < hue_difference(hue, nearest.1).abs() {

@@ -15,8 +15,10 @@ mod mark;
 mod samples;
 mod track;
 
-pub use color::hue_name;
+pub(crate) use color::hue_name;
 pub use frame::Frame;
-pub use learn::{LearnError, Learned, Learner};
+pub use learn::Learner;
+pub(crate) use learn::{LearnError, Learned};
 pub use mark::Mark;
-pub use track::{Sighting, Tracker, tracks};
+pub(crate) use track::Sighting;
+pub use track::{Tracker, tracks};

@@ -16,7 +16,7 @@ use crate::resolver::{Dependency, Recorder};
 
 /// A drawing with the caches that make its next build incremental.
 #[derive(Debug)]
-pub struct Drawing {
+pub(crate) struct Drawing {
     source: Source,
     options: compile::Options,
     resolver: FolderResolver,
@@ -39,7 +39,7 @@ struct Inputs {
 
 /// The outcome of building a drawing.
 #[derive(Debug)]
-pub enum Outcome {
+pub(crate) enum Outcome {
     /// All files are equal to those of the last build.
     Unchanged,
     /// The drawing looks half written.
@@ -50,7 +50,7 @@ pub enum Outcome {
 
 impl Drawing {
     /// A drawing that has not been built yet.
-    pub fn new(path: &Path, options: &Options) -> Self {
+    pub(crate) fn new(path: &Path, options: &Options) -> Self {
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         Self {
             source: Source::new(path, options.unsaved.as_deref()),
@@ -68,7 +68,7 @@ impl Drawing {
     }
 
     /// Its file.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         self.source.saved()
     }
 
@@ -87,7 +87,11 @@ impl Drawing {
     ///
     /// # Errors
     /// If its file cannot be read.
-    pub fn build(&mut self, noticed: SystemTime, is_final: bool) -> Result<Outcome, ReadError> {
+    pub(crate) fn build(
+        &mut self,
+        noticed: SystemTime,
+        is_final: bool,
+    ) -> Result<Outcome, ReadError> {
         let started = SystemTime::now();
         let bytes = read_drawing(self.source.newest())?;
         let drawing = FxBuildHasher.hash_one(&bytes);

@@ -18,7 +18,7 @@ use watcher::Watcher;
 
 /// How drawings are read.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Options {
+pub(crate) struct Options {
     /// Where links start; `None` means the drawing's folder.
     pub base: Option<PathBuf>,
     /// A folder that linked files may be in, besides the drawing's.
@@ -52,7 +52,7 @@ impl Default for Options {
 
 /// The result of building a drawing.
 #[derive(Debug)]
-pub struct Build {
+pub(crate) struct Build {
     /// The drawing's text.
     pub text: String,
     /// The compiled drawing.
@@ -69,7 +69,7 @@ pub struct Build {
 
 /// Why there is no model.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum NoModel {
+pub(crate) enum NoModel {
     /// The drawing has errors.
     #[error("the drawing has errors")]
     Errors,
@@ -80,7 +80,7 @@ pub enum NoModel {
 
 /// The times of a build.
 #[derive(Debug, Clone, Copy)]
-pub struct BuildTimes {
+pub(crate) struct BuildTimes {
     /// When the change was noticed.
     pub noticed: SystemTime,
     /// When building started, after the files had settled.
@@ -91,7 +91,7 @@ pub struct BuildTimes {
 
 impl BuildTimes {
     /// How long building took.
-    pub fn duration(&self) -> Duration {
+    pub(crate) fn duration(&self) -> Duration {
         let duration = self.finished.duration_since(self.started);
         duration.unwrap_or_default()
     }
@@ -99,7 +99,7 @@ impl BuildTimes {
 
 /// An event while drawings are watched.
 #[derive(Debug)]
-pub enum Event<'a> {
+pub(crate) enum Event<'a> {
     /// A drawing was built.
     Built(&'a Path, &'a Build),
     /// A drawing's file is gone. It is built again when it is back.
@@ -121,7 +121,7 @@ const FOLDER_SEARCH_INTERVAL: Duration = Duration::from_secs(1);
 ///
 /// # Errors
 /// If the system cannot watch files.
-pub fn watch(
+pub(crate) fn watch(
     targets: &[PathBuf],
     options: &Options,
     mut report: impl FnMut(Event<'_>),

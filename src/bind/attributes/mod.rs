@@ -8,11 +8,11 @@ mod legends;
 mod marks;
 mod motions;
 
-pub use legends::Legend;
-pub use marks::{FollowedName, PartMark};
+pub(crate) use legends::Legend;
+pub(crate) use marks::{FollowedName, PartMark};
 #[cfg(test)]
 pub(in crate::bind) use motions::PerformanceEffects;
-pub use motions::{
+pub(crate) use motions::{
     Camerawork, ClipLimits, ClipRequest, MotionSource, PerformanceRequest, SignedAxis,
 };
 
@@ -525,7 +525,7 @@ impl<'a> Attributes<'a> {
 }
 
 /// How far a plate whose depths are not given reaches to the front and to the back, drawing units.
-pub fn plate_depth(drawing: &Drawing) -> f64 {
+pub(crate) fn plate_depth(drawing: &Drawing) -> f64 {
     drawing.page.1.length() * PLATE_DEPTH
 }
 

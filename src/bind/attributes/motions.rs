@@ -9,7 +9,7 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
 use crate::source::{Span, Text};
 
-pub use crate::lang::value::{Camerawork, MotionSource, PerformanceEffects, SignedAxis};
+pub(crate) use crate::lang::value::{Camerawork, MotionSource, PerformanceEffects, SignedAxis};
 
 /// A clip that a string asks for with `Motion`.
 #[derive(Debug, Clone)]

@@ -20,11 +20,12 @@ mod wrappers;
 
 pub(in crate::bind) use kinds::of_ink;
 pub(in crate::bind) use layers::group_of;
-pub use layers::{LayerKind, Layers, in_layers_of_pixels};
+pub use layers::in_layers_of_pixels;
+pub(crate) use layers::{LayerKind, Layers};
 pub(in crate::bind) use leaders::Leaders;
-pub use nearest::DistanceMode;
+pub(crate) use nearest::DistanceMode;
 pub(in crate::bind) use parts::MatchedPart;
-pub use settings::{BindRule, DrawingSettings, Strokes};
+pub(crate) use settings::{BindRule, DrawingSettings, Strokes};
 pub(in crate::bind) use stacking::Stacking;
 pub(in crate::bind) use strings::wants_part;
 

@@ -8,7 +8,7 @@ use crate::geometry;
 use crate::svg::{Drawing, Shape};
 
 /// Says of each diagnostic about a text or a shape where on the page that is, unless its message says so.
-pub fn locate(drawing: &Drawing, diagnostics: &mut [Diagnostic]) {
+pub(crate) fn locate(drawing: &Drawing, diagnostics: &mut [Diagnostic]) {
     if diagnostics.is_empty() {
         return;
     }

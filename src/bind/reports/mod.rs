@@ -11,7 +11,7 @@ mod unbound;
 mod uncertain;
 mod unseen;
 
-pub use located::locate;
+pub(crate) use located::locate;
 
 use super::attributes::PartAttributes;
 use super::hierarchy::Tree;

@@ -2,7 +2,7 @@
 
 /// All CSS colour names.
 #[rustfmt::skip]
-pub static COLORS: [&str; 148] = [
+pub(crate) static COLORS: [&str; 148] = [
     "aliceblue", "antiquewhite", "aqua", "aquamarine", "azure", "beige", "bisque", "black",
     "blanchedalmond", "blue", "blueviolet", "brown", "burlywood", "cadetblue", "chartreuse",
     "chocolate", "coral", "cornflowerblue", "cornsilk", "crimson", "cyan", "darkblue",
@@ -29,12 +29,12 @@ pub static COLORS: [&str; 148] = [
 ];
 
 /// Whether `word` is a CSS colour name.
-pub fn is_color(word: &str) -> bool {
+pub(crate) fn is_color(word: &str) -> bool {
     color(word).is_some()
 }
 
 /// The CSS colour called `name`: red, green, blue and alpha, each 0 to 255.
-pub fn color(name: &str) -> Option<[u8; 4]> {
+pub(crate) fn color(name: &str) -> Option<[u8; 4]> {
     use std::str::FromStr as _;
     // CSS colour names consist of letters. Functions such as `rgb()` and `currentColor` are not names.
     if !name.bytes().all(|byte| byte.is_ascii_alphabetic()) || name.len() > 24 {

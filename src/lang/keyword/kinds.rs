@@ -248,7 +248,7 @@ pub static KINDS: [Kind; 12] = [
 ];
 
 /// The kind that is written `name`, whatever its case.
-pub fn from_name(name: &str) -> Option<&'static Kind> {
+pub(crate) fn from_name(name: &str) -> Option<&'static Kind> {
     KINDS.iter().find(|row| row.name.eq_ignore_ascii_case(name))
 }
 

@@ -17,20 +17,20 @@ const fn word(name: &'static str, summary: &'static str) -> Word {
 }
 
 /// The words of `Origin`.
-pub static ORIGIN: [Word; 3] = [
+pub(crate) static ORIGIN: [Word; 3] = [
     word("center", "the part's centre"),
     word("start", "the end point nearer to the parent's centre"),
     word("end", "the end point farther from the parent's centre"),
 ];
 
 /// The words of `Ground`.
-pub static GROUND: [Word; 2] = [
+pub(crate) static GROUND: [Word; 2] = [
     word("bottom", "the middle of the figures' lower edge"),
     word("page", "the page's top left corner"),
 ];
 
 /// The words of `Bind`.
-pub static BIND: [Word; 3] = [
+pub(crate) static BIND: [Word; 3] = [
     word(
         "meant",
         "a string belongs to the part that it lies on, else to one near it",
@@ -46,7 +46,7 @@ pub static BIND: [Word; 3] = [
 ];
 
 /// The words of `Strokes`.
-pub static STROKES: [Word; 3] = [
+pub(crate) static STROKES: [Word; 3] = [
     word("none", "strokes are guides, not parts"),
     word(
         "lines",
@@ -59,7 +59,7 @@ pub static STROKES: [Word; 3] = [
 ];
 
 /// The words of `Tile`.
-pub static TILE: [Word; 6] = [
+pub(crate) static TILE: [Word; 6] = [
     word("green", "top of the ground"),
     word("brown", "front of a cliff"),
     word("blue", "water"),
@@ -69,7 +69,7 @@ pub static TILE: [Word; 6] = [
 ];
 
 /// The words of `Carry`.
-pub static CARRY: [Word; 2] = [
+pub(crate) static CARRY: [Word; 2] = [
     word("direction", "the limb points where the actor's does"),
     word(
         "change",
@@ -78,7 +78,7 @@ pub static CARRY: [Word; 2] = [
 ];
 
 /// The signed axes of `Axes`.
-pub static AXES: [Word; 6] = [
+pub(crate) static AXES: [Word; 6] = [
     word("+x", "along the world's x"),
     word("-x", "against the world's x"),
     word("+y", "along the world's y"),
@@ -88,7 +88,7 @@ pub static AXES: [Word; 6] = [
 ];
 
 /// The clips of `Motion` that come along.
-pub static CLIPS: [Word; 9] = [
+pub(crate) static CLIPS: [Word; 9] = [
     word(
         "walk",
         "a walk; on four legs each hind foot is followed by the fore foot of its side",
@@ -124,7 +124,7 @@ pub struct FunctionRow {
 }
 
 /// The functions of expressions.
-pub static FUNCTIONS: [FunctionRow; 6] = [
+pub(crate) static FUNCTIONS: [FunctionRow; 6] = [
     FunctionRow {
         function: Function::Min,
         name: "min",
@@ -192,7 +192,7 @@ impl Function {
 
 /// A kind of string, as the reference describes it.
 #[derive(Debug)]
-pub struct StringRow {
+pub(crate) struct StringRow {
     /// The sign that it starts with; empty for part strings.
     pub sign: &'static str,
     /// The name of the kind.
@@ -208,7 +208,7 @@ pub struct StringRow {
 }
 
 /// The kinds of string.
-pub static STRINGS: [StringRow; 6] = [
+pub(crate) static STRINGS: [StringRow; 6] = [
     StringRow {
         sign: "#",
         name: "comment",
@@ -271,7 +271,7 @@ pub static STRINGS: [StringRow; 6] = [
 ];
 
 /// All words of the language that are not keywords: kinds, words of attributes, functions.
-pub fn all() -> impl Iterator<Item = &'static str> {
+pub(crate) fn all() -> impl Iterator<Item = &'static str> {
     kinds::KINDS
         .iter()
         .map(|row| row.name)
@@ -293,7 +293,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
 }
 
 /// Whether `word` has a meaning in any attribute, colour names included.
-pub fn is_known(word: &str) -> bool {
+pub(crate) fn is_known(word: &str) -> bool {
     all().any(|known| known.eq_ignore_ascii_case(word)) || colors::is_color(word)
 }
 

@@ -23,27 +23,28 @@ mod tests;
 #[cfg(test)]
 mod write_tests;
 
-pub use error::Error;
+pub(crate) use error::Error;
 pub use read::{Reading, read, read_bytes};
-pub use write::{Decimals, write, write_frames};
+pub(crate) use write::write_frames;
+pub use write::{Decimals, write};
 
 /// The most joints of a skeleton; end sites are counted separately, with the same limit.
-pub const MAX_JOINTS: usize = 1 << 16;
+pub(crate) const MAX_JOINTS: usize = 1 << 16;
 
 /// The most channels of a skeleton, that is, numbers in a frame.
-pub const MAX_CHANNELS: usize = 1 << 20;
+pub(crate) const MAX_CHANNELS: usize = 1 << 20;
 
 /// The most numbers of a clip, all frames together.
-pub const MAX_NUMBERS: usize = 1 << 28;
+pub(crate) const MAX_NUMBERS: usize = 1 << 28;
 
 /// The longest line, bytes. A line that fits into one read (4 MiB) is accepted regardless.
-pub const MAX_LINE_BYTES: usize = 16 << 20;
+pub(crate) const MAX_LINE_BYTES: usize = 16 << 20;
 
 /// The longest name of a joint, bytes.
-pub const MAX_NAME_BYTES: usize = 1024;
+pub(crate) const MAX_NAME_BYTES: usize = 1024;
 
 /// The largest magnitude of a number in a file: sums of squares over a clip stay finite.
 pub const MAX_MAGNITUDE: f64 = 1e12;
 
 /// The most notes of a reading. One more says how many were left out.
-pub const MAX_NOTES: usize = 100;
+pub(crate) const MAX_NOTES: usize = 100;

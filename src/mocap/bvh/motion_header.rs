@@ -6,7 +6,7 @@ use super::tokens::{Token, Tokens};
 
 /// The frame time, in seconds, if a file states none that makes sense: the rate of most files that do not come from a capture
 /// system.
-pub const DEFAULT_FRAME_TIME: f64 = 1.0 / 30.0;
+pub(crate) const DEFAULT_FRAME_TIME: f64 = 1.0 / 30.0;
 
 /// The frame times that are accepted, seconds.
 const SENSIBLE: std::ops::RangeInclusive<f64> = 1e-5..=10.0;

@@ -53,7 +53,7 @@ pub fn write(
 ///
 /// # Errors
 /// Those of [`write()`].
-pub fn write_frames(
+pub(crate) fn write_frames(
     clip: &Clip,
     frames: &[u32],
     decimals: Decimals,

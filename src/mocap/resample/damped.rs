@@ -14,7 +14,7 @@ use crate::mocap::{Channel, Clip, JointId};
 /// every rotation has its angles scaled, each by itself.
 ///
 /// Source: Manya & Matsuda, equation 1, which scales angles in all cases.
-pub fn damped(clip: &Clip, ratios: &TiSlice<JointId, Option<f64>>) -> Clip {
+pub(crate) fn damped(clip: &Clip, ratios: &TiSlice<JointId, Option<f64>>) -> Clip {
     let width = clip.skeleton.channel_count();
     let mut values = clip.values().to_vec();
     let mut start = 0;

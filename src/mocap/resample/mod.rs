@@ -18,13 +18,13 @@ use rayon::prelude::*;
 use crate::mocap::Clip;
 use crate::mocap::bvh::MAX_NUMBERS;
 
-pub use damped::damped;
+pub(crate) use damped::damped;
 use euler::RotationTrack;
-pub use range::{Range, parse_range, range};
+pub(crate) use range::{Range, parse_range, range};
 pub use time_map::TimeMap;
 
 /// Frames per second of hand-drawn animation.
-pub const FPS: f64 = 24.0;
+pub(crate) const FPS: f64 = 24.0;
 
 /// A clip whose rate differs from the requested one by at most this fraction keeps its rate.
 const RATE_TOLERANCE: f64 = 0.005;
@@ -94,7 +94,7 @@ impl fmt::Display for Error {
 impl std::error::Error for Error {}
 
 /// The frame rate for a frame time.
-pub fn rate(frame_time: f64) -> f64 {
+pub(crate) fn rate(frame_time: f64) -> f64 {
     let rate = 1.0 / frame_time;
     let whole = rate.round();
     if whole > 0.0 && (rate / whole - 1.0).abs() <= ROUNDING_TOLERANCE {
@@ -173,7 +173,7 @@ pub(crate) fn mixed(clip: &Clip, mixes: &[Mix]) -> Clip {
 
 /// A clip played along a map of time, at the same rate. Poses are interpolated as by [`resample`]; where a frame of the result is one of
 /// the clip, its angles are the very same but for whole turns.
-pub fn along(clip: &Clip, map: &TimeMap) -> Clip {
+pub(crate) fn along(clip: &Clip, map: &TimeMap) -> Clip {
     mixed(clip, map.places())
 }
 

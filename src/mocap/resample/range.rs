@@ -17,7 +17,7 @@ pub struct Range {
 ///
 /// # Errors
 /// [`Error::NotARange`], [`Error::Backwards`], and [`Error::NoFrame`] for frame 0.
-pub fn parse_range(text: &str) -> Result<Range, Error> {
+pub(crate) fn parse_range(text: &str) -> Result<Range, Error> {
     let wrong = || Error::NotARange(text.chars().take(40).collect());
     let number = |text: &str| match text.trim() {
         "" => Ok(None),
@@ -49,7 +49,7 @@ pub fn parse_range(text: &str) -> Result<Range, Error> {
 ///
 /// # Errors
 /// [`Error::NoFrame`] for a frame after the clip's last, and for frame 0; [`Error::Backwards`].
-pub fn range(clip: &Clip, range: Range) -> Result<Clip, Error> {
+pub(crate) fn range(clip: &Clip, range: Range) -> Result<Clip, Error> {
     let frames = clip.frames();
     let last = range.last.unwrap_or(frames.max(range.first));
     for frame in [range.first, last] {

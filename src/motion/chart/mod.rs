@@ -34,7 +34,7 @@ const SHOWN: &str = "#d6e6fa";
 
 /// The contents of a chart. Frame numbers that the source does not have are ignored.
 #[derive(Debug, Clone, Copy)]
-pub struct Chart<'a> {
+pub(crate) struct Chart<'a> {
     /// Its title.
     pub title: &'a str,
     /// Frames per second; seconds are only shown if this is a positive number.
@@ -52,7 +52,7 @@ pub struct Chart<'a> {
 }
 
 /// Draws the chart as an SVG. Its size is bounded however long the motion is, and every peak stays visible.
-pub fn chart(chart: &Chart<'_>) -> String {
+pub(crate) fn chart(chart: &Chart<'_>) -> String {
     let frames = chart.speeds.len().max(chart.exposure.len()).max(1);
     let finite = chart.speeds.iter().filter(|speed| speed.is_finite());
     let top = finite

@@ -11,7 +11,7 @@ const MAX_ERROR: f64 = 0.25;
 
 /// The arms of one segment whose ends would be far from the actor's hands: the drawn arm is always stretched, the actor's elbow is
 /// bent. `anatomy` belongs to the clip's skeleton.
-pub fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> Vec<Problem> {
+pub(crate) fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> Vec<Problem> {
     let is_stretched = |part: &usize| {
         let part = &matching.parts[*part];
         let follow = part.drive.map(|drive| drive.follow);

@@ -15,12 +15,12 @@ use crate::labels::{
     Anatomy, Carry, Class, Facing, Label, LabeledFigure, Limb, LimbSegment, Side, Tip, label_drawn,
 };
 use crate::mocap::{JointId, Skeleton, Transform};
-pub use elbows::bent_arms;
+pub(crate) use elbows::bent_arms;
 use names::Names;
 
 /// A figure matched with a skeleton.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Matching {
+pub(crate) struct Matching {
     /// The parts, in the figure's order.
     pub parts: Vec<MatchedPart>,
     /// The direction that the figure faces.
@@ -31,7 +31,7 @@ pub struct Matching {
 
 /// A part of a figure, matched with a joint.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct MatchedPart {
+pub(crate) struct MatchedPart {
     /// What the part is; `None` if neither its name nor its place tells.
     pub label: Option<Label>,
     /// Whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where there are
@@ -94,7 +94,7 @@ impl Drive {
 
 /// A problem that was found while matching.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Problem {
+pub(crate) enum Problem {
     /// A part's string names a joint that the skeleton does not have. The part is matched as if it named none.
     UnknownBone {
         /// The part.
@@ -157,7 +157,7 @@ pub enum Problem {
 /// turns with the chest, to which head and arms are attached, and leans with the line from the hips to the shoulders; several
 /// segments are spread over the spine, the topmost on the chest. Hips follow the hips. Splayed limbs keep their drawn pose and
 /// follow only the change, unless `Carry` says otherwise. `anatomy` belongs to the skeleton.
-pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
+pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
     let LabeledFigure {
         labels,
         splayed,
@@ -232,7 +232,7 @@ fn carried(drive: Drive, carry: Option<Carry>, splayed: bool) -> (Drive, &'stati
 
 /// The joints that `Bone` can mean by a name: an exact match, else one that ignores case, else one that also ignores the
 /// prefixes that most joints share.
-pub fn joints_named(skeleton: &Skeleton, name: &str) -> Vec<JointId> {
+pub(crate) fn joints_named(skeleton: &Skeleton, name: &str) -> Vec<JointId> {
     Names::new(skeleton).joints(name).to_vec()
 }
 

@@ -24,7 +24,7 @@ use field::Field;
 use ground::{BodyInFrame, Ground, Own, Target};
 use rim::Rim;
 
-pub use recent::{RecentHeights, SolidHeights};
+pub(crate) use recent::{RecentHeights, SolidHeights};
 
 mod cover;
 mod field;
@@ -45,7 +45,7 @@ const MAX_TOLERANCE: f64 = 2.0;
 
 /// The solids of a drawing that lie over one another or that others lie on, back-most first.
 #[derive(Debug)]
-pub struct Pile {
+pub(crate) struct Pile {
     bodies: Vec<Body>,
     /// Per body a hash of its solid by itself.
     solids: Vec<u128>,
@@ -60,7 +60,7 @@ pub struct Pile {
 
 /// A solid in a pile.
 #[derive(Debug, Clone)]
-pub struct Body {
+pub(crate) struct Body {
     /// The solid as it is by itself, in the frame of its node, its own plane at depth 0.
     pub solid: Solid,
     /// From the frame of its node to the plane of the drawing, model units.
@@ -81,7 +81,7 @@ pub struct Body {
 
 /// How a solid is lifted by those below it.
 #[derive(Debug, Clone)]
-pub struct Lay {
+pub(crate) struct Lay {
     /// The earlier bodies that it overlaps, back-most first.
     pub below: Vec<usize>,
     /// The bodies of `below` that it closes behind.
@@ -106,7 +106,7 @@ pub struct Lay {
 
 /// What becomes of a solid that is lifted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LayForm {
+pub(crate) enum LayForm {
     /// It keeps its volume, and covers what is below.
     Volume,
     /// A skin on what is below, which ends a step under it.
@@ -184,7 +184,7 @@ impl Lay {
 
 impl Pile {
     /// A pile of bodies, back-most first. `recent` are the heights that were looked up last, in this pile or in others.
-    pub fn new(bodies: Vec<Body>, recent: Arc<RecentHeights>) -> Self {
+    pub(crate) fn new(bodies: Vec<Body>, recent: Arc<RecentHeights>) -> Self {
         let mut carries = vec![false; bodies.len()];
         let lays = bodies.iter().filter_map(|body| body.lay.as_ref());
         lays.flat_map(Lay::on).for_each(|on| carries[on] = true);
@@ -209,7 +209,7 @@ impl Pile {
     }
 
     /// The bodies.
-    pub fn bodies(&self) -> &[Body] {
+    pub(crate) fn bodies(&self) -> &[Body] {
         &self.bodies
     }
 
@@ -395,7 +395,7 @@ impl Pile {
     }
 
     /// Whether the surface of a body is made from more than its solid, or from what those on top need too.
-    pub fn makes(&self, body: usize) -> bool {
+    pub(crate) fn makes(&self, body: usize) -> bool {
         let is_field = || self.bodies[body].solid.profile.height_field().is_some();
         self.bodies[body].lay.is_some() || (self.carries[body] && is_field())
     }
@@ -421,7 +421,7 @@ impl Pile {
 
 /// A body of a pile as a source of a surface.
 #[derive(Debug, Clone)]
-pub struct LaidSolid {
+pub(crate) struct LaidSolid {
     /// The pile.
     pub pile: Arc<Pile>,
     /// The index of the body.

@@ -21,7 +21,7 @@ const MAX_OF_HEIGHTS: usize = 1 << 20;
 /// The solids that others were laid on last, so that one with much on it is made once, and thousands of them do not fill the
 /// memory. They are known by hashes of all that they are made from.
 #[derive(Debug)]
-pub struct RecentHeights {
+pub(crate) struct RecentHeights {
     /// What solids are lifted to; `None` for one that nothing lifts.
     fields: Cache<Option<Arc<Field>>>,
     /// The height fields of solids by themselves; `None` for one that is none.
@@ -177,7 +177,7 @@ impl<T> Kept<T> {
 
 /// How far a solid by itself reaches from its plane, over points of the drawing. It is made when that is first asked for.
 #[derive(Debug)]
-pub struct SolidHeights {
+pub(crate) struct SolidHeights {
     solid: Solid,
     recent: Arc<RecentHeights>,
     /// From the drawing, y down, to the solid's final positions.
@@ -195,7 +195,7 @@ struct Made {
 
 impl SolidHeights {
     /// The heights of a solid, its plane at depth 0.
-    pub fn new(solid: Solid, recent: Arc<RecentHeights>) -> Self {
+    pub(crate) fn new(solid: Solid, recent: Arc<RecentHeights>) -> Self {
         Self {
             to_final: solid.to_final(),
             solid,
@@ -220,14 +220,14 @@ impl SolidHeights {
     }
 
     /// How far it reaches to the front over a point, drawing units; 0 beside it.
-    pub fn front(&self, point: DVec2) -> f64 {
+    pub(crate) fn front(&self, point: DVec2) -> f64 {
         let front = &self.made().both.front;
         let height = front.at(self.to_final.transform_point2(point));
         height.unwrap_or(0.0) / self.scale()
     }
 
     /// How far it reaches from its plane at most, drawing units.
-    pub fn highest(&self) -> f64 {
+    pub(crate) fn highest(&self) -> f64 {
         self.made().highest / self.scale()
     }
 }

@@ -24,7 +24,7 @@ const MAX_AMBIGUITIES: usize = 12;
 const MAX_SHOWN: usize = 3;
 
 /// Names the first cells for people, as in `column 3, row 1 and 4 more`. Columns and rows count from 1 at the top left.
-pub fn cells_named(columns: usize, first: &[usize], count: usize) -> String {
+pub(crate) fn cells_named(columns: usize, first: &[usize], count: usize) -> String {
     let cell = |cell: &usize| {
         let (column, row) = (cell % columns.max(1), cell / columns.max(1));
         format!("column {}, row {}", column + 1, row + 1)

@@ -18,7 +18,7 @@ use std::ops::Range;
 
 use glam::DVec2;
 
-pub use materials::{TileMaterial, TileTexture};
+pub(crate) use materials::{TileMaterial, TileTexture};
 
 use super::landscape::{DEFAULT_ROOF, Landscape};
 use super::map::{MAX_CELLS, Map};
@@ -99,7 +99,7 @@ impl Layer {
 }
 
 /// Reads the tile layers of a drawing. Those without tiles are reported and left out.
-pub fn read(
+pub(crate) fn read(
     drawing: &Drawing,
     bindings: &Bindings,
     diagnostics: &mut Vec<Diagnostic>,
