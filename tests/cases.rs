@@ -159,7 +159,7 @@ const ELSEWHERE: &[(Code, &str)] = &[
     ),
     (
         Code::LooksDifferent,
-        "compiling does not draw the model; tests/as_drawn.rs",
+        "compiling does not draw the model; tests/as_drawn/comparison.rs",
     ),
 ];
 

@@ -6,7 +6,7 @@ use crate::labels::Class;
 
 /// The nodes of a figure or skeleton, and the limbs that they belong to. `Node` counts them: places of parts, or joints.
 pub(crate) struct Limbs<'a, Node> {
-    /// Per node its parent. Chains that never end are climbed only once around.
+    /// Per node its parent. In a cycle of parents, every node is visited at most once.
     pub parents: &'a TiSlice<Node, Option<Node>>,
     /// Per node what it is a part of; `None` for what has no class of its own, such as fingers.
     pub classes: &'a TiSlice<Node, Option<Class>>,

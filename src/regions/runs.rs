@@ -23,7 +23,7 @@ impl Span {
         }
     }
 
-    /// Adds the pixel after the last one, if it is the given one. Whether it is.
+    /// Adds the given pixel if it follows the last one. Returns whether it does.
     pub(crate) fn extend(&mut self, x: u32, y: u32) -> bool {
         let is_next = self.y == y && self.to == x;
         self.to += u32::from(is_next);

@@ -14,7 +14,7 @@ const MIN_AREA: f64 = 4.0;
 const MIN_THIN_AREA: usize = 12;
 /// A component without a square of so many pixels' side has an inscribed radius below 1.5 pixels.
 pub(super) const FRINGE_SIDE: u32 = 3;
-/// A fringe's colour is at most so far from a mixture of its neighbours' (0.05), squared, in steps of 1/255.
+/// The largest distance of a fringe's colour from a mixture of its neighbours' colours: 0.05, here squared and in steps of 1/255.
 pub(super) const FRINGE_DISTANCE: f32 = 163.0;
 /// The share of a fringe's pixels that lie between the same two neighbours.
 const FRINGE_PIXELS: f64 = 0.7;

@@ -63,7 +63,7 @@ export class Tree {
   /** The letters typed just now. */
   private typed = "";
   private typedAt = 0;
-  /** Whether letters are searched for: whoever came with the pointer types shortcuts. */
+  /** Whether typed letters search the rows. They do not after a click into the list: then they are shortcuts. */
   private byKeys = true;
 
   /** `picked` is called with parts that are clicked. */
