@@ -13,6 +13,9 @@ mod drawing;
 #[path = "../tests/common/editor.rs"]
 #[allow(dead_code, reason = "a benchmark asks less than the tests do")]
 mod editor;
+#[path = "../tests/common/patience.rs"]
+#[allow(dead_code, reason = "a benchmark asks less than the tests do")]
+mod patience;
 mod sizes;
 
 use std::time::{Duration, Instant};

@@ -145,6 +145,14 @@ mod tracking;
 #[cfg(feature = "watch")]
 mod watch;
 
+// Shared with the tests outside.
+#[cfg(test)]
+#[path = "../tests/common/law.rs"]
+mod law;
+#[cfg(test)]
+#[path = "../tests/common/patience.rs"]
+mod patience;
+
 pub use compile::{Compiled, Compiler, Options, compile};
 pub use diagnostic::Diagnostic;
 #[cfg(feature = "disk")]

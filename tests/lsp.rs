@@ -4,9 +4,9 @@
 mod common;
 
 use std::fs;
-use std::time::{Duration, Instant};
 
 use common::editor::{Editor, address, edited, position, range, slice};
+use common::patience::wait_until;
 use serde_json::{Value, json};
 
 const URI: &str = "untitled:a.svg";
@@ -355,10 +355,7 @@ fn sixty_changes_at_once_give_the_last_state() {
         slice(&text, &parent.expect("the parent is unknown")["range"]),
         word
     );
-    let later = editor.during(
-        Duration::from_millis(500),
-        "textDocument/publishDiagnostics",
-    );
+    let later = editor.remaining_diagnostics();
     assert!(later.is_empty(), "{later:?}");
 }
 
@@ -373,8 +370,7 @@ fn versions_of_diagnostics_never_decrease() {
             &[json!({"text": DRAWING.replace("Rarm", &format!("Rarm{version}"))})],
         );
         if version % 20 == 0 {
-            editor.request("textDocument/documentSymbol", document());
-            std::thread::sleep(Duration::from_millis(5));
+            editor.ask("textDocument/documentSymbol", document());
         }
     }
     let mut last = 0;
@@ -561,10 +557,7 @@ fn diagnostics_can_be_requested() {
     let report = editor.ask("textDocument/diagnostic", again);
     assert!(codes(report["items"].as_array().expect("items")).contains(&"E204"));
     // A client that requests diagnostics is not sent them.
-    let sent = editor.during(
-        Duration::from_millis(300),
-        "textDocument/publishDiagnostics",
-    );
+    let sent = editor.remaining_diagnostics();
     assert!(
         sent.iter()
             .all(|note| note["params"]["diagnostics"] == json!([])),
@@ -581,13 +574,9 @@ fn texts_are_analyzed_on_type_or_on_save() {
     editor.opened(URI, DRAWING);
     let wrong = DRAWING.replace("@Ubody", "@Nobody");
     editor.change(URI, 2, &[json!({"text": wrong})]);
-    assert_eq!(
-        editor.during(
-            Duration::from_millis(300),
-            "textDocument/publishDiagnostics"
-        ),
-        Vec::<Value>::new()
-    );
+    // It is analysed for a request, though not for its diagnostics.
+    editor.ask("textDocument/definition", place(DRAWING, "Rarm@"));
+    assert_eq!(editor.remaining_diagnostics(), [Value::Null; 0]);
     editor.notify("textDocument/didSave", document());
     assert!(codes(&editor.diagnostics(URI, 2)).contains(&"E204"));
     // Requests are answered for the present text, saved or not.
@@ -608,9 +597,15 @@ fn requests_can_be_canceled() {
     // Large enough that its analysis is still running when the request is cancelled.
     let text = many(4_000);
     editor.open(URI, 1, &text);
-    let id = editor.request("textDocument/hover", place(&text, "Rarm@"));
-    editor.notify("$/cancelRequest", json!({"id": id}));
-    assert_eq!(editor.answer(id)["error"]["code"], -32800);
+    // In one piece, so that the server reads both at once.
+    let [hover, cancel] = [
+        json!({"jsonrpc": "2.0", "id": 99, "method": "textDocument/hover", "params": place(&text, "Rarm@")}),
+        json!({"jsonrpc": "2.0", "method": "$/cancelRequest", "params": {"id": 99}}),
+    ]
+    .map(|message| message.to_string())
+    .map(|body| format!("Content-Length: {}\r\n\r\n{body}", body.len()));
+    editor.send_raw(&(hover + &cancel));
+    assert_eq!(editor.answer(99)["error"]["code"], -32800);
     editor.diagnostics(URI, 1);
     assert!(editor.shut_down().success());
 }
@@ -653,7 +648,7 @@ fn the_server_ends_with_its_client() {
     assert_eq!(editor.disconnect().code(), Some(0));
 }
 
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 #[test]
 fn the_server_ends_with_its_clients_process() {
     let mut client = std::process::Command::new("sleep")
@@ -663,12 +658,10 @@ fn the_server_ends_with_its_clients_process() {
     let editor = Editor::initialized(json!({"processId": client.id(), "capabilities": {}}));
     client.kill().expect("killed");
     client.wait().expect("gone");
-    let until = Instant::now() + Duration::from_secs(20);
     let here = format!("/proc/{}/stat", editor.id());
-    while fs::read_to_string(&here).is_ok_and(|stat| !stat.contains(") Z ")) {
-        assert!(Instant::now() < until, "the server goes on");
-        std::thread::sleep(Duration::from_millis(50));
-    }
+    wait_until("the server to end", || {
+        !fs::read_to_string(&here).is_ok_and(|stat| !stat.contains(") Z "))
+    });
 }
 
 #[test]
@@ -774,10 +767,9 @@ fn closed_texts_give_their_memory_back() {
     editor.opened(URI, &many(10_000));
     let open = resident();
     editor.notify("textDocument/didClose", document());
-    let until = Instant::now() + Duration::from_secs(20);
     // Without optimisation, and with other threads at work, less is given back.
-    while resident().saturating_sub(idle) > (open - idle) * 2 / 3 {
-        assert!(Instant::now() < until, "{idle}, {open}, {} MiB", resident());
-        std::thread::sleep(Duration::from_millis(100));
-    }
+    wait_until(
+        &format!("a third of {open} - {idle} MiB to be given back"),
+        || resident().saturating_sub(idle) <= (open - idle) * 2 / 3,
+    );
 }

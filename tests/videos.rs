@@ -11,8 +11,8 @@ mod common;
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
+use common::patience::wait_until;
 use common::program::{Room, Run};
 
 const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">
@@ -161,13 +161,7 @@ fn an_interrupted_video_leaves_nothing() {
         .stderr(Stdio::null())
         .spawn()
         .expect("it starts");
-    let waits = |name: &str| {
-        let began = Instant::now();
-        while !room.path(name).exists() {
-            assert!(began.elapsed() < Duration::from_secs(60), "{name}");
-            std::thread::sleep(Duration::from_millis(5));
-        }
-    };
+    let waits = |name: &str| wait_until(name, || room.path(name).exists());
     waits("bin/started");
     child.kill().expect("it runs");
     child.wait().expect("it ends");

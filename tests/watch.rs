@@ -12,6 +12,9 @@ use std::time::Duration;
 
 use common::live::Live;
 
+/// Before which moment of a build the program is killed, in microseconds after the save.
+const LONGEST_BUILD: u64 = 60_000;
+
 /// A drawing whose model depends on a number.
 fn drawing(width: u32) -> String {
     format!(
@@ -30,6 +33,25 @@ fn watched(arguments: &[&str]) -> (tempfile::TempDir, Live) {
     live.line("a.glb in");
     live.line("watching 1 drawing");
     (folder, live)
+}
+
+/// A folder with a drawing that is watched and another, whose builds tell that all earlier saves are done with.
+fn watched_beside_another() -> (tempfile::TempDir, Live) {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["a.svg", "b.svg"] {
+        fs::write(folder.path().join(name), drawing(50)).expect("written");
+    }
+    let live = Live::start(folder.path(), &["watch", "a.svg", "b.svg"]);
+    live.lines(["a.glb in", "b.glb in", "watching 2 drawings"]);
+    (folder, live)
+}
+
+/// What is said of the drawing until the other one is built after a save of it.
+fn said_before_the_other(folder: &Path, live: &Live, save: u32) -> Vec<String> {
+    fs::write(folder.join("b.svg"), drawing(save)).expect("written");
+    let mut said = live.lines_to("b.glb in");
+    said.retain(|line| line.contains("a.svg"));
+    said
 }
 
 /// The width of the model, which is its largest extent, centimetres.
@@ -52,7 +74,7 @@ fn width(folder: &Path) -> u32 {
     ((0..3).map(extent).fold(0.0, f32::max) * 100.0).round() as u32
 }
 
-/// Writes like Inkscape: truncates, then writes piece by piece.
+/// Writes like Inkscape: truncates, then writes piece by piece, with a pause in which the file is incomplete.
 fn in_pieces(path: &Path, text: &str) {
     let mut file = File::create(path).expect("created");
     for piece in text.as_bytes().chunks(4096) {
@@ -63,7 +85,7 @@ fn in_pieces(path: &Path, text: &str) {
 
 #[test]
 fn every_save_is_built_once_however_it_is_made() {
-    let (folder, live) = watched(&["a.svg"]);
+    let (folder, live) = watched_beside_another();
     let path = folder.path().join("a.svg");
     let mut widths = vec![];
     for save in 0..40 {
@@ -83,46 +105,38 @@ fn every_save_is_built_once_however_it_is_made() {
             }
             _ => {
                 fs::remove_file(&path).expect("removed");
-                sleep(Duration::from_millis(20));
                 fs::write(&path, drawing(now)).expect("written");
             }
         }
-        let line = live.line("a.svg: ");
-        assert!(line.contains("a.glb in"), "{line}");
+        live.line("a.glb in");
         widths.push(width(folder.path()));
     }
     assert_eq!(widths, (60..100).collect::<Vec<_>>());
-    assert_eq!(
-        live.during(Duration::from_millis(300)),
-        Vec::<String>::new()
-    );
+    let more = said_before_the_other(folder.path(), &live, 51);
+    assert_eq!(more, [""; 0]);
 }
 
 #[test]
 fn a_save_that_changes_nothing_builds_nothing() {
-    let (folder, live) = watched(&["a.svg"]);
-    for _ in 0..5 {
+    let (folder, live) = watched_beside_another();
+    for save in 51..56 {
         in_pieces(&folder.path().join("a.svg"), &drawing(50));
+        let said = said_before_the_other(folder.path(), &live, save);
+        assert!(
+            said.iter().all(|line| !line.contains("a.glb")),
+            "it is built: {said:?}"
+        );
     }
-    assert_eq!(
-        live.during(Duration::from_millis(600)),
-        Vec::<String>::new()
-    );
 }
 
+/// For how long it is no error, the tests in `src/watch` tell.
 #[test]
-fn a_cut_drawing_is_an_error_only_after_a_while_and_the_model_stays() {
+fn a_cut_drawing_is_an_error_and_the_model_stays() {
     let (folder, live) = watched(&["a.svg"]);
     let path = folder.path().join("a.svg");
     let text = drawing(70);
-    fs::write(&path, &text[..text.len() / 2]).expect("written");
-    assert_eq!(
-        live.during(Duration::from_millis(500)),
-        Vec::<String>::new()
-    );
     fs::write(&path, &text).expect("written");
-    let line = live.line("a.svg: ");
-    assert!(line.contains("a.glb in"), "{line}");
+    live.line("a.glb in");
     fs::write(&path, &text[..text.len() / 2]).expect("written");
     live.line("error[E001]");
     live.line("a.svg: 1 error, a.glb is unchanged");
@@ -166,7 +180,6 @@ fn new_files_in_a_watched_folder_are_watched() {
     fs::write(folder.path().join("in/one.svg"), drawing(50)).expect("written");
     live.line("one.glb in");
     fs::create_dir_all(folder.path().join("in/deep/er")).expect("a folder");
-    sleep(Duration::from_millis(200));
     fs::write(folder.path().join("in/deep/er/two.svg"), drawing(50)).expect("written");
     live.line("two.glb in");
     let built = folder.path().join("out");
@@ -265,29 +278,25 @@ fn a_kill_at_any_moment_leaves_a_sound_model() {
         drawing(50).replace("<text", &format!("{circles}<text"))
     };
     let mut random = fastrand::Rng::with_seed(12345);
-    let (mut builds, mut kills, mut saves) = (0, 0, 0);
-    while builds < 200 {
-        fs::write(&path, many(saves)).expect("written");
-        let live = Live::start(folder.path(), &["watch", "a.svg", "-q"]);
-        let life = random.u64(30..430);
-        let mut last = fs::read(folder.path().join("a.glb")).unwrap_or_default();
-        let end = std::time::Instant::now() + Duration::from_millis(life);
-        while std::time::Instant::now() < end {
+    let (mut builds, mut saves) = (0, 0);
+    for _ in 0..40 {
+        let mut save = || {
             saves += 1;
             fs::write(&path, many(saves)).expect("written");
-            sleep(Duration::from_millis(6));
-            let now = fs::read(folder.path().join("a.glb")).unwrap_or_default();
-            if now != last {
-                builds += 1;
-                last = now;
-            }
+        };
+        save();
+        let live = Live::start(folder.path(), &["watch", "a.svg"]);
+        for _ in 0..random.usize(1..=9) {
+            live.line("a.glb in");
+            builds += 1;
+            save();
         }
+        // Any moment of the next build.
+        sleep(Duration::from_micros(random.u64(..LONGEST_BUILD)));
         live.kill();
-        kills += 1;
-        if let Ok(glb) = fs::read(folder.path().join("a.glb")) {
-            let nodes = common::nodes(&glb).expect("a sound model after a kill");
-            assert_eq!(nodes.len(), 202);
-        }
+        let glb = fs::read(folder.path().join("a.glb")).expect("a model");
+        let nodes = common::nodes(&glb).expect("a sound model after a kill");
+        assert_eq!(nodes.len(), 202);
     }
-    assert!(kills > 5, "only {kills} kills");
+    assert!(builds >= 150, "only {builds} builds");
 }

@@ -142,31 +142,60 @@ impl State {
     }
 }
 
+/// Changes that have not settled.
+struct Unsettled {
+    noticed: SystemTime,
+    /// When they are reported in any case.
+    late: Instant,
+    states: BTreeMap<PathBuf, State>,
+}
+
+impl Unsettled {
+    fn new(now: Instant) -> Self {
+        Self {
+            noticed: SystemTime::now(),
+            late: now + MAX_DELAY,
+            states: BTreeMap::new(),
+        }
+    }
+
+    fn add(&mut self, paths: Vec<PathBuf>, state: State) {
+        self.states
+            .extend(paths.into_iter().map(|path| (path, state)));
+    }
+
+    /// For how long nothing must change until they have settled.
+    fn quiet(&self, now: Instant) -> Duration {
+        let closed = self.states.values().all(|state| *state == State::Closed);
+        let quiet = if closed { CLOSED } else { SETTLED };
+        quiet.min(self.late.saturating_duration_since(now))
+    }
+
+    fn settled(self) -> Changed {
+        Changed {
+            paths: self.states.into_keys().collect(),
+            noticed: self.noticed,
+        }
+    }
+}
+
 /// Collects paths until nothing has changed for a while, then reports them.
 fn debounce(receiver: &Receiver<(Vec<PathBuf>, State)>, mut changed: impl FnMut(Changed)) {
     while let Ok((paths, state)) = receiver.recv() {
-        let noticed = SystemTime::now();
-        let late = Instant::now() + MAX_DELAY;
-        let mut states: BTreeMap<PathBuf, State> = BTreeMap::new();
-        let add = |states: &mut BTreeMap<_, _>, paths: Vec<PathBuf>, state| {
-            states.extend(paths.into_iter().map(|path| (path, state)));
-        };
-        add(&mut states, paths, state);
+        let mut unsettled = Unsettled::new(Instant::now());
+        unsettled.add(paths, state);
         loop {
-            let closed = states.values().all(|state| *state == State::Closed);
-            let quiet = if closed { CLOSED } else { SETTLED };
-            let quiet = quiet.min(late.saturating_duration_since(Instant::now()));
+            let quiet = unsettled.quiet(Instant::now());
             match receiver.recv_timeout(quiet) {
-                Ok((paths, state)) => add(&mut states, paths, state),
+                Ok((paths, state)) => unsettled.add(paths, state),
                 Err(RecvTimeoutError::Timeout) => break,
                 Err(RecvTimeoutError::Disconnected) => return,
             }
-            if Instant::now() >= late {
+            if Instant::now() >= unsettled.late {
                 break;
             }
         }
-        let paths = states.into_keys().collect();
-        changed(Changed { paths, noticed });
+        changed(unsettled.settled());
     }
 }
 
@@ -193,84 +222,134 @@ pub(crate) fn event_paths(file: &Path) -> BTreeSet<PathBuf> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::fs;
     use std::io::Write;
-    use std::sync::mpsc;
 
-    /// The changes that are reported while `act` works in a folder.
-    fn changes(detection: ChangeDetection, act: impl FnOnce(&Path)) -> Vec<BTreeSet<String>> {
-        let folder = tempfile::tempdir().unwrap();
-        let real = fs::canonicalize(folder.path()).unwrap();
-        fs::write(real.join("a.svg"), "old").unwrap();
-        let (sender, receiver) = mpsc::channel();
-        let watch = FolderWatch::new(detection, move |changed| {
-            let _ = sender.send(changed.paths);
-        })
-        .unwrap();
-        assert!(watch.set(&BTreeSet::from([real.clone()])).is_empty());
-        act(&real);
-        let mut all = vec![];
-        while let Ok(paths) = receiver.recv_timeout(Duration::from_millis(700)) {
-            let names = paths.iter().filter_map(|path| path.file_name());
-            all.push(
-                names
-                    .map(|name| name.to_string_lossy().into_owned())
-                    .filter(|name| name.ends_with(".svg"))
-                    .collect(),
-            );
-        }
-        all.retain(|paths: &BTreeSet<String>| !paths.is_empty());
-        all
+    use super::*;
+    use crate::patience::{PATIENCE, wait_until};
+
+    /// A watched folder with a drawing, and what is reported of it.
+    struct Watched {
+        folder: tempfile::TempDir,
+        reports: Receiver<BTreeSet<PathBuf>>,
+        _watch: FolderWatch,
     }
 
-    fn a() -> BTreeSet<String> {
-        BTreeSet::from(["a.svg".to_owned()])
+    impl Watched {
+        fn new(detection: ChangeDetection) -> Self {
+            let folder = tempfile::tempdir().unwrap();
+            let real = fs::canonicalize(folder.path()).unwrap();
+            fs::write(real.join("a.svg"), "old").unwrap();
+            let (sender, reports) = channel();
+            let watch = FolderWatch::new(detection, move |changed| {
+                let _ = sender.send(changed.paths);
+            })
+            .unwrap();
+            assert!(watch.set(&BTreeSet::from([real])).is_empty());
+            Self {
+                folder,
+                reports,
+                _watch: watch,
+            }
+        }
+
+        fn path(&self, name: &str) -> PathBuf {
+            self.folder.path().join(name)
+        }
+
+        /// Waits until a file is reported. Gives the names of all drawings that were reported until then.
+        fn until(&self, name: &str) -> BTreeSet<String> {
+            let mut names = BTreeSet::new();
+            while !names.contains(name) {
+                let paths = self.reports.recv_timeout(PATIENCE).expect(name);
+                let reported = paths.iter().filter_map(|path| path.file_name());
+                let reported = reported.map(|name| name.to_string_lossy().into_owned());
+                names.extend(reported.filter(|name| name.ends_with(".svg")));
+            }
+            names
+        }
+    }
+
+    fn only(name: &str) -> BTreeSet<String> {
+        BTreeSet::from([name.to_owned()])
     }
 
     #[test]
-    fn a_save_in_pieces_is_reported_once() {
-        let save = |folder: &Path| {
-            let mut file = fs::File::create(folder.join("a.svg")).unwrap();
+    fn saved_replaced_deleted_and_recreated_files_are_reported() {
+        for detection in [
+            ChangeDetection::Native,
+            ChangeDetection::Polling(Duration::from_millis(50)),
+        ] {
+            let watched = Watched::new(detection);
+            let path = watched.path("a.svg");
+            let mut file = fs::File::create(&path).unwrap();
             for _ in 0..5 {
                 file.write_all(&[b' '; 4096]).unwrap();
-                std::thread::sleep(Duration::from_millis(10));
             }
-        };
-        assert_eq!(changes(ChangeDetection::Native, save), [a()]);
-        let polled = changes(ChangeDetection::Polling(Duration::from_millis(50)), save);
-        assert!(!polled.is_empty() && polled.iter().all(|paths| *paths == a()));
+            drop(file);
+            assert_eq!(watched.until("a.svg"), only("a.svg"));
+            fs::write(watched.path("b"), "new").unwrap();
+            fs::rename(watched.path("b"), &path).unwrap();
+            assert_eq!(watched.until("a.svg"), only("a.svg"));
+            fs::remove_file(&path).unwrap();
+            assert_eq!(watched.until("a.svg"), only("a.svg"));
+            fs::write(&path, "newer").unwrap();
+            assert_eq!(watched.until("a.svg"), only("a.svg"));
+        }
     }
 
     #[test]
-    fn replaced_deleted_and_recreated_files_are_reported() {
-        let replace = |folder: &Path| {
-            fs::write(folder.join("b"), "new").unwrap();
-            fs::rename(folder.join("b"), folder.join("a.svg")).unwrap();
-        };
-        assert_eq!(changes(ChangeDetection::Native, replace), [a()]);
-        let again = |folder: &Path| {
-            fs::remove_file(folder.join("a.svg")).unwrap();
-            std::thread::sleep(Duration::from_millis(200));
-            fs::write(folder.join("a.svg"), "new").unwrap();
-        };
-        assert_eq!(changes(ChangeDetection::Native, again), [a(), a()]);
+    fn changes_settle_sooner_when_files_are_closed() {
+        let now = Instant::now();
+        let mut unsettled = Unsettled::new(now);
+        let path = |name: &str| vec![PathBuf::from(name)];
+        unsettled.add(path("a"), State::Open);
+        assert_eq!(unsettled.quiet(now), SETTLED);
+        unsettled.add(path("b"), State::Closed);
+        assert_eq!(unsettled.quiet(now), SETTLED);
+        unsettled.add(path("a"), State::Closed);
+        assert_eq!(unsettled.quiet(now), CLOSED);
+        // What never settles is reported late.
+        unsettled.add(path("a"), State::Open);
+        let later = |delay| unsettled.quiet(now + delay);
+        assert_eq!(later(MAX_DELAY - SETTLED), SETTLED);
+        assert_eq!(later(MAX_DELAY - CLOSED), CLOSED);
+        assert_eq!(later(2 * MAX_DELAY), Duration::ZERO);
+        let paths = unsettled.settled().paths;
+        assert_eq!(paths, ["a", "b"].map(PathBuf::from).into());
+    }
+
+    /// Many saves at once are one report.
+    #[test]
+    fn changes_before_a_pause_are_reported_together() {
+        let (sender, receiver) = channel();
+        for state in [State::Open, State::Open, State::Closed] {
+            sender.send((vec![PathBuf::from("a")], state)).unwrap();
+        }
+        let (reports, reported) = channel();
+        std::thread::spawn(move || {
+            debounce(&receiver, |changed| reports.send(changed.paths).unwrap());
+        });
+        let all = reported.recv_timeout(PATIENCE).unwrap();
+        assert_eq!(all, BTreeSet::from([PathBuf::from("a")]));
+        sender
+            .send((vec![PathBuf::from("b")], State::Closed))
+            .unwrap();
+        let next = reported.recv_timeout(PATIENCE).unwrap();
+        assert_eq!(next, BTreeSet::from([PathBuf::from("b")]));
     }
 
     #[test]
     fn files_that_never_settle_are_reported() {
-        let restless = |folder: &Path| {
-            let start = Instant::now();
-            while start.elapsed() < Duration::from_millis(2200) {
-                let mut file = fs::File::options()
-                    .append(true)
-                    .open(folder.join("a.svg"))
-                    .unwrap();
-                file.write_all(b" ").unwrap();
-                std::thread::sleep(Duration::from_millis(1));
-            }
-        };
-        assert!(changes(ChangeDetection::Native, restless).len() >= 2);
+        let watched = Watched::new(ChangeDetection::Native);
+        let path = watched.path("a.svg");
+        let mut reports = 0;
+        wait_until("two reports while it is written", || {
+            let mut file = fs::File::options().append(true).open(&path).unwrap();
+            file.write_all(b" ").unwrap();
+            reports += watched.reports.try_iter().count();
+            reports >= 2
+        });
     }
 
     #[test]

@@ -437,7 +437,7 @@ mod tests {
         write_atomic(Path::new(&path), |out| {
             out.write_all(&[0; 1 << 20])?;
             println!("writing");
-            std::thread::sleep(std::time::Duration::from_secs(60));
+            std::thread::sleep(crate::patience::PATIENCE);
             Ok(())
         })
         .unwrap();

@@ -10,6 +10,7 @@ use super::laws::{config, lawful, rings};
 use super::tests::{circle, kinds_with, options, outline, profile, rectangle};
 use super::{Body, LaidSolid, Lay, LayForm, Pile, Profile, Sides, Solid};
 use crate::geometry::{Outline, Ring, area, bounds};
+use crate::law;
 use crate::scene::{Surface, SurfaceSource};
 
 fn solid(outline: Outline, profile: Profile) -> Solid {
@@ -117,28 +118,45 @@ fn swallowed(skin: &Surface, host: &Surface) -> f64 {
     under.count() as f64 / points.len() as f64
 }
 
-proptest! {
-    #![proptest_config(config())]
-
-    #[test]
-    fn skins_are_lawful(
-        host in rings(), drawn in rings(), size in -3.0..4.0f64,
-        scale in 0.02..1.5f64, at in (-1.0..1.0f64, -1.0..1.0f64), kind in any::<prop::sample::Index>(),
-    ) {
-        let size = 10f64.powf(size);
-        let scaled = |rings: Vec<Ring>, by: f64| -> Outline {
-            outline(rings.iter().map(|ring| ring.iter().map(|p| *p * by).collect()).collect())
-        };
-        let host = scaled(host, size);
-        let drawn = moved(scaled(drawn, size * scale), size * DVec2::from(at));
-        prop_assume!(area(&host) > 0.0 && area(&drawn) > 0.0);
-        let kind = kind.get(&kinds_with(&[-0.1 * size, 0.2 * size])).clone();
-        let name = format!("{kind:?}");
-        let surface = ink(drawn, vec![solid(host, kind)], 0.004 * size).surface();
-        if let Err(error) = lawful(&surface) {
-            return Err(TestCaseError::fail(format!("{name}: {error}")));
-        }
-    }
+#[test]
+fn skins_are_lawful() {
+    let inputs = (
+        rings(),
+        rings(),
+        -3.0..4.0f64,
+        0.02..1.5f64,
+        (-1.0..1.0f64, -1.0..1.0f64),
+        any::<prop::sample::Index>(),
+    );
+    // Hardly any outline is empty.
+    law::check(
+        config(),
+        90,
+        inputs,
+        |(host, drawn, size, scale, at, kind)| {
+            let size = 10f64.powf(size);
+            let scaled = |rings: Vec<Ring>, by: f64| -> Outline {
+                outline(
+                    rings
+                        .iter()
+                        .map(|ring| ring.iter().map(|p| *p * by).collect())
+                        .collect(),
+                )
+            };
+            let host = scaled(host, size);
+            let drawn = moved(scaled(drawn, size * scale), size * DVec2::from(at));
+            if area(&host) <= 0.0 || area(&drawn) <= 0.0 {
+                return Ok(false);
+            }
+            let kind = kind.get(&kinds_with(&[-0.1 * size, 0.2 * size])).clone();
+            let name = format!("{kind:?}");
+            let surface = ink(drawn, vec![solid(host, kind)], 0.004 * size).surface();
+            if let Err(error) = lawful(&surface) {
+                return Err(TestCaseError::fail(format!("{name}: {error}")));
+            }
+            Ok(true)
+        },
+    );
 }
 
 /// A layer of a generated stack: its outline, how large it is beside the stack and where, its kind and its form.
@@ -220,24 +238,35 @@ fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body>> {
     Some(bodies)
 }
 
-proptest! {
-    #![proptest_config(config())]
-
-    #[test]
-    fn stacks_are_lawful(layers in drawn(), size in -3.0..4.0f64, wraps in any::<bool>()) {
+#[test]
+fn stacks_are_lawful() {
+    let inputs = (drawn(), -3.0..4.0f64, any::<bool>());
+    // Hardly any outline is empty.
+    law::check(config(), 80, inputs, |(layers, size, wraps)| {
         let size = 10f64.powf(size);
-        let bodies = stack(&layers, size, wraps);
-        prop_assume!(bodies.is_some());
-        let pile = Arc::new(Pile::new(bodies.unwrap_or_default(), Arc::default()));
+        let Some(bodies) = stack(&layers, size, wraps) else {
+            return Ok(false);
+        };
+        let pile = Arc::new(Pile::new(bodies, Arc::default()));
         for body in 1..pile.bodies().len() {
-            let laid = LaidSolid { pile: Arc::clone(&pile), body, sides: Sides::Front, texture: None };
+            let laid = LaidSolid {
+                pile: Arc::clone(&pile),
+                body,
+                sides: Sides::Front,
+                texture: None,
+            };
             let surface = laid.surface();
             if let Err(error) = lawful(&surface) {
                 return Err(TestCaseError::fail(format!("{body}: {error}")));
             }
-            prop_assert!(surface.triangles.len() < 40_000, "{body}: {} triangles", surface.triangles.len());
+            prop_assert!(
+                surface.triangles.len() < 40_000,
+                "{body}: {} triangles",
+                surface.triangles.len()
+            );
         }
-    }
+        Ok(true)
+    });
 }
 
 #[test]

@@ -130,11 +130,11 @@ pub(crate) fn watch(
     let watch = FolderWatch::new(options.detection, move |changed| {
         let _ = sender.send(changed);
     })?;
-    let mut watcher = Watcher::new(targets, options);
+    let mut watcher = Watcher::new(targets, options, Instant::now());
     // The folders are watched before the drawings are read, so that no change is missed.
-    watcher.watch_folders(&watch, &mut report);
-    watcher.build(&mut report);
-    watcher.watch_folders(&watch, &mut report);
+    watcher.watch_folders(&watch, Instant::now(), &mut report);
+    watcher.build(Instant::now(), &mut report);
+    watcher.watch_folders(&watch, Instant::now(), &mut report);
     report(Event::Ready(watcher.len()));
     loop {
         let wait = watcher.next_due().map_or(FOLDER_SEARCH_INTERVAL, |due| {
@@ -142,12 +142,12 @@ pub(crate) fn watch(
                 .min(FOLDER_SEARCH_INTERVAL)
         });
         match changes.recv_timeout(wait) {
-            Ok(changed) => watcher.schedule(&changed),
+            Ok(changed) => watcher.schedule(&changed, Instant::now()),
             Err(RecvTimeoutError::Timeout) => {}
             // `watch` holds the sender, and lives as long as this function.
             Err(RecvTimeoutError::Disconnected) => std::thread::sleep(wait),
         }
-        watcher.build(&mut report);
-        watcher.watch_folders(&watch, &mut report);
+        watcher.build(Instant::now(), &mut report);
+        watcher.watch_folders(&watch, Instant::now(), &mut report);
     }
 }

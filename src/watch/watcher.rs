@@ -1,4 +1,4 @@
-//! All watched drawings, and when each is built next.
+//! All watched drawings, and when each is built next. The time is given to it, so that tests need not wait.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -58,8 +58,7 @@ enum Failure {
 
 impl Due {
     /// After a change, whose writer may not have finished yet.
-    fn after_change(noticed: SystemTime) -> Self {
-        let now = Instant::now();
+    fn after_change(noticed: SystemTime, now: Instant) -> Self {
         Self {
             at: now,
             noticed,
@@ -69,8 +68,7 @@ impl Due {
     }
 
     /// For a drawing that nobody is known to be writing.
-    fn at_once() -> Self {
-        let now = Instant::now();
+    fn at_once(now: Instant) -> Self {
         Self {
             at: now,
             noticed: SystemTime::now(),
@@ -81,7 +79,7 @@ impl Due {
 }
 
 impl Watcher {
-    pub(super) fn new(targets: &[PathBuf], options: &Options) -> Self {
+    pub(super) fn new(targets: &[PathBuf], options: &Options, now: Instant) -> Self {
         let (folders, files): (Vec<PathBuf>, Vec<PathBuf>) =
             targets.iter().cloned().partition(|target| target.is_dir());
         let mut watcher = Self {
@@ -93,9 +91,9 @@ impl Watcher {
             unwatchable: BTreeSet::new(),
         };
         for file in files {
-            watcher.add(&file, Due::at_once());
+            watcher.add(&file, Due::at_once(now));
         }
-        watcher.scan_folders(Due::at_once());
+        watcher.scan_folders(Due::at_once(now));
         watcher
     }
 
@@ -141,8 +139,8 @@ impl Watcher {
     }
 
     /// Schedules builds of the drawings that a change concerns.
-    pub(super) fn schedule(&mut self, changed: &Changed) {
-        let due = Due::after_change(changed.noticed);
+    pub(super) fn schedule(&mut self, changed: &Changed, now: Instant) {
+        let due = Due::after_change(changed.noticed, now);
         for watched in self.drawings.values_mut() {
             if !watched.files.is_disjoint(&changed.paths) {
                 watched.due = Some(due);
@@ -157,12 +155,11 @@ impl Watcher {
     }
 
     /// Builds the drawings that are due.
-    pub(super) fn build(&mut self, report: &mut impl FnMut(Event<'_>)) {
-        let now = Instant::now();
+    pub(super) fn build(&mut self, now: Instant, report: &mut impl FnMut(Event<'_>)) {
         for watched in self.drawings.values_mut() {
             if let Some(due) = watched.due.filter(|due| due.at <= now) {
                 watched.due = None;
-                watched.build(due, report);
+                watched.build(due, now, report);
             }
         }
     }
@@ -171,6 +168,7 @@ impl Watcher {
     pub(super) fn watch_folders(
         &mut self,
         watch: &FolderWatch,
+        now: Instant,
         report: &mut impl FnMut(Event<'_>),
     ) {
         let files = self.drawings.values().flat_map(|watched| &watched.files);
@@ -185,7 +183,8 @@ impl Watcher {
                 report(Event::Unwatchable(&folder, error.to_string()));
             }
         }
-        // The system does not report what changed after a file was read and before its folder was watched.
+        // The system does not report what changed after a file was read, or a folder was searched, and before the folder was watched.
+        let due = Due::after_change(SystemTime::now(), now);
         let is_new = |file: &PathBuf| {
             let folder = file.parent();
             folder.is_some_and(|folder| {
@@ -194,16 +193,19 @@ impl Watcher {
         };
         for watched in self.drawings.values_mut() {
             if watched.due.is_none() && watched.files.iter().any(is_new) {
-                watched.due = Some(Due::after_change(SystemTime::now()));
+                watched.due = Some(due);
             }
         }
-        self.watched_folders = folders;
+        let known = std::mem::replace(&mut self.watched_folders, folders);
+        let mut searched = self.subfolders.intersection(&self.watched_folders);
+        if searched.any(|folder| !known.contains(folder)) {
+            self.scan_folders(due);
+        }
     }
 }
 
 impl Watched {
-    fn build(&mut self, due: Due, report: &mut impl FnMut(Event<'_>)) {
-        let now = Instant::now();
+    fn build(&mut self, due: Due, now: Instant, report: &mut impl FnMut(Event<'_>)) {
         let retry = Some(Due {
             at: now + RETRY_INTERVAL,
             ..due
@@ -260,10 +262,14 @@ mod tests {
     const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">
         <circle id="ball" cx="50" cy="50" r="20"/></svg>"#;
 
-    /// The events that are due, in words.
-    fn events(watcher: &mut Watcher) -> Vec<String> {
+    fn watcher(target: &Path, now: Instant) -> Watcher {
+        Watcher::new(&[target.to_owned()], &Options::default(), now)
+    }
+
+    /// The events that are due at a time, in words.
+    fn events(watcher: &mut Watcher, now: Instant) -> Vec<String> {
         let mut events = vec![];
-        watcher.build(&mut |event| {
+        watcher.build(now, &mut |event| {
             events.push(match event {
                 Event::Built(path, build) => match &build.model {
                     Ok(model) => format!("built {} {}", name(path), model.written.triangles > 0),
@@ -291,11 +297,15 @@ mod tests {
         }
     }
 
-    /// Waits until the next build is due, and returns the events of it.
-    fn next_events(watcher: &mut Watcher) -> Vec<String> {
-        let due = watcher.next_due().expect("a build is due");
-        std::thread::sleep(due.saturating_duration_since(Instant::now()));
-        events(watcher)
+    /// The first events, and how long after a time they come.
+    fn next_events(watcher: &mut Watcher, start: Instant) -> (Vec<String>, Duration) {
+        loop {
+            let due = watcher.next_due().expect("a build is due");
+            let events = events(watcher, due);
+            if !events.is_empty() {
+                return (events, due - start);
+            }
+        }
     }
 
     #[test]
@@ -303,31 +313,33 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.svg");
         fs::write(&path, DRAWING).unwrap();
-        let mut watcher = Watcher::new(std::slice::from_ref(&path), &Options::default());
-        assert_eq!(events(&mut watcher), ["built a.svg true"]);
+        let now = Instant::now();
+        let mut watcher = watcher(&path, now);
+        assert_eq!(events(&mut watcher, now), ["built a.svg true"]);
         assert_eq!(watcher.next_due(), None);
         // A change of another file, and one that leaves the content as it was.
-        watcher.schedule(&changed(&[&folder.path().join("b.svg")]));
+        watcher.schedule(&changed(&[&folder.path().join("b.svg")]), now);
         assert_eq!(watcher.next_due(), None);
-        watcher.schedule(&changed(&[&path]));
-        assert_eq!(events(&mut watcher), [""; 0]);
+        watcher.schedule(&changed(&[&path]), now);
+        assert_eq!(events(&mut watcher, now), [""; 0]);
         fs::write(&path, DRAWING.replace("\"20\"", "\"30\"")).unwrap();
-        watcher.schedule(&changed(&[&path]));
-        assert_eq!(events(&mut watcher), ["built a.svg true"]);
-        assert_eq!(events(&mut watcher), [""; 0]);
+        watcher.schedule(&changed(&[&path]), now);
+        assert_eq!(events(&mut watcher, now), ["built a.svg true"]);
+        assert_eq!(events(&mut watcher, now), [""; 0]);
     }
 
     #[test]
     fn new_drawings_below_a_folder_are_found() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("sub/b.svg");
-        let mut watcher = Watcher::new(&[folder.path().to_owned()], &Options::default());
+        let now = Instant::now();
+        let mut watcher = watcher(folder.path(), now);
         assert_eq!((watcher.len(), watcher.next_due()), (0, None));
         fs::create_dir(folder.path().join("sub")).unwrap();
         fs::write(&path, DRAWING).unwrap();
-        watcher.schedule(&changed(&[&path]));
+        watcher.schedule(&changed(&[&path]), now);
         assert_eq!(watcher.len(), 1);
-        assert_eq!(events(&mut watcher), ["built b.svg true"]);
+        assert_eq!(events(&mut watcher, now), ["built b.svg true"]);
     }
 
     #[test]
@@ -335,22 +347,18 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.svg");
         fs::write(&path, DRAWING).unwrap();
-        let mut watcher = Watcher::new(std::slice::from_ref(&path), &Options::default());
-        events(&mut watcher);
+        let now = Instant::now();
+        let mut watcher = watcher(&path, now);
+        events(&mut watcher, now);
         fs::remove_file(&path).unwrap();
-        watcher.schedule(&changed(&[&path]));
-        let start = Instant::now();
-        let mut reported = events(&mut watcher);
-        assert_eq!(reported, [""; 0]);
-        while reported.is_empty() {
-            reported = next_events(&mut watcher);
-        }
+        watcher.schedule(&changed(&[&path]), now);
+        let (reported, after) = next_events(&mut watcher, now);
         assert_eq!(reported, ["gone a.svg"]);
-        assert!(start.elapsed() >= MISSING_TIMEOUT - RETRY_INTERVAL);
+        assert_eq!(after, MISSING_TIMEOUT);
         assert_eq!(watcher.next_due(), None);
         fs::write(&path, DRAWING).unwrap();
-        watcher.schedule(&changed(&[&path]));
-        assert_eq!(events(&mut watcher), ["back a.svg"]);
+        watcher.schedule(&changed(&[&path]), now);
+        assert_eq!(events(&mut watcher, now), ["back a.svg"]);
     }
 
     #[test]
@@ -358,13 +366,48 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.svg");
         fs::write(&path, DRAWING).unwrap();
-        let mut watcher = Watcher::new(std::slice::from_ref(&path), &Options::default());
-        events(&mut watcher);
+        let now = Instant::now();
+        let mut watcher = watcher(&path, now);
+        events(&mut watcher, now);
         fs::write(&path, "").unwrap();
-        watcher.schedule(&changed(&[&path]));
-        assert_eq!(events(&mut watcher), [""; 0]);
+        watcher.schedule(&changed(&[&path]), now);
+        assert_eq!(events(&mut watcher, now), [""; 0]);
         fs::write(&path, DRAWING.replace("ball", "wheel")).unwrap();
-        assert_eq!(next_events(&mut watcher), ["built a.svg true"]);
+        let (reported, after) = next_events(&mut watcher, now);
+        assert_eq!(reported, ["built a.svg true"]);
+        assert_eq!(after, RETRY_INTERVAL);
+    }
+
+    #[test]
+    fn a_cut_drawing_is_an_error_once_and_only_after_a_while() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.svg");
+        fs::write(&path, DRAWING).unwrap();
+        let now = Instant::now();
+        let mut watcher = watcher(&path, now);
+        events(&mut watcher, now);
+        fs::write(&path, &DRAWING[..DRAWING.len() / 2]).unwrap();
+        watcher.schedule(&changed(&[&path]), now);
+        let (reported, after) = next_events(&mut watcher, now);
+        assert_eq!(reported, ["errors a.svg"]);
+        assert_eq!(after, INCOMPLETE_TIMEOUT);
+        assert_eq!(watcher.next_due(), None);
+    }
+
+    #[test]
+    fn a_drawing_written_before_its_folder_is_watched_is_found() {
+        let folder = tempfile::tempdir().unwrap();
+        let inner = folder.path().join("sub");
+        let watch = FolderWatch::new(ChangeDetection::default(), |_| ()).unwrap();
+        let now = Instant::now();
+        let mut watcher = watcher(folder.path(), now);
+        watcher.watch_folders(&watch, now, &mut |_| ());
+        fs::create_dir(&inner).unwrap();
+        watcher.schedule(&changed(&[&inner]), now);
+        assert_eq!(watcher.len(), 0);
+        fs::write(inner.join("b.svg"), DRAWING).unwrap();
+        watcher.watch_folders(&watch, now, &mut |_| ());
+        assert_eq!(events(&mut watcher, now), ["built b.svg true"]);
     }
 
     #[test]
@@ -373,12 +416,13 @@ mod tests {
         let path = folder.path().join("a.svg");
         fs::write(&path, DRAWING).unwrap();
         let watch = FolderWatch::new(ChangeDetection::default(), |_| ()).unwrap();
-        let mut watcher = Watcher::new(std::slice::from_ref(&path), &Options::default());
-        events(&mut watcher);
-        watcher.watch_folders(&watch, &mut |_| ());
+        let now = Instant::now();
+        let mut watcher = watcher(&path, now);
+        events(&mut watcher, now);
+        watcher.watch_folders(&watch, now, &mut |_| ());
         assert!(watcher.next_due().is_some());
-        assert_eq!(events(&mut watcher), [""; 0]);
-        watcher.watch_folders(&watch, &mut |_| ());
+        assert_eq!(events(&mut watcher, now), [""; 0]);
+        watcher.watch_folders(&watch, now, &mut |_| ());
         assert_eq!(watcher.next_due(), None);
     }
 }

@@ -5,12 +5,10 @@ use std::io::{BufReader, Write as _};
 use std::path::Path;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
-/// How long an answer may take, in a build without optimisation on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(60);
+use super::patience::{PATIENCE, wait_until};
 
 /// A server and the conversation with it.
 pub(crate) struct Editor {
@@ -93,9 +91,8 @@ impl Editor {
 
     /// The next answer to a message whose number the server could not read.
     pub(crate) fn answer_to_nothing(&mut self) -> Value {
-        let until = Instant::now() + PATIENCE;
         loop {
-            let message = self.receive(until).expect("an answer");
+            let message = self.receive("an answer to no request");
             if message.get("error").is_some() && message["id"].is_null() {
                 return message;
             }
@@ -122,11 +119,8 @@ impl Editor {
 
     /// The whole answer to a request.
     pub(crate) fn answer(&mut self, id: i64) -> Value {
-        let until = Instant::now() + PATIENCE;
         loop {
-            let message = self
-                .receive(until)
-                .unwrap_or_else(|| panic!("no answer to {id}"));
+            let message = self.receive(&format!("an answer to {id}"));
             if message.get("method").is_none() && message["id"] == id {
                 return message;
             }
@@ -152,45 +146,54 @@ impl Editor {
 
     /// The next message that `wanted` accepts; others are dropped.
     pub(crate) fn until(&mut self, mut wanted: impl FnMut(&Value) -> bool) -> Value {
-        let until = Instant::now() + PATIENCE;
         while let Some(note) = self.notes.pop_front() {
             if wanted(&note) {
                 return note;
             }
         }
         loop {
-            let message = self.receive(until).expect("the message comes");
+            let message = self.receive("a message");
             if wanted(&message) {
                 return message;
             }
         }
     }
 
-    /// All messages of a kind so far and within a time.
-    pub(crate) fn during(&mut self, time: Duration, method: &str) -> Vec<Value> {
-        let until = Instant::now() + time;
-        let mut all: Vec<Value> = self.notes.drain(..).collect();
-        while let Some(message) = self.receive(until) {
-            all.push(message);
-        }
-        all.retain(|message| message["method"] == method);
+    /// All diagnostics that the server has sent and still sends before it has done all that it was told: those of a small text that is
+    /// opened now are the last, as it analyses one text after the other.
+    pub(crate) fn remaining_diagnostics(&mut self) -> Vec<Value> {
+        const LAST: &str = "untitled:last.svg";
+        self.open(LAST, 1, "<svg/>");
+        let mut all = Vec::new();
+        self.until(|note| {
+            if note["method"] != "textDocument/publishDiagnostics" {
+                return false;
+            }
+            let is_last = note["params"]["uri"] == LAST;
+            if !is_last {
+                all.push(note.clone());
+            }
+            is_last
+        });
+        self.notify(
+            "textDocument/didClose",
+            json!({"textDocument": {"uri": LAST}}),
+        );
         all
     }
 
-    fn receive(&mut self, until: Instant) -> Option<Value> {
-        let left = until.saturating_duration_since(Instant::now());
-        match self.messages.recv_timeout(left) {
-            Ok(message) => {
-                // Requests from the server are accepted.
-                if let (Some(id), Some(_)) = (message.get("id"), message.get("method")) {
-                    let id = id.clone();
-                    self.send(&json!({"jsonrpc": "2.0", "id": id, "result": null}));
-                }
-                Some(message)
-            }
-            Err(RecvTimeoutError::Timeout) => None,
-            Err(RecvTimeoutError::Disconnected) => None,
+    fn receive(&mut self, what: &str) -> Value {
+        let message = match self.messages.recv_timeout(PATIENCE) {
+            Ok(message) => message,
+            Err(RecvTimeoutError::Timeout) => panic!("waited in vain for {what}"),
+            Err(RecvTimeoutError::Disconnected) => panic!("the server ended before {what} came"),
+        };
+        // Requests from the server are accepted.
+        if let (Some(id), Some(_)) = (message.get("id"), message.get("method")) {
+            let id = id.clone();
+            self.send(&json!({"jsonrpc": "2.0", "id": id, "result": null}));
         }
+        message
     }
 
     /// Opens a text.
@@ -239,14 +242,12 @@ impl Editor {
     }
 
     fn wait(&mut self) -> ExitStatus {
-        let until = Instant::now() + PATIENCE;
-        while Instant::now() < until {
-            if let Some(status) = self.server.try_wait().expect("a process") {
-                return status;
-            }
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        panic!("the server does not end");
+        let mut status = None;
+        wait_until("the server to end", || {
+            status = self.server.try_wait().expect("a process");
+            status.is_some()
+        });
+        status.expect("it has ended")
     }
 }
 

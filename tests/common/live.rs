@@ -4,10 +4,8 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
-use std::time::{Duration, Instant};
 
-/// The longest wait for an expected line.
-const PATIENCE: Duration = Duration::from_secs(20);
+use super::patience::PATIENCE;
 
 /// A process that is killed when this is dropped.
 pub(crate) struct Live {
@@ -46,16 +44,19 @@ impl Live {
     /// The next line that contains `wanted`.
     #[track_caller]
     pub(crate) fn line(&self, wanted: &str) -> String {
-        let end = Instant::now() + PATIENCE;
+        self.lines_to(wanted).pop().unwrap_or_default()
+    }
+
+    /// All lines up to the next one that contains `wanted`.
+    #[track_caller]
+    pub(crate) fn lines_to(&self, wanted: &str) -> Vec<String> {
         let mut said = vec![];
-        while let Ok(line) = self
-            .lines
-            .recv_timeout(end.saturating_duration_since(Instant::now()))
-        {
-            if line.contains(wanted) {
-                return line;
-            }
+        while let Ok(line) = self.lines.recv_timeout(PATIENCE) {
+            let is_wanted = line.contains(wanted);
             said.push(line);
+            if is_wanted {
+                return said;
+            }
         }
         panic!("nothing with `{wanted}` was said, but {said:#?}");
     }
@@ -63,11 +64,9 @@ impl Live {
     /// The next lines that contain each of these, in any order, since two streams have none.
     #[track_caller]
     pub(crate) fn lines<const COUNT: usize>(&self, wanted: [&str; COUNT]) -> [String; COUNT] {
-        let end = Instant::now() + PATIENCE;
         let mut found = wanted.map(|_| None);
         while found.iter().any(Option::is_none) {
-            let left = end.saturating_duration_since(Instant::now());
-            let Ok(line) = self.lines.recv_timeout(left) else {
+            let Ok(line) = self.lines.recv_timeout(PATIENCE) else {
                 panic!("of {wanted:?} only {found:?} were said");
             };
             for (found, wanted) in found.iter_mut().zip(wanted) {
@@ -77,16 +76,6 @@ impl Live {
             }
         }
         found.map(Option::unwrap_or_default)
-    }
-
-    /// All lines that come within a time.
-    pub(crate) fn during(&self, time: Duration) -> Vec<String> {
-        let end = Instant::now() + time;
-        let next = || {
-            self.lines
-                .recv_timeout(end.saturating_duration_since(Instant::now()))
-        };
-        std::iter::from_fn(|| next().ok()).collect()
     }
 
     /// Kills it, like a power cut.

@@ -6,8 +6,10 @@
 
 #[cfg(feature = "cli")]
 pub(crate) mod editor;
+pub(crate) mod law;
 #[cfg(feature = "cli")]
 pub(crate) mod live;
+pub(crate) mod patience;
 #[cfg(feature = "cli")]
 pub(crate) mod program;
 pub(crate) mod rewrite;

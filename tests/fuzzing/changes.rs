@@ -14,10 +14,10 @@ use super::{drawing, files};
 /// The most changes of an input.
 const MOST: usize = 12;
 
-pub(super) fn check(bytes: &[u8]) {
+pub(super) fn check(bytes: &[u8]) -> bool {
     let mut pieces = bytes.split(|byte| *byte == 0);
     let Ok(drawing) = std::str::from_utf8(pieces.next().unwrap_or_default()) else {
-        return;
+        return false;
     };
     let (options, resolver) = (Options::default(), drawing::linked());
     let mut history = vec![drawing.to_owned()];
@@ -25,6 +25,7 @@ pub(super) fn check(bytes: &[u8]) {
     let mut surfaces = Memo::default();
     let mut held = compiler.compile(drawing, &options, &resolver);
     assert!(!held.has_crashed(), "{:?}", held.diagnostics);
+    let is_drawn = !held.scene.nodes.is_empty();
     for change in pieces.take(MOST) {
         apply(change, &mut history);
         let text = history.last().expect("the drawing");
@@ -52,6 +53,7 @@ pub(super) fn check(bytes: &[u8]) {
         };
     }
     drop(held);
+    is_drawn
 }
 
 fn described(compiled: &Compiled) -> String {

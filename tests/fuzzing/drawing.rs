@@ -11,10 +11,13 @@ use okoshi::resolver::{MemoryResolver, Resolver};
 
 use super::files;
 
-pub(super) fn check(bytes: &[u8]) {
+pub(super) fn check(bytes: &[u8]) -> bool {
     match decode(bytes.to_vec()) {
-        Err(error) => assert!(error.offset() < bytes.len(), "{error}"),
-        Ok(text) => drop(check_compiled(&text, &linked())),
+        Err(error) => {
+            assert!(error.offset() < bytes.len(), "{error}");
+            false
+        }
+        Ok(text) => !check_compiled(&text, &linked()).scene.nodes.is_empty(),
     }
 }
 

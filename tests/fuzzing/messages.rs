@@ -5,13 +5,14 @@ use futures::executor::block_on;
 use okoshi::internals::lsp::pass_on;
 use serde_json::{Value, json};
 
-pub(super) fn check(bytes: &[u8]) {
+pub(super) fn check(bytes: &[u8]) -> bool {
     let passed = passed_on(bytes);
     let mut rest = passed.as_slice();
     while !rest.is_empty() {
         rest = check_message(rest);
     }
     assert!(passed_on(&passed) == passed, "it is not passed on again");
+    !passed.is_empty()
 }
 
 /// Checks the first message, and returns what follows it.

@@ -3,6 +3,10 @@
 //! The targets in `fuzz/` run the laws with coverage feedback for as long as they are told to; `tests/fuzzed.rs` runs them
 //! for a moment in the ordinary tests, without feedback. A law fails by a panic.
 
+#[path = "../common/patience.rs"]
+#[allow(dead_code, reason = "only the limit is needed here")]
+mod patience;
+
 mod changes;
 mod drawing;
 mod files;
@@ -18,8 +22,8 @@ mod track;
 pub(crate) struct Target {
     /// The name of the fuzzing target, and of the folder with its regressions.
     pub(crate) name: &'static str,
-    /// Panics if the law does not hold for an input.
-    pub(crate) check: fn(&[u8]),
+    /// Panics if the law does not hold for an input. Returns whether it was one that could be read.
+    pub(crate) check: fn(&[u8]) -> bool,
     /// The inputs that the search begins with.
     pub(crate) seeds: fn() -> Vec<Vec<u8>>,
 }

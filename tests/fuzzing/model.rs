@@ -19,9 +19,11 @@ const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="90" hei
 <rect x="5" y="5" width="40" height="60"/><text x="9" y="20">A$Shape model a.glb</text>
 <rect x="50" y="5" width="20" height="30"/><text x="55" y="20">B@A$Shape -s model a.glb</text></svg>"##;
 
-pub(super) fn check(bytes: &[u8]) {
+pub(super) fn check(bytes: &[u8]) -> bool {
     let nothing = MemoryResolver::default();
-    if let Ok(model) = read_static_model(bytes, &nothing) {
+    let read = read_static_model(bytes, &nothing);
+    let is_read = read.is_ok();
+    if let Ok(model) = read {
         assert!(model.triangles() > 0);
         let finite = model.bounds.iter().all(|corner| corner.is_finite());
         assert!(finite, "{:?}", model.bounds);
@@ -30,6 +32,7 @@ pub(super) fn check(bytes: &[u8]) {
     if let Err(error @ RenderError::Crash(_)) = check_pictures(bytes) {
         panic!("{error}");
     }
+    is_read
 }
 
 /// Renders a model at rest and at moments of its clips.

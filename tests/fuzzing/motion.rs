@@ -16,7 +16,7 @@ const LONGEST_CLIP: f64 = 60.0;
 /// The longest motion that the search begins with, in bytes.
 const LONGEST: usize = 64 << 10;
 
-pub(super) fn check(text: &[u8]) {
+pub(super) fn check(text: &[u8]) -> bool {
     let lines = 1 + text
         .iter()
         .filter(|byte| matches!(byte, b'\n' | b'\r'))
@@ -26,13 +26,15 @@ pub(super) fn check(text: &[u8]) {
             let placed = notes.iter().all(|note| (1..=lines).contains(&note.line));
             assert!(placed, "{notes:?}");
             check_clip(&clip);
+            true
         }
         Err(error) => {
             let placed = (1..=lines).contains(&error.line) && error.column > 0;
             assert!(placed, "{error}");
-            if let Some(clip) = error.partial {
+            error.partial.is_some_and(|clip| {
                 check_clip(&clip);
-            }
+                true
+            })
         }
     }
 }

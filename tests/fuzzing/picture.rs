@@ -15,8 +15,9 @@ const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" he
 <rect x="50" y="5" width="30" height="40"/><text x="55" y="20">B$Texture a.png</text>
 <g><image x="100" y="5" width="80" height="60" href="a.png"/><text x="100" y="90">Land$Tiles 10</text></g></svg>"##;
 
-pub(super) fn check(bytes: &[u8]) {
+pub(super) fn check(bytes: &[u8]) -> bool {
     drawing::check_compiled(DRAWING, &MemoryResolver::default().with("a.png", bytes));
+    image::load_from_memory(bytes).is_ok()
 }
 
 /// Small pictures in every format that is read, with and without transparency, and those of the cases.

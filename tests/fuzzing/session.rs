@@ -6,17 +6,14 @@
 
 use std::sync::mpsc::{Receiver, channel};
 use std::sync::{LazyLock, Mutex, PoisonError};
-use std::time::Duration;
 
 use okoshi::internals::lsp::serve_client;
 use serde_json::{Value, json};
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _, DuplexStream};
 use tokio::runtime::Runtime;
 
+use super::patience::PATIENCE;
 use super::{changes, files};
-
-/// How long an answer may take, also in a build without optimisation on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The most steps of an input.
 const MOST: usize = 12;
@@ -69,10 +66,10 @@ const METHODS: [&str; 5] = [
 /// One client for all inputs: a server keeps two threads until the process ends.
 static CLIENT: LazyLock<Mutex<Client>> = LazyLock::new(|| Mutex::new(Client::new()));
 
-pub(super) fn check(bytes: &[u8]) {
+pub(super) fn check(bytes: &[u8]) -> bool {
     let mut pieces = bytes.split(|byte| *byte == 0);
     let Ok(drawing) = std::str::from_utf8(pieces.next().unwrap_or_default()) else {
-        return;
+        return false;
     };
     let mut client = CLIENT.lock().unwrap_or_else(PoisonError::into_inner);
     let mut text = drawing.to_owned();
@@ -108,6 +105,7 @@ pub(super) fn check(bytes: &[u8]) {
     let opened = client.diagnostics();
     client.close();
     assert_eq!(after_changes, opened, "{text}");
+    true
 }
 
 /// A client in this process.

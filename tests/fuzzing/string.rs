@@ -3,9 +3,9 @@
 use okoshi::internals::lang::{Container, parse, settings, variables::Variables};
 use okoshi::internals::source::Text;
 
-pub(super) fn check(bytes: &[u8]) {
+pub(super) fn check(bytes: &[u8]) -> bool {
     let Ok(string) = std::str::from_utf8(bytes) else {
-        return;
+        return false;
     };
     for container in [Container::Text, Container::Desc] {
         let text = Text::plain(string, 0);
@@ -14,6 +14,7 @@ pub(super) fn check(bytes: &[u8]) {
         settings(&text, &annotation, &variables, &mut found);
         super::drawing::check_places(string, &found);
     }
+    true
 }
 
 /// The strings of the cases.

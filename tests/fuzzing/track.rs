@@ -2,15 +2,19 @@
 
 use okoshi::internals::mark_tracks::{ErrorLocation, MarkTracks};
 
-pub(super) fn check(bytes: &[u8]) {
+pub(super) fn check(bytes: &[u8]) -> bool {
     match MarkTracks::from_bytes(bytes) {
-        Ok(tracks) => check_tracks(&tracks),
+        Ok(tracks) => {
+            check_tracks(&tracks);
+            true
+        }
         Err(error) => {
             assert!(!error.help.is_empty() && !error.message.is_empty());
             if let ErrorLocation::Position { line, column } = error.location {
                 let lines = 1 + bytes.iter().filter(|byte| **byte == b'\n').count();
                 assert!((1..=lines).contains(&line) && column > 0, "{error:?}");
             }
+            false
         }
     }
 }

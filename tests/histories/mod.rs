@@ -14,6 +14,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::test_runner::{FileFailurePersistence, TestRunner};
 
+use super::common::law::Tally;
 use super::{common, equals, written};
 use files::{Files, LINKS};
 
@@ -207,8 +208,8 @@ fn links() -> impl Iterator<Item = &'static str> {
 #[derive(Default)]
 struct Seen {
     compiles: Cell<usize>,
-    partial: Cell<usize>,
-    without_errors: Cell<usize>,
+    partial: Tally,
+    without_errors: Tally,
     /// The keywords that were bound in drawings without errors.
     keywords: RefCell<BTreeSet<Keyword>>,
     /// The links to files whose change changed the model.
@@ -217,10 +218,10 @@ struct Seen {
 
 impl Seen {
     fn note(&self, compiled: &Compiled) {
+        self.without_errors.count(!compiled.has_errors());
         if compiled.has_errors() {
             return;
         }
-        self.without_errors.set(self.without_errors.get() + 1);
         let bindings = &compiled.bindings;
         let own = bindings.strings.iter().flat_map(|string| &string.settings);
         let defaults = bindings.defaults.iter().map(|(_, setting)| setting);
@@ -298,8 +299,7 @@ fn agree(
             written(&incremental, &mut surfaces);
         }
         seen.compiles.set(seen.compiles.get() + 1);
-        seen.partial
-            .set(seen.partial.get() + usize::from(compiler.last_was_partial()));
+        seen.partial.count(compiler.last_was_partial());
         seen.note(&fresh);
         if let (Some(link), Some(last)) = (changed, &last)
             && last.scene != fresh.scene
@@ -348,14 +348,11 @@ fn inputs_of_every_kind_are_compiled_again_when_they_change() {
         unseen.is_empty(),
         "whose changes changed no model: {unseen:?}"
     );
-    let (compiles, partial) = (seen.compiles.get(), seen.partial.get());
-    assert!(
-        compiles > 2000 && 5 * partial > compiles,
-        "{partial} of {compiles} only updated the drawing"
-    );
-    let right = seen.without_errors.get();
-    assert!(
-        2 * right > compiles,
-        "only {right} of {compiles} drawings have no errors"
-    );
+    let compiles = seen.compiles.get();
+    assert!(compiles > 2000, "{compiles} compiles");
+    // They are 64 % and 71 %.
+    seen.partial
+        .assert_share("compiles that only updated the drawing", 21);
+    seen.without_errors
+        .assert_share("drawings without errors", 51);
 }

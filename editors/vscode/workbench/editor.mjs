@@ -1,7 +1,13 @@
 // Drives the editor in the browser like a user: with keys, and by what is visible.
 
-/** The limit of every wait, in milliseconds, for machines that do other work too. */
-const PATIENCE = 60_000;
+/** The limit of every wait, in milliseconds. It only ends a step that hangs: how fast something is, no step judges. */
+export const PATIENCE = 180_000;
+
+/** For how long something that must not happen is watched for, in milliseconds. */
+const QUIET = 2500;
+
+/** The pause between two looks, in milliseconds. */
+const PAUSE = 100;
 
 export class Editor {
   constructor(page) {
@@ -22,8 +28,45 @@ export class Editor {
       const value = await probe();
       if (value) return value;
       if (Date.now() > end) throw new Error(`waited in vain: ${what}`);
-      await this.page.waitForTimeout(100);
+      await this.page.waitForTimeout(PAUSE);
     }
+  }
+
+  /** Waits until some looks in a row give the same text, for what has no visible end. Returns it. */
+  async steady(what, probe, looks = 4) {
+    let [last, equal] = [undefined, 0];
+    await this.until(`${what} to be as it stays`, async () => {
+      const value = await probe();
+      equal = value === last ? equal + 1 : 1;
+      last = value;
+      return equal >= looks;
+    });
+    return last;
+  }
+
+  /** Whether something holds for a while: nothing tells that it will never change. */
+  async holds(probe) {
+    const end = Date.now() + QUIET;
+    do {
+      if (!(await probe())) return false;
+      await this.page.waitForTimeout(PAUSE);
+    } while (Date.now() < end);
+    return true;
+  }
+
+  /** Fails if something does not hold for a while. */
+  async stays(what, probe) {
+    if (!(await this.holds(probe))) throw new Error(`it does not stay: ${what}`);
+  }
+
+  /** Waits until nothing visible has a selector. */
+  gone(selector) {
+    return this.page.locator(selector).first().waitFor({ state: "detached", timeout: PATIENCE });
+  }
+
+  /** Fails if messages other than so many are shown, also after a while. */
+  said(count) {
+    return this.stays(`${count} messages`, async () => (await this.messages()).length === count);
   }
 
   press(keys) {
@@ -40,7 +83,8 @@ export class Editor {
     const input = await this.see(".quick-input-widget input");
     await input.fill(`>${title}`);
     // The list is filtered a moment after typing.
-    await this.page.waitForTimeout(1000);
+    await this.see(".quick-input-list .monaco-list-row", title);
+    await this.steady("the list of commands", async () => (await this.page.locator(".quick-input-list .monaco-list-row").allTextContents()).join("\n"));
     await this.see(".quick-input-list .monaco-list-row.focused", title);
     await this.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE }).catch(() => {});
@@ -53,7 +97,7 @@ export class Editor {
     await input.fill(`:${line}:${column}`);
     await this.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE });
-    await this.page.waitForTimeout(150);
+    await this.see(".statusbar-item", new RegExp(`Ln ${line}, Col ${column}\\b`));
   }
 
   /** Opens the hover at the cursor, until it has a text. Returns its locator. */

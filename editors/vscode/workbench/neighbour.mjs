@@ -8,16 +8,14 @@ export async function neighbours({ editor, page, step, again, at, saved, read, o
   await step("another extension formats and explains drawings without strings", async () => {
     await open("plain.svg");
     configure({ "neighbour.on": true });
-    await page.waitForTimeout(1500);
     await editor.caret(place(read("plain.svg"), "<rect", 2));
     assert.equal((await (await hover()).textContent()).trim(), "The neighbour explains.");
     await editor.press("Escape");
     await editor.until("the drawing to be formatted", async () => {
       // The editor learns of a formatter a moment after its extension has offered it.
       await editor.command("Format Document");
-      await page.waitForTimeout(2000);
-      if ((await page.locator(".tab.active.dirty").count()) > 0) await editor.press("Control+s");
-      await page.waitForTimeout(500);
+      const changed = page.locator(".tab.active.dirty").waitFor({ timeout: 3000 });
+      if (await changed.then(() => true, () => false)) await editor.save();
       return read("plain.svg").endsWith("<!-- neat -->\n");
     });
     // Nobody asked which formatter is meant.

@@ -10,8 +10,8 @@ const RED = { name: "red", is: (r, g, b) => r > 90 && r > 1.6 * g && r > 1.6 * b
 const TEAL = { name: "teal", is: (r, g, b) => g > 50 && g > 1.5 * r && b > 1.4 * r && b < 1.15 * g };
 const BLUE = { name: "blue", is: (r, g, b) => b > 60 && b > 1.4 * r && b > 1.15 * g };
 
-/** The first frame takes a while with software rendering, in milliseconds. */
-const FIRST = 60_000;
+/** How long the editor takes to store its open tabs, in milliseconds. */
+const STORING = 8000;
 
 /** The panel in the second column. */
 class Panel {
@@ -35,7 +35,7 @@ class Panel {
 
   /** Waits until a model is shown. */
   async shows() {
-    await this.editor.until("a model in the panel", async () => (await this.says("revision")) !== null, FIRST);
+    await this.editor.until("a model in the panel", async () => (await this.says("revision")) !== null);
   }
 
   /** A screenshot of the model: width, height, and RGBA pixels. */
@@ -89,8 +89,13 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
   /** A screenshot without movement or highlights. */
   const still = async () => {
     await page.mouse.move(5, 5);
-    await page.waitForTimeout(600);
-    return panel.picture();
+    let picture;
+    await editor.steady("the picture", async () => {
+      const next = await panel.picture();
+      if (picture === undefined || picture.width !== next.width || picture.height !== next.height || changes(picture, next) > 0) picture = next;
+      return picture;
+    });
+    return picture;
   };
   /** Starts with the fixed drawing and its panel beside it: as the previous step left them, or in a new window. */
   const begin = async () => {
@@ -137,8 +142,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.press("Control+1");
     await editor.press("Control+k");
     await editor.press("v");
-    await page.waitForTimeout(500);
-    assert.equal(await page.locator(".tab", { hasText: "Preview figure.svg" }).count(), 1);
+    await editor.stays("one panel", async () => (await page.locator(".tab", { hasText: "Preview figure.svg" }).count()) === 1);
   });
   await step("a key in the text changes the picture", async () => {
     await begin();
@@ -212,8 +216,8 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.press("Control+1");
     await editor.press("Control+w");
     await page.locator(".editor-instance .monaco-editor").waitFor({ state: "detached" });
-    await page.waitForTimeout(1500);
     await panel.shows();
+    await editor.stays("the model in the panel", async () => (await panel.says("revision")) !== null);
     await still();
     const { x, y } = await panel.find(BLUE);
     // The text appears in its own column, not over the panel.
@@ -222,11 +226,15 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     assert.ok(await panel.canvas.isVisible());
   });
   await step("the panel is back in a window that was loaded anew", async () => {
-    await begin();
-    await keep();
-    // The editor stores its open tabs every five seconds.
-    await page.waitForTimeout(8000);
-    await reload();
+    await editor.until("the panel", async () => {
+      await begin();
+      await keep();
+      // The editor stores its open tabs every five seconds, which nothing shows.
+      await page.waitForTimeout(STORING);
+      await reload();
+      const back = page.locator("iframe.webview").first().waitFor({ timeout: 10_000 });
+      return back.then(() => true, () => false);
+    });
     await panel.shows();
     await still();
     assert.ok((await panel.find(RED)).count > 300);
@@ -240,8 +248,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     const started = () => existsSync(`${wrapped}.again`) && Number(readFileSync(`${wrapped}.pid`, "utf8"));
     await editor.until("the slow server", started);
     const link = () => panel.frame.locator(".bar").getAttribute("data-link");
-    await page.waitForTimeout(1000);
-    await editor.until("its news", async () => (await link()) === "open");
+    await editor.until("its news", async () => (await editor.steady("the link", link, 10)) === "open");
     process.kill(started(), "SIGKILL");
     await editor.until("the panel to say so", async () => (await link()) !== "open");
     assert.match(await panel.frame.locator(".bar-link").textContent(), /Starting okoshi|not running/);
@@ -263,11 +270,13 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     const background = () => panel.frame.locator("body").evaluate((body) => getComputedStyle(body).backgroundColor);
     const light = await background();
     const seen = new Set([light]);
+    let last = light;
     for (const theme of ["Default Dark Modern", "Default High Contrast", "Default High Contrast Light"]) {
       configure({ "workbench.colorTheme": theme });
-      await page.waitForTimeout(3000);
+      await editor.until(`the colours of ${theme}`, async () => (await background()) !== last);
+      last = await editor.steady("the background", background);
       await shot(`preview-${theme.toLowerCase().replaceAll(" ", "-")}`);
-      seen.add(await background());
+      seen.add(last);
     }
     configure({});
     await editor.until("the light theme again", async () => (await background()) === light);
@@ -309,8 +318,8 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.press("Control+k");
     await editor.press("Control+i");
     await editor.see(".monaco-hover-content li", "Shape roundv");
-    // Until the hover is fully visible.
-    await page.waitForTimeout(500);
+    const hover = page.locator(".monaco-hover:visible").first();
+    await editor.until("the hover to be fully visible", () => hover.evaluate((shown) => getComputedStyle(shown).opacity === "1"));
     await shot("page");
     await page.setViewportSize({ width: 1280, height: 800 });
   });

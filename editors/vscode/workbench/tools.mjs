@@ -5,6 +5,7 @@ import { existsSync, mkdirSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
 import { delimiter, join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { PATIENCE } from "./editor.mjs";
 
 const CODE_SERVER = "code-server@4.139.1";
 const NODE = "node@24";
@@ -82,8 +83,9 @@ export async function codeServer({ node, server }, { packages, data, extensions,
     }
   };
   const address = `127.0.0.1:${port}`;
-  for (let waited = 0; ; waited += 200) {
-    if (child.exitCode !== null || waited > 60_000) {
+  const end = Date.now() + PATIENCE;
+  for (;;) {
+    if (child.exitCode !== null || Date.now() > end) {
       stop();
       throw new Error(`code-server did not start:\n${said}`);
     }

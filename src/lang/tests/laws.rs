@@ -4,6 +4,9 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::diagnostic::Code;
+use crate::lang::keyword::Keyword;
+use crate::law;
+use crate::patience::finish;
 
 /// Pieces of strings, to be combined in valid and invalid ways.
 fn piece() -> impl Strategy<Value = String> {
@@ -117,21 +120,70 @@ proptest! {
     }
 
     #[test]
-    fn ascii_needs_no_hint(input in string(), container in containers()) {
-        let reading = read(&Text::plain(&input, 0), container);
-        let hints: Vec<_> = reading.diagnostics.iter().filter(|found| found.code == Code::FullWidth).collect();
-        prop_assert!(hints.len() <= 1);
-        if let Some(hint) = hints.first() {
-            let fixed = apply(&input, &hint.fixes[0]);
-            let again = read(&Text::plain(&fixed, 0), container);
-            prop_assert!(again.diagnostics.iter().all(|found| found.code != Code::FullWidth), "{fixed}");
-            let values = |reading: &Reading| reading.settings.iter().map(|s| s.value.clone()).collect::<Vec<_>>();
-            prop_assert_eq!(values(&reading), values(&again));
-        }
+    fn parsing_never_panics(input in "\\PC{0,40}") {
+        let _ = crate::lang::looks_like_string(&input);
+        let _ = read(&Text::plain(&input, 0), Container::Text);
     }
+}
 
-    #[test]
-    fn the_text_of_a_setting_parses_to_the_same_value(input in string()) {
+#[test]
+fn ascii_needs_no_hint() {
+    let wide = prop::sample::select(vec!["＄", "＠", "％", "（", "）", "＂", "２", "Ｃｏｌｏｒ"]);
+    let strings = (string(), wide, string()).prop_map(|(a, wide, b)| format!("{a}{wide}{b}"));
+    let inputs = (prop_oneof![1 => string(), 3 => strings], containers());
+    law::check(law::config(1500), 50, inputs, |(input, container)| {
+        let reading = read(&Text::plain(&input, 0), container);
+        let hints: Vec<_> = reading
+            .diagnostics
+            .iter()
+            .filter(|found| found.code == Code::FullWidth)
+            .collect();
+        prop_assert!(hints.len() <= 1);
+        let Some(hint) = hints.first() else {
+            return Ok(false);
+        };
+        let fixed = apply(&input, &hint.fixes[0]);
+        let again = read(&Text::plain(&fixed, 0), container);
+        prop_assert!(
+            again
+                .diagnostics
+                .iter()
+                .all(|found| found.code != Code::FullWidth),
+            "{fixed}"
+        );
+        let values = |reading: &Reading| -> Vec<_> {
+            let settings = reading.settings.iter();
+            settings.map(|setting| setting.value.clone()).collect()
+        };
+        prop_assert_eq!(values(&reading), values(&again));
+        Ok(true)
+    });
+}
+
+/// A string with what the table shows of some keywords, and sometimes a piece of something else in it.
+fn with_settings() -> impl Strategy<Value = String> {
+    let example = |keyword: &Keyword| {
+        let example = keyword.row().example;
+        let start = example.find(['$', '%']).map_or(0, |at| at + 1);
+        example[start..].to_owned()
+    };
+    let examples = prop::sample::select(Keyword::ALL.iter().map(example).collect::<Vec<_>>());
+    let examples = prop::collection::vec(examples, 1..4);
+    let sign = prop::sample::select(vec!["A$", "A@B$", "$", "%"]);
+    let piece = prop::option::weighted(0.3, (any::<prop::sample::Index>(), piece()));
+    (sign, examples, piece).prop_map(|(sign, examples, piece)| {
+        let mut string = format!("{sign}{}", examples.join(" "));
+        if let Some((place, piece)) = piece {
+            let places: Vec<usize> = string.char_indices().map(|(at, _)| at).collect();
+            string.insert_str(*place.get(&places), &piece);
+        }
+        string
+    })
+}
+
+#[test]
+fn the_text_of_a_setting_parses_to_the_same_value() {
+    law::check(law::config(1500), 80, with_settings(), |input| {
         let reading = read(&Text::plain(&input, 0), Container::Text);
         let sign = match reading.annotation {
             Annotation::Defaults(_) => "%",
@@ -145,19 +197,15 @@ proptest! {
             prop_assert_eq!(&again.settings[0].value, &setting.value);
             prop_assert_eq!(&again.settings[0].text, &setting.text);
         }
-    }
-
-    #[test]
-    fn parsing_never_panics(input in "\\PC{0,40}") {
-        let _ = crate::lang::looks_like_string(&input);
-        let _ = read(&Text::plain(&input, 0), Container::Text);
-    }
+        Ok(!reading.settings.is_empty())
+    });
 }
 
-/// Long strings of one repeated piece, which would expose nested loops or recursion.
+/// Long strings of one repeated piece, on which nested loops would not end and recursion would overflow the stack.
 #[test]
-fn parsing_time_is_linear() {
-    for unit in [
+fn long_strings_are_read() {
+    const LENGTH: usize = 400_000;
+    let units = [
         "(",
         ")",
         "\"",
@@ -180,16 +228,17 @@ fn parsing_time_is_linear() {
         "min(",
         "Color 1,2 ",
         "Shape default 0 20 w ",
-    ] {
-        for head in ["%", "A$Color ", ""] {
-            let input = format!("{head}{}", unit.repeat(200_000 / unit.len()));
-            let start = std::time::Instant::now();
-            let reading = read(&Text::plain(&input, 0), Container::Text);
-            drop(reading);
-            let seconds = start.elapsed().as_secs_f64();
-            assert!(seconds < 5., "{head}{unit}…: {seconds} s");
+    ];
+    finish("the reading of long strings", move || {
+        for unit in units {
+            for head in ["%", "A$Color ", ""] {
+                let input = format!("{head}{}", unit.repeat(LENGTH / unit.len()));
+                let reading = read(&Text::plain(&input, 0), Container::Text);
+                let ends = reading.settings.iter().map(|setting| setting.range.end);
+                assert!(ends.max() <= Some(input.len()), "{head}{unit}…");
+            }
         }
-    }
+    });
 }
 
 #[test]
