@@ -8,16 +8,18 @@
     reason = "with --nocapture it says how much was tried, and where the input of a failure is"
 )]
 
-mod common;
 mod fuzzing;
+#[path = "common/law.rs"]
+#[allow(dead_code, reason = "only the counting is needed here")]
+mod law;
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use std::{env, fs};
 
-use common::law::Tally;
 use fastrand::Rng;
+use law::Tally;
 
 /// The longest input that is tried, in bytes: as long as the longest that the search begins with.
 const LONGEST: usize = 64 << 10;
@@ -172,16 +174,18 @@ macro_rules! tests {
     };
 }
 
+// The shares are two thirds of what they are now: 76 % of strings, 64 % of drawings, but 30 % of models and 20 % of pictures, whose checksums no
+// longer hold.
 tests! {
-    string: 20000 inputs, 1 %;
-    drawing: 1000 inputs, 1 %;
-    changes: 300 inputs, 1 %;
-    motion: 1500 inputs, 1 %;
-    model: 1000 inputs, 1 %;
-    picture: 2000 inputs, 1 %;
-    messages: 20000 inputs, 1 %;
-    session: 400 inputs, 1 %;
-    track: 20000 inputs, 1 %;
+    string: 20000 inputs, 50 %;
+    drawing: 1000 inputs, 40 %;
+    changes: 300 inputs, 40 %;
+    motion: 1500 inputs, 60 %;
+    model: 1000 inputs, 20 %;
+    picture: 2000 inputs, 10 %;
+    messages: 20000 inputs, 40 %;
+    session: 400 inputs, 60 %;
+    track: 20000 inputs, 45 %;
 }
 
 /// The names under `[dependencies]` and `[dev-dependencies]` of a manifest.

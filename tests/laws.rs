@@ -136,7 +136,11 @@ fn word() -> impl Strategy<Value = String> {
 
 /// A string, usually of a part.
 fn string() -> impl Strategy<Value = String> {
-    let names = || prop::sample::select(vec!["A", "B", "C", "D", "U-1", "A.back", "\"a b\""]);
+    let names = || {
+        prop::sample::select(vec![
+            "A", "B", "C", "D", "E", "F", "G", "H", "U-1", "A.back", "\"a b\"",
+        ])
+    };
     let kinds = prop::sample::select(vec![
         "default",
         "default 0 5",
@@ -188,7 +192,7 @@ fn string() -> impl Strategy<Value = String> {
     };
     let examples = prop::sample::select(Keyword::ALL.iter().map(example).collect::<Vec<_>>());
     prop_oneof![
-        6 => (names(), prop::option::of(names()), kinds, more).prop_map(|(name, parent, kind, more)| {
+        6 => (names(), prop::option::weighted(0.3, names()), kinds, more).prop_map(|(name, parent, kind, more)| {
             let parent = parent.map_or(String::new(), |parent| format!("@{parent}"));
             format!("{name}{parent}$Shape {kind}{more}")
         }),

@@ -88,7 +88,8 @@ const SUBJECTS: &[Subject] = &[
         strings: &[
             &[
                 "",
-                "$Motion \"motion.bvh\" loop",
+                "$Motion -l \"motion.bvh\"",
+                "$Motion -i \"motion.bvh\"",
                 "$Motion \"motion.bvh\" Perform \"marks.csv\" Limited 1 4",
                 "$Stand 40 -120",
                 "$Stand 40 -120 Size 1.5",
@@ -110,8 +111,16 @@ const SUBJECTS: &[Subject] = &[
             ],
             &["", "$Mark green", "$Swing 3", "$Shape roundh"],
             &[
+                // Such that one option after the other changes.
                 "Motion \"motion.bvh\"",
-                "Motion \"motion.bvh\" in-place Limited 1 4",
+                "Motion -i \"motion.bvh\"",
+                "Motion -l \"motion.bvh\"",
+                "Motion \"motion.bvh\" lying +z",
+                "Motion \"motion.bvh\" Limited 1 4",
+                "Motion \"motion.bvh\" Limited 2 6",
+                "Motion punch Perform \"marks.csv\"",
+                "Motion punch Perform -e \"marks.csv\"",
+                "Motion punch Perform -ec \"marks.csv\"",
                 "Perform \"marks.csv\" Motion \"motion.bvh\"",
                 "Perform \"marks.csv\" Motion punch Limited 2 12",
                 "Motion walk Limited 4 30",
@@ -169,6 +178,8 @@ enum Step {
     Choose(Index, Index),
     /// Removes characters from a string, or types some.
     Type(Index, Index, usize, &'static str),
+    /// Changes a number of the drawing, by a little or by much, or changes it back.
+    Number(Index, &'static str),
     /// Changes a linked file, or removes it.
     File(Index, usize),
     Undo,
@@ -177,11 +188,13 @@ enum Step {
 
 fn step() -> impl Strategy<Value = Step> {
     let index = any::<Index>;
+    let digits = prop::sample::select(vec![".001", ".7", "0"]);
     let typed = prop::sample::select(vec!["", "1", " ", "$", "e", "@Body", ".5", "\""]);
     prop_oneof![
         6 => (index(), index()).prop_map(|(place, string)| Step::Choose(place, string)),
         4 => (index(), index(), 0..3_usize, typed)
             .prop_map(|(place, at, gone, typed)| Step::Type(place, at, gone, typed)),
+        3 => (index(), digits).prop_map(|(number, digits)| Step::Number(number, digits)),
         5 => (index(), 0..files::VERSIONS).prop_map(|(file, version)| Step::File(file, version)),
         2 => Just(Step::Undo),
         1 => any::<bool>().prop_map(Step::Tolerance),
@@ -197,6 +210,20 @@ fn text(drawing: &str, strings: &[String]) -> String {
         text += piece;
     }
     text
+}
+
+/// The text with these digits after a number of an attribute.
+fn with_digits(text: &str, which: Index, digits: &str) -> String {
+    let mut attributes: Vec<&str> = text.split('"').collect();
+    let is_number = |at: &usize| {
+        let value = attributes[*at];
+        !value.is_empty() && value.bytes().all(|byte| byte.is_ascii_digit())
+    };
+    let numbers: Vec<usize> = (0..attributes.len()).filter(is_number).collect();
+    let chosen = *which.get(&numbers);
+    let longer = format!("{}{digits}", attributes[chosen]);
+    attributes[chosen] = &longer;
+    attributes.join("\"")
 }
 
 /// The names of all files.
@@ -253,6 +280,7 @@ fn agree(
         .map(|(all, which)| (*which.get(all)).to_owned())
         .collect();
     let mut undo: Vec<Vec<String>> = Vec::new();
+    let mut digits: Option<(Index, &str)> = None;
     let mut last: Option<Compiled> = None;
     for number in 0..=steps.len() {
         let act = number.checked_sub(1).map(|number| &steps[number]);
@@ -272,6 +300,9 @@ fn agree(
                 string.replace_range(start..end, typed);
                 undo.push(before);
             }
+            Some(Step::Number(which, added)) => {
+                digits = digits.is_none().then_some((*which, *added));
+            }
             Some(Step::File(file, version)) => {
                 // One that the drawing links to now, if there is any.
                 let now = text(subject.drawing, &strings);
@@ -288,6 +319,10 @@ fn agree(
             Some(Step::Tolerance(coarse)) => options.tolerance = if *coarse { 0.01 } else { 0.001 },
         }
         let text = text(subject.drawing, &strings);
+        let text = match digits {
+            Some((which, digits)) => with_digits(&text, which, digits),
+            None => text,
+        };
         let incremental = compiler.compile(&text, &options, &files);
         let fresh = compile(&text, &options, &files);
         prop_assert!(!fresh.has_crashed(), "{:?} made {}", act, text);
