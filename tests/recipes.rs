@@ -14,7 +14,7 @@ const RECIPES: &[(&str, &str, &[&str])] = &[
     ("A new keyword", "metallic", &["Metallic", "METALLIC"]),
     ("A new keyword", "strokes", &["STROKES"]),
     ("A new kind of shape", "coneh", &["coneh", "Coneh"]),
-    ("A new clip that comes along", "sneak", &["sneak", "Sneak"]),
+    ("A new built-in clip", "sneak", &["sneak", "Sneak"]),
     ("A new exporter", "obj", &["obj", "OBJ", "Obj"]),
     (
         "A new editor feature",
