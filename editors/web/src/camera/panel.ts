@@ -242,11 +242,11 @@ export class CameraPanel {
     const moves: Record<string, readonly [number, number]> = { ArrowLeft: [-right, 0], ArrowRight: [right, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
     const move = moves[event.key];
     const { width, height } = this.canvas;
+    const from = this.cross ?? { x: Math.round(width / 2), y: Math.round(height / 2) };
     if (move) {
-      const from = this.cross ?? { x: Math.round(width / 2), y: Math.round(height / 2) };
       this.cross = { x: Math.min(Math.max(from.x + move[0], 0), width - 1), y: Math.min(Math.max(from.y + move[1], 0), height - 1) };
       this.overlay.showCross(this.cross);
-    } else if (event.key === "Enter" && this.cross) this.pick(this.cross);
+    } else if (event.key === "Enter") this.pick(from);
     else if (event.key === " ") this.hold(!this.isHeld);
     else return;
     event.preventDefault();
