@@ -1,8 +1,9 @@
 //! Materials, shared by all parts and tiles with the same factors and texture.
 
 use rustc_hash::FxHashMap;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
+use super::Owner;
 use super::textures::{Textured, Textures};
 use crate::bind::{Bindings, MaterialFactors, PartKind};
 use crate::diagnostic::Diagnostic;
@@ -14,7 +15,7 @@ use crate::scene::{
     TextureUse, linear,
 };
 use crate::svg::Drawing;
-use crate::terrain::{Layer, Tile, TileMaterial};
+use crate::terrain::{LandscapeId, Layer, Tile, TileMaterial};
 use crate::texture::Alpha;
 
 /// The alpha below which a texture with only opaque and transparent pixels has a hole.
@@ -36,7 +37,7 @@ pub(super) struct Materials {
     images: TiVec<ImageId, Image>,
     of_part: Vec<PartMaterial>,
     /// Per tile layer and look its material.
-    of_looks: Vec<Vec<Option<MaterialId>>>,
+    of_looks: TiVec<LandscapeId, Vec<Option<MaterialId>>>,
 }
 
 /// Collects materials; equal ones of one owner are one.
@@ -50,7 +51,7 @@ impl Shared {
     /// A material of this owner; `None` is everybody.
     fn slot(
         &mut self,
-        owner: Option<usize>,
+        owner: Option<Owner>,
         factors: &MaterialFactors,
         double_sided: bool,
         texture: Option<TextureId>,
@@ -71,7 +72,7 @@ struct Key {
     factors: [u64; 9],
     double_sided: bool,
     texture: Option<TextureId>,
-    owner: Option<usize>,
+    owner: Option<Owner>,
 }
 
 impl Materials {
@@ -83,7 +84,7 @@ impl Materials {
         drawing: &Drawing,
         bindings: &Bindings,
         models: &LinkedModels,
-        layers: &[Layer],
+        layers: &TiSlice<LandscapeId, Layer>,
         regions: &[usize],
         sharing: Sharing,
         resolver: &dyn Resolver,
@@ -101,7 +102,7 @@ impl Materials {
             diagnostics,
         );
         let mut shared = Shared::default();
-        let owned_by = |owner: usize| (sharing == Sharing::Apart).then_some(owner);
+        let owned_by = |owner: Owner| (sharing == Sharing::Apart).then_some(owner);
         let look = |part: usize| {
             let mut factors = bindings.material_factors(drawing, part);
             let textured = textures.of(part);
@@ -126,7 +127,13 @@ impl Materials {
             let (factors, textured) = look(index);
             let double_sided = profile.is_open();
             let texture = textured.map(|textured| textured.texture);
-            let slot = shared.slot(owned_by(index), &factors, double_sided, texture, &textures);
+            let slot = shared.slot(
+                owned_by(Owner::Part(index)),
+                &factors,
+                double_sided,
+                texture,
+                &textures,
+            );
             of_part.push(Some((slot, textured.map(|textured| textured.map))));
         }
         for region in regions {
@@ -137,23 +144,23 @@ impl Materials {
             material.unlit = true;
             of_part[*region] = Some((shared.list.push_and_get_key(material), Some(map)));
         }
-        let mut of_look = |layer: usize, number: usize, found: &TileMaterial| {
+        let mut of_look = |layer: LandscapeId, number: usize, found: &TileMaterial| {
             let mut factors = found.factors.clone();
             let texture = textures.of_look(layer, number);
             if texture.is_some() && !found.is_tinted {
                 factors.color[..3].fill(1.0);
             }
-            let owner = owned_by(bindings.parts.len() + layer);
+            let owner = owned_by(Owner::Landscape(layer));
             let drawn = found.tile != Tile::None;
             drawn.then(|| shared.slot(owner, &factors, false, texture, &textures))
         };
-        let of_layer = |(index, layer): (usize, &Layer)| {
+        let of_layer = |(index, layer): (LandscapeId, &Layer)| {
             let looks = layer.materials.iter().enumerate();
             looks
                 .map(|(number, look)| of_look(index, number, look))
                 .collect()
         };
-        let of_looks = layers.iter().enumerate().map(of_layer).collect();
+        let of_looks = layers.iter_enumerated().map(of_layer).collect();
         let (textures, images) = textures.into_lists();
         Self {
             list: shared.list,
@@ -177,16 +184,11 @@ impl Materials {
 }
 
 /// Per tile layer and look its material.
-pub(super) struct LookMaterials(Vec<Vec<Option<MaterialId>>>);
+pub(super) struct LookMaterials(pub(super) TiVec<LandscapeId, Vec<Option<MaterialId>>>);
 
 impl LookMaterials {
-    /// The materials of each layer's looks.
-    pub(super) fn layers(&self) -> impl Iterator<Item = &[Option<MaterialId>]> {
-        self.0.iter().map(Vec::as_slice)
-    }
-
     /// The material of a layer's look, if anything looks so.
-    pub(super) fn of(&self, layer: usize, look: u8) -> Option<MaterialId> {
+    pub(super) fn of(&self, layer: LandscapeId, look: u8) -> Option<MaterialId> {
         self.0[layer].get(usize::from(look)).copied().flatten()
     }
 }
@@ -195,7 +197,7 @@ fn key(
     factors: &MaterialFactors,
     double_sided: bool,
     texture: Option<TextureId>,
-    owner: Option<usize>,
+    owner: Option<Owner>,
 ) -> Key {
     let [r, g, b, alpha] = factors.color;
     let [er, eg, eb] = factors.emissive;

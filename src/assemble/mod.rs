@@ -18,7 +18,7 @@ use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, RestNode};
 use crate::scene::{MaterialId, PartMaterial, Scene, WorldTransform};
 use crate::svg::Drawing;
-use crate::terrain::{self, Layer};
+use crate::terrain::{self, LandscapeId, Layer};
 use materials::{LookMaterials, Materials, Sharing};
 
 pub use world::world_transform;
@@ -29,7 +29,7 @@ pub(crate) struct Assembled {
     /// The model.
     pub scene: Scene,
     /// The tile maps.
-    pub layers: Vec<Layer>,
+    pub layers: TiVec<LandscapeId, Layer>,
     /// The characters that turn.
     pub characters: Vec<Character>,
     /// The clips that figures play.
@@ -39,12 +39,12 @@ pub(crate) struct Assembled {
 }
 
 /// What a surface of a scene is made from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Owner {
     /// The part with this index.
     Part(usize),
-    /// The tile layer with this index.
-    Layer(usize),
+    /// The landscape of a tile layer.
+    Landscape(LandscapeId),
 }
 
 /// A scene in which no two parts, and no two tile layers, have a material in common: the material of a surface says what it is
@@ -157,9 +157,9 @@ pub(crate) fn assemble_apart(
             owners[*material] = Some(Owner::Part(part));
         }
     }
-    for (layer, materials) in built.of_looks.layers().enumerate() {
+    for (layer, materials) in built.of_looks.0.iter_enumerated() {
         for material in materials.iter().flatten() {
-            owners[*material] = Some(Owner::Layer(layer));
+            owners[*material] = Some(Owner::Landscape(layer));
         }
     }
     Apart {
@@ -171,7 +171,7 @@ pub(crate) fn assemble_apart(
 /// A scene without clips, and what clips need to know.
 struct Built {
     scene: Scene,
-    layers: Vec<Layer>,
+    layers: TiVec<LandscapeId, Layer>,
     world: WorldTransform,
     figures: FigureNodes,
     /// Per part its material.
@@ -213,7 +213,7 @@ fn build(
     let (mut scene, of_part, of_looks) = materials.into_scene();
     models.add_materials(&mut scene);
     let figures = figures.build(&models, &of_part, &world, &mut scene);
-    for (index, layer) in layers.iter().enumerate() {
+    for (index, layer) in layers.iter_enumerated() {
         let parent = layer
             .parent
             .and_then(|part| Some((figures.node_of_part[part]?, &figures.frames[part])));

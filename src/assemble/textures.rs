@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHashSet};
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 use crate::bind::{Bindings, PartKind, StringId};
 use crate::diagnostic::{Code, Diagnostic};
@@ -14,7 +14,7 @@ use crate::resolver::{LinkError, Resolver};
 use crate::scene::{self, Image, ImageId, Texture, TextureId, Wrap};
 use crate::source::Span;
 use crate::svg::{Drawing, PaintKey, broken_link};
-use crate::terrain::{Layer, TileTexture};
+use crate::terrain::{LandscapeId, Layer, TileTexture};
 use crate::texture::{
     self, Alpha, Baked, Holes, PaintServer, Picture, PictureError, Plan, PlanKey, Source,
 };
@@ -29,7 +29,7 @@ pub(super) struct Textures {
     alphas: TiVec<ImageId, Alpha>,
     of_part: FxHashMap<usize, Textured>,
     /// By tile layer and look.
-    of_look: FxHashMap<(usize, usize), TextureId>,
+    of_look: FxHashMap<(LandscapeId, usize), TextureId>,
 }
 
 #[derive(Clone, Copy)]
@@ -59,7 +59,7 @@ impl Textures {
         drawing: &'a Drawing,
         bindings: &'a Bindings,
         models: &LinkedModels,
-        layers: &'a [Layer],
+        layers: &'a TiSlice<LandscapeId, Layer>,
         regions: &[usize],
         resolver: &dyn Resolver,
         memo: &Memo,
@@ -90,7 +90,7 @@ impl Textures {
         for region in regions {
             collector.part(*region, diagnostics);
         }
-        for (index, layer) in layers.iter().enumerate() {
+        for (index, layer) in layers.iter_enumerated() {
             collector.layer(index, layer, diagnostics);
         }
         texture::fit(&mut collector.plans);
@@ -103,7 +103,7 @@ impl Textures {
     }
 
     /// The texture of a tile layer's look.
-    pub(super) fn of_look(&self, layer: usize, look: usize) -> Option<TextureId> {
+    pub(super) fn of_look(&self, layer: LandscapeId, look: usize) -> Option<TextureId> {
         self.of_look.get(&(layer, look)).copied()
     }
 
@@ -128,7 +128,7 @@ struct Collector<'a> {
     known: FxHashMap<PlanKey, usize>,
     parts: Vec<TexturedPart>,
     /// Tile layers' looks, each with the plan that is laid over each tile.
-    looks: Vec<((usize, usize), usize)>,
+    looks: Vec<((LandscapeId, usize), usize)>,
     /// Paints that cannot be drawn and were reported.
     reported: FxHashSet<&'a PaintKey>,
 }
@@ -188,7 +188,7 @@ impl<'a> Collector<'a> {
     }
 
     /// The looks of a tile layer.
-    fn layer(&mut self, index: usize, layer: &'a Layer, diagnostics: &mut Vec<Diagnostic>) {
+    fn layer(&mut self, index: LandscapeId, layer: &'a Layer, diagnostics: &mut Vec<Diagnostic>) {
         for (number, look) in layer.materials.iter().enumerate() {
             let Some(TileTexture { link, string, span }) = &look.texture else {
                 continue;

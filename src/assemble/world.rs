@@ -2,17 +2,21 @@
 
 use glam::DVec2;
 use rayon::prelude::*;
+use typed_index_collections::TiSlice;
 
 use crate::bind::{Bindings, Part, PartKind};
 use crate::scene::WorldTransform;
-use crate::terrain::Layer;
+use crate::terrain::{LandscapeId, Layer};
 use crate::threads::GRAIN;
 
 /// Metres in a centimetre: one drawing unit is `Scale` centimetres.
 const CENTIMETER: f64 = 0.01;
 
 /// How a drawing with these tile layers lies in the world.
-pub fn world_transform(bindings: &Bindings, layers: &[Layer]) -> WorldTransform {
+pub fn world_transform(
+    bindings: &Bindings,
+    layers: &TiSlice<LandscapeId, Layer>,
+) -> WorldTransform {
     WorldTransform {
         origin: bindings
             .settings
@@ -24,7 +28,7 @@ pub fn world_transform(bindings: &Bindings, layers: &[Layer]) -> WorldTransform 
 }
 
 /// The middle of the lower edge of all that is built.
-fn middle_of_lower_edge(bindings: &Bindings, layers: &[Layer]) -> DVec2 {
+fn middle_of_lower_edge(bindings: &Bindings, layers: &TiSlice<LandscapeId, Layer>) -> DVec2 {
     let is_built = |part: &&Part| matches!(part.kind, PartKind::Main | PartKind::Sub);
     let parts = bindings.parts.par_iter().with_min_len(GRAIN);
     let boxes = parts.filter(is_built).map(|part| part.measure.bounds);

@@ -17,7 +17,7 @@ use super::place::{Frame, TrackPosition, frames, place};
 use super::region::{Direction, RegionId, View};
 use super::shape::{Ends, Morph, line_mesh, match_lines};
 use super::turn::between;
-use crate::bind::Bindings;
+use crate::bind::{Bindings, LayerId};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Outline;
 use crate::lang::keyword::Keyword;
@@ -36,7 +36,7 @@ pub struct Character {
     /// Its name.
     pub name: String,
     /// Per view the index of its layer.
-    pub layers: TiVec<ViewId, usize>,
+    pub layers: TiVec<ViewId, LayerId>,
     /// Its views, and what lies between them.
     pub turn: Turn,
     /// Per view its centre and scale.
@@ -100,7 +100,7 @@ pub(crate) fn read(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Character> {
     features::report_others(drawing, bindings, diagnostics);
-    let mut names: Vec<(&str, Vec<usize>)> = Vec::new();
+    let mut names: Vec<(&str, Vec<LayerId>)> = Vec::new();
     for (index, layer) in bindings.views() {
         match names.iter_mut().find(|(name, _)| *name == layer.name) {
             Some((_, layers)) => layers.push(index),
@@ -119,7 +119,7 @@ pub(crate) fn read(
 fn views(
     drawing: &Drawing,
     bindings: &Bindings,
-    (name, layers): (&str, &[usize]),
+    (name, layers): (&str, &[LayerId]),
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<TiVec<ViewId, DrawnView>> {

@@ -4,7 +4,7 @@ use typed_index_collections::TiSlice;
 
 use super::drawn::{DrawnView, MOST_REGIONS};
 use super::matching::{Candidate, Matching, Reason, RegionInView, Unmatched, Warning};
-use crate::bind::Bindings;
+use crate::bind::{Bindings, LayerId};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::bounds;
 use crate::lang::ast::{Annotation, ArgumentKind};
@@ -14,7 +14,7 @@ use crate::source::Span;
 use crate::svg::Drawing;
 
 /// The string of a view's layer.
-fn span(bindings: &Bindings, layer: usize) -> Span {
+fn span(bindings: &Bindings, layer: LayerId) -> Span {
     bindings.strings[bindings.layers[layer].string].text.whole()
 }
 
@@ -28,7 +28,7 @@ pub(super) fn alone(bindings: &Bindings, name: &str, only: &DrawnView) -> Diagno
 }
 
 /// A view without a region.
-pub(super) fn empty(drawing: &Drawing, bindings: &Bindings, layer: usize) -> Diagnostic {
+pub(super) fn empty(drawing: &Drawing, bindings: &Bindings, layer: LayerId) -> Diagnostic {
     let group = drawing.describe_group(bindings.layers[layer].group);
     let message = format!("this view is left out: nothing is drawn in {group}");
     Diagnostic::new(Code::UnusableView, span(bindings, layer), message)
@@ -36,7 +36,7 @@ pub(super) fn empty(drawing: &Drawing, bindings: &Bindings, layer: usize) -> Dia
 }
 
 /// A view with more regions than can be matched.
-pub(super) fn too_many(bindings: &Bindings, layer: usize, count: usize) -> Diagnostic {
+pub(super) fn too_many(bindings: &Bindings, layer: LayerId, count: usize) -> Diagnostic {
     let message = format!(
         "this view is left out: it has {count} shapes, and at most {MOST_REGIONS} can be matched with those of another view"
     );
@@ -45,7 +45,7 @@ pub(super) fn too_many(bindings: &Bindings, layer: usize, count: usize) -> Diagn
 }
 
 /// A view in the direction of another one.
-pub(super) fn same_direction(bindings: &Bindings, layer: usize, first: usize) -> Diagnostic {
+pub(super) fn same_direction(bindings: &Bindings, layer: LayerId, first: LayerId) -> Diagnostic {
     let name = &bindings.layers[layer].name;
     let message = format!("this view of `{name}` is left out: another one has the same angles");
     Diagnostic::new(Code::UnusableView, span(bindings, layer), message)
@@ -148,7 +148,7 @@ fn angle_between(views: &TiSlice<ViewId, DrawnView>, of: [ViewId; 2]) -> Angle {
 /// is 0 or no plain number.
 fn with_other_sign(
     bindings: &Bindings,
-    layer: usize,
+    layer: LayerId,
     angle: Angle,
 ) -> Option<(String, Span, String)> {
     let string = &bindings.strings[bindings.layers[layer].string];

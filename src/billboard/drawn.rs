@@ -14,7 +14,7 @@ use super::keys;
 use super::matching::RegionInView;
 use super::raster::{self, RasterView};
 use super::region::{Direction, Region, RegionId, View};
-use crate::bind::{Bindings, PartKind};
+use crate::bind::{Bindings, LayerId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Outline, area, bounds, intersect};
 use crate::lang::keyword::Keyword;
@@ -36,7 +36,7 @@ const CONTAINED: f64 = 0.9;
 #[derive(Debug)]
 pub(super) struct DrawnView {
     /// Index of its layer.
-    pub(super) layer: usize,
+    pub(super) layer: LayerId,
     pub(super) view: View,
     /// What else the drawing says of each region.
     pub(super) drawn: TiVec<RegionId, Drawn>,
@@ -82,7 +82,7 @@ pub(super) struct OpenLine {
 }
 
 /// A setting of a view's string.
-pub(super) fn setting(bindings: &Bindings, layer: usize, keyword: Keyword) -> Option<&Value> {
+pub(super) fn setting(bindings: &Bindings, layer: LayerId, keyword: Keyword) -> Option<&Value> {
     let settings = &bindings.strings[bindings.layers[layer].string].settings;
     let mut settings = settings.iter();
     let found = settings.find(|setting| setting.keyword == keyword);
@@ -90,7 +90,7 @@ pub(super) fn setting(bindings: &Bindings, layer: usize, keyword: Keyword) -> Op
 }
 
 /// The direction of a view's layer.
-fn direction(bindings: &Bindings, layer: usize) -> Option<Direction> {
+fn direction(bindings: &Bindings, layer: LayerId) -> Option<Direction> {
     match *setting(bindings, layer, Keyword::View)? {
         Value::Pair([theta, phi]) => Some(Direction { theta, phi }),
         _ => None,
@@ -101,7 +101,7 @@ fn direction(bindings: &Bindings, layer: usize) -> Option<Direction> {
 pub(super) fn read(
     drawing: &Drawing,
     bindings: &Bindings,
-    layer: usize,
+    layer: LayerId,
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<DrawnView> {

@@ -6,7 +6,7 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::drawn::DrawnView;
 use super::matching::{Track, TrackId};
 use super::place::Frame;
-use crate::bind::{Bindings, StringId};
+use crate::bind::{Bindings, LayerId, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::border_distance_squared;
 use crate::lang::ast::Annotation;
@@ -29,7 +29,7 @@ pub(super) type OfRegion = TiVec<ViewId, Vec<(String, DVec2)>>;
 pub(super) fn of_view(
     drawing: &Drawing,
     bindings: &Bindings,
-    layer: usize,
+    layer: LayerId,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<FeaturePoint> {
     let mut found: Vec<FeaturePoint> = Vec::new();

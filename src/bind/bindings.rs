@@ -13,7 +13,7 @@ use crate::source::Text;
 use crate::svg::{Drawing, Element, GroupId, Paint, ShapeId};
 
 use super::attributes::Legend;
-use super::matching::{DrawingSettings, Layers, Leaders};
+use super::matching::{DrawingSettings, LayerId, Layers, Leaders};
 
 index_type!(
     /// A string of a drawing.
@@ -42,7 +42,7 @@ pub struct Bindings {
     /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.
     pub hierarchy_by_contact: bool,
     /// Per layer the main part that is its parent; `None` for a child of the root.
-    pub(super) parent_of_layer: Vec<Option<usize>>,
+    pub(super) parent_of_layer: TiVec<LayerId, Option<usize>>,
     /// The lines that lead from strings to what they mean.
     pub(super) leaders: Leaders,
 }
@@ -233,7 +233,7 @@ pub(super) fn paint(drawing: &Drawing, shape: ShapeId, is_stroke: bool) -> &Pain
 
 impl Bindings {
     /// The main part that is the parent of a layer; `None` for a child of the root.
-    pub fn parent_of_layer(&self, layer: usize) -> Option<usize> {
+    pub fn parent_of_layer(&self, layer: LayerId) -> Option<usize> {
         self.parent_of_layer[layer]
     }
 

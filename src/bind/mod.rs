@@ -24,7 +24,7 @@ pub(crate) use bindings::{
     Bindings, BoundBy, DrawingString, NamedBy, Part, StringHolder, StringId,
 };
 pub use matching::in_layers_of_pixels;
-pub(crate) use matching::{BindRule, DistanceMode, LayerKind};
+pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
 pub(crate) use names::written_by_a_person;
 pub(crate) use reports::locate;
 

@@ -270,8 +270,8 @@ fn group_strings_make_layers_of_tiles_and_regions() {
         (LayerKind::Pose, "Boy"),
     ];
     assert_eq!(layers, expected);
-    let tile_layers: Vec<usize> = bindings.tile_layers().map(|(index, _)| index).collect();
-    assert_eq!(tile_layers, [0]);
+    let tile_layers: Vec<LayerId> = bindings.tile_layers().map(|(index, _)| index).collect();
+    assert_eq!(tile_layers, [LayerId::from(0)]);
     // Squares by number: that of the map is a tile, that of the view a region, and no group string belongs to a part.
     let kinds: Vec<PartKind> = bindings.parts.iter().map(|part| part.kind).collect();
     let main = PartKind::Main;
@@ -283,12 +283,16 @@ fn group_strings_make_layers_of_tiles_and_regions() {
     let group_of = |shape: usize| compiled.drawing.shapes[ShapeId::from(shape)].group;
     let in_layers = in_layers_of_pixels(&compiled.drawing);
     assert!(in_layers[group_of(0)] && in_layers[group_of(1)] && !in_layers[group_of(2)]);
-    assert_eq!(bindings.tile_layer_of_group(group_of(0)), Some(0));
+    assert_eq!(bindings.tile_layer_of_group(group_of(0)), Some(0.into()));
     assert_eq!(bindings.tile_layer_of_group(group_of(1)), None);
-    assert_eq!(bindings.view_of_group(group_of(1)), Some(1));
+    assert_eq!(bindings.view_of_group(group_of(1)), Some(1.into()));
     assert_eq!(bindings.layers.of_group(group_of(2)), None);
     assert_eq!(
-        bindings.layer_attributes(0).tile_size().unwrap().value,
+        bindings
+            .layer_attributes(0.into())
+            .tile_size()
+            .unwrap()
+            .value,
         20.0
     );
 }

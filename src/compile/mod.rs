@@ -5,6 +5,8 @@ mod incremental;
 use std::io;
 use std::sync::Arc;
 
+use typed_index_collections::TiVec;
+
 use crate::assemble::{self, Assembled};
 use crate::billboard::Character;
 use crate::bind::{self, Bindings};
@@ -17,7 +19,7 @@ use crate::rig;
 use crate::scene::Scene;
 use crate::source::Span;
 use crate::svg::{self, Drawing};
-use crate::terrain;
+use crate::terrain::{self, LandscapeId};
 use crate::threads;
 
 pub use incremental::Compiler;
@@ -60,7 +62,7 @@ pub struct Compiled {
     pub bindings: Bindings,
     /// The tile maps.
     #[doc(hidden)]
-    pub layers: Vec<terrain::Layer>,
+    pub layers: TiVec<LandscapeId, terrain::Layer>,
     /// The characters that turn.
     #[doc(hidden)]
     pub characters: Vec<Character>,

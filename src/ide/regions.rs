@@ -219,8 +219,7 @@ impl Analysis {
     /// Describes the view that a string makes of its layer: its regions and their partners. `None` for other strings.
     pub(super) fn view_card(&self, string: StringId) -> Option<String> {
         let bindings = self.bindings();
-        let mut layers = bindings.layers.iter();
-        let index = layers.position(|layer| layer.string == string)?;
+        let index = bindings.layers.position(|layer| layer.string == string)?;
         let layer = &bindings.layers[index];
         if layer.kind != LayerKind::View {
             return None;

@@ -11,7 +11,7 @@ use crate::bind::{
 use crate::compile::Compiled;
 use crate::source::Span;
 use crate::svg::{Element, GroupId, ShapeId};
-use crate::terrain::Layer;
+use crate::terrain::{LandscapeId, Layer};
 
 /// Something that a drawing consists of.
 #[derive(Debug, Clone, Copy)]
@@ -27,7 +27,7 @@ pub enum Which {
     /// A part of a figure; also legends and unused parts.
     Part(usize),
     /// A landscape.
-    Landscape(usize),
+    Landscape(LandscapeId),
     /// A character that turns.
     Character(usize),
     /// A region of a character, the same one in all views.
@@ -41,7 +41,7 @@ impl<'a> Subject<'a> {
         let parts = compiled.bindings.parts.iter().enumerate();
         let parts = parts.filter(|(_, part)| !is_content(part));
         let parts = parts.map(|(part, _)| Which::Part(part));
-        let landscapes = (0..compiled.layers.len()).map(Which::Landscape);
+        let landscapes = compiled.layers.keys().map(Which::Landscape);
         let characters = compiled.characters.iter().enumerate();
         let characters = characters.flat_map(|(index, character)| {
             let regions = character.regions.keys();
@@ -78,9 +78,8 @@ impl<'a> Subject<'a> {
 
     /// The landscape, region or character that a shape in a layer shows; a picture of several regions shows their character.
     fn of_content(compiled: &'a Compiled, shape: ShapeId) -> Option<Self> {
-        let mut layers = compiled.layers.iter();
         let shows = |layer: &Layer| layer.sources.iter().any(|tiles| tiles.shape == shape);
-        let which = match layers.position(shows) {
+        let which = match compiled.layers.position(shows) {
             Some(landscape) => Which::Landscape(landscape),
             None => {
                 let mut characters = compiled.characters.iter().enumerate();

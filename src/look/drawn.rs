@@ -10,6 +10,7 @@ use crate::compile::Compiled;
 use crate::geometry::Outline;
 use crate::resolver::Resolver;
 use crate::svg::{self, Drawing, LeftOut, ShapeId};
+use crate::terrain::LandscapeId;
 
 /// Shapes with less opacity are not seen.
 const CLEAR: f64 = 1.0 / 255.0;
@@ -60,7 +61,7 @@ impl Drawn {
     pub(super) fn built(&self, owner: Owner) -> Owner {
         match owner {
             Owner::Part(part) => Owner::Part(self.regions.get(&part).copied().unwrap_or(part)),
-            Owner::Layer(_) => owner,
+            Owner::Landscape(_) => owner,
         }
     }
 
@@ -96,20 +97,20 @@ fn owners_of_parts(compiled: &Compiled, regions: &FxHashMap<usize, usize>) -> Ve
             let is_built = bindings.profile(drawing, index).is_some();
             is_built.then_some(Owner::Part(index))
         }
-        PartKind::Tile => layer_of(compiled, part.shape).map(Owner::Layer),
+        PartKind::Tile => landscape_of(compiled, part.shape).map(Owner::Landscape),
         PartKind::Region => regions.contains_key(&index).then_some(Owner::Part(index)),
         PartKind::Legend | PartKind::Unused => None,
     };
     bindings.parts.iter().enumerate().map(owner).collect()
 }
 
-/// The index of the tile map that a shape belongs to.
-fn layer_of(compiled: &Compiled, shape: ShapeId) -> Option<usize> {
+/// The landscape that a shape belongs to.
+fn landscape_of(compiled: &Compiled, shape: ShapeId) -> Option<LandscapeId> {
     let group = compiled.drawing.shapes[shape].group;
     let layer = compiled.bindings.tile_layer_of_group(group)?;
-    let string = compiled.bindings.layers[layer].string;
-    let mut layers = compiled.layers.iter();
-    layers.position(|layer| layer.string == string)
+    compiled
+        .layers
+        .position(|landscape| landscape.index == layer)
 }
 
 /// What of the file is not drawn: all that is not built. Keys are the first bytes of elements.

@@ -19,10 +19,9 @@ mod hints;
 mod view;
 
 use rustc_hash::FxHashMap;
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec};
 
 use crate::assemble::{Owner, assemble_apart};
-use crate::bind::Bindings;
 use crate::compile::Compiled;
 use crate::crash::Crash;
 use crate::export::{self, GLB};
@@ -30,7 +29,7 @@ use crate::lang::keyword::Keyword;
 use crate::render::{self, Options, PosedModel, RenderError};
 use crate::resolver::Resolver;
 use crate::scene::MaterialId;
-use crate::terrain::Layer;
+use crate::terrain::{LandscapeId, Layer};
 use crate::threads;
 use borders::Borders;
 use drawn::Drawn;
@@ -82,7 +81,7 @@ pub enum Instead {
     /// Another part.
     Part(usize),
     /// The landscape of a tile layer.
-    Landscape(usize),
+    Landscape(LandscapeId),
 }
 
 /// Why a model cannot be compared with its drawing. Messages follow the name of the drawing.
@@ -215,7 +214,7 @@ fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look
             let what = match *shown {
                 _ if is_same => Instead::OtherColor,
                 Shown::Owner(Owner::Part(other)) => Instead::Part(other),
-                Shown::Owner(Owner::Layer(layer)) => Instead::Landscape(layer),
+                Shown::Owner(Owner::Landscape(layer)) => Instead::Landscape(layer),
                 Shown::Nothing | Shown::File => Instead::Nothing,
             };
             *instead.entry((part, what)).or_default() += 1;
@@ -253,7 +252,7 @@ fn is_alike(one: [u8; 4], other: [u8; 4]) -> bool {
 /// What shows other colours than were drawn.
 struct Recolored {
     parts: Vec<bool>,
-    layers: Vec<bool>,
+    landscapes: TiVec<LandscapeId, bool>,
 }
 
 impl Recolored {
@@ -275,35 +274,24 @@ impl Recolored {
             }
         }
         let by_legends = |layer: &Layer| {
-            let index = tile_layer(bindings, layer)?;
             let legends = (0..bindings.legends.len()).map(Some);
             let mut all = std::iter::once(None).chain(legends);
-            Some(all.any(|legend| {
-                let attributes = bindings.tile_attributes(index, legend);
+            all.any(|legend| {
+                let attributes = bindings.tile_attributes(layer.index, legend);
                 let set = |keyword: &Keyword| attributes.source(*keyword).is_some();
                 OF_COLOR.iter().any(set)
-            }))
+            })
         };
-        let layers = compiled.layers.iter();
         Self {
             parts,
-            layers: layers
-                .map(|layer| by_legends(layer).unwrap_or(false))
-                .collect(),
+            landscapes: compiled.layers.iter().map(by_legends).collect(),
         }
     }
 
     fn contains(&self, owner: Owner) -> bool {
         match owner {
             Owner::Part(part) => self.parts[part],
-            Owner::Layer(layer) => self.layers[layer],
+            Owner::Landscape(landscape) => self.landscapes[landscape],
         }
     }
-}
-
-/// The index of a tile layer among the bindings' layers.
-fn tile_layer(bindings: &Bindings, layer: &Layer) -> Option<usize> {
-    let mut layers = bindings.tile_layers();
-    let found = layers.find(|(_, other)| other.string == layer.string)?;
-    Some(found.0)
 }

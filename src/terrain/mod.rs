@@ -24,4 +24,4 @@ pub use landscape::{DEFAULT_ROOF, HouseInfo, Landscape};
 pub(crate) use map::MAX_CELLS;
 pub use map::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
 pub(crate) use nodes::node;
-pub(crate) use reading::{Layer, TileMaterial, TileTexture, read};
+pub(crate) use reading::{LandscapeId, Layer, TileMaterial, TileTexture, read};

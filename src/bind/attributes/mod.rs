@@ -19,7 +19,7 @@ pub(crate) use motions::{
 use typed_index_collections::TiSlice;
 
 use super::bindings::{Bindings, DrawingString, StringId};
-use super::matching::Matched;
+use super::matching::{LayerId, Matched};
 use crate::diagnostic::Diagnostic;
 use crate::lang::keyword::{AttributeString, Keyword};
 use crate::lang::value::{KindArguments, Mark, Origin, Setting, Shape, Value};
@@ -225,13 +225,13 @@ impl Bindings {
     }
 
     /// The attributes of a layer.
-    pub fn layer_attributes(&self, layer: usize) -> Attributes<'_> {
+    pub fn layer_attributes(&self, layer: LayerId) -> Attributes<'_> {
         let string = self.layers[layer].string;
         self.setters().attributes(Some(string), None)
     }
 
     /// The attributes of the tiles of a layer whose paint has this legend.
-    pub fn tile_attributes(&self, layer: usize, legend: Option<usize>) -> Attributes<'_> {
+    pub fn tile_attributes(&self, layer: LayerId, legend: Option<usize>) -> Attributes<'_> {
         let setters = self.setters();
         Attributes {
             layer: Some(setters.settings_of(self.layers[layer].string)),

@@ -14,11 +14,12 @@ use rayon::prelude::*;
 use rstar::primitives::GeomWithData;
 use rstar::{PointDistance, RTree};
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiVec;
 
 use super::attributes::PartAttributes;
 use super::bindings::{NamedBy, PartKind};
 use super::describe::describe;
-use super::matching::Matched;
+use super::matching::{LayerId, Matched};
 use super::names::OwnName;
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{Measure, measure_along};
@@ -42,7 +43,7 @@ pub(in crate::bind) struct Tree {
     /// Per part its parent, for a main part; `None` for a child of the root.
     pub(in crate::bind) parents: Vec<Option<usize>>,
     /// Per layer its parent, likewise.
-    pub(in crate::bind) parent_of_layer: Vec<Option<usize>>,
+    pub(in crate::bind) parent_of_layer: TiVec<LayerId, Option<usize>>,
     /// The axes of the parts.
     pub(in crate::bind) axes: Axes,
     /// Per part its joint, drawing units.

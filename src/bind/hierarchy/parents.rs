@@ -1,11 +1,12 @@
 //! The parents of parts and tile layers: the names after `@`.
 
 use rustc_hash::{FxHashMap, FxHashSet};
+use typed_index_collections::TiVec;
 
 use super::names::Names;
 use super::{Context, ROOT};
 use crate::bind::bindings::{DrawingString, PartKind};
-use crate::bind::matching::{LayerKind, Matched};
+use crate::bind::matching::{LayerId, LayerKind, Matched};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
@@ -74,7 +75,7 @@ pub(super) fn of_layers(
     context: Context<'_>,
     names: &Names,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Option<usize>> {
+) -> TiVec<LayerId, Option<usize>> {
     let mut unknown = Unknown::new(&names.by_name);
     let layers = context.matched.layers.iter().map(|layer| {
         if layer.kind != LayerKind::Tiles {

@@ -6,11 +6,17 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 use super::strings::ReadString;
 use crate::bind::bindings::{Bindings, DrawingString, StringHolder, StringId};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::index::index_type;
 use crate::lang;
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::svg::{Drawing, GroupId, PaintKey, ShapeId};
 use crate::threads::GRAIN;
+
+index_type!(
+    /// A layer of a drawing.
+    pub LayerId
+);
 
 /// What a string makes of its group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,9 +55,9 @@ pub struct Layer {
 /// The layers of a drawing, in the order of their strings.
 #[derive(Debug, Default)]
 pub struct Layers {
-    all: Vec<Layer>,
+    all: TiVec<LayerId, Layer>,
     /// Per group the innermost tile layer or view that it is, or is in; empty if there are no layers.
-    of_group: TiVec<GroupId, Option<usize>>,
+    of_group: TiVec<GroupId, Option<LayerId>>,
 }
 
 impl LayerKind {
@@ -125,8 +131,8 @@ pub(super) fn find(
     strings: &TiSlice<StringId, ReadString>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Layers {
-    let mut layer: TiVec<GroupId, Option<usize>> = ti_vec![None; drawing.groups.len()];
-    let mut layers: Vec<Layer> = Vec::new();
+    let mut layer: TiVec<GroupId, Option<LayerId>> = ti_vec![None; drawing.groups.len()];
+    let mut layers: TiVec<LayerId, Layer> = TiVec::new();
     for (index, string) in strings.iter_enumerated() {
         let Annotation::Part(annotation) = &string.annotation else {
             continue;
@@ -156,7 +162,7 @@ pub(super) fn find(
             continue;
         }
         if kind.holds_content() {
-            layer[group] = Some(layers.len());
+            layer[group] = Some(layers.next_key());
         }
         let name = annotation.name.as_ref().map(|name| name.text.clone());
         let named_by = match string.holder {
@@ -184,43 +190,28 @@ pub(super) fn find(
     }
 }
 
-impl std::ops::Index<usize> for Layers {
-    type Output = Layer;
+impl std::ops::Deref for Layers {
+    type Target = TiSlice<LayerId, Layer>;
 
-    fn index(&self, layer: usize) -> &Layer {
-        &self.all[layer]
+    fn deref(&self) -> &Self::Target {
+        &self.all
     }
 }
 
 impl Layers {
-    /// All layers.
-    pub fn iter(&self) -> std::slice::Iter<'_, Layer> {
-        self.all.iter()
-    }
-
-    /// How many layers there are.
-    pub fn len(&self) -> usize {
-        self.all.len()
-    }
-
-    /// Whether there is no layer.
-    pub fn is_empty(&self) -> bool {
-        self.all.is_empty()
-    }
-
     /// The layers of a kind, each with its index.
-    fn of_kind(&self, kind: LayerKind) -> impl Iterator<Item = (usize, &Layer)> {
-        let layers = self.all.iter().enumerate();
+    fn of_kind(&self, kind: LayerKind) -> impl Iterator<Item = (LayerId, &Layer)> {
+        let layers = self.all.iter_enumerated();
         layers.filter(move |(_, layer)| layer.kind == kind)
     }
 
     /// The tile layers, each with its index.
-    pub(in crate::bind) fn tile_layers(&self) -> impl Iterator<Item = (usize, &Layer)> {
+    pub(in crate::bind) fn tile_layers(&self) -> impl Iterator<Item = (LayerId, &Layer)> {
         self.of_kind(LayerKind::Tiles)
     }
 
-    /// Index of the innermost tile layer or view that a group is, or is in.
-    pub(in crate::bind) fn of_group(&self, group: GroupId) -> Option<usize> {
+    /// The innermost tile layer or view that a group is, or is in.
+    pub(in crate::bind) fn of_group(&self, group: GroupId) -> Option<LayerId> {
         self.of_group.get(group).copied().flatten()
     }
 
@@ -229,7 +220,7 @@ impl Layers {
         &self,
         group: GroupId,
         kind: LayerKind,
-    ) -> Option<usize> {
+    ) -> Option<LayerId> {
         let layer = self.of_group(group);
         layer.filter(|layer| self.all[*layer].kind == kind)
     }
@@ -255,28 +246,28 @@ impl Layers {
 }
 
 impl Bindings {
-    /// The tile layers, each with its index among all [`layers`](Self::layers).
-    pub fn tile_layers(&self) -> impl Iterator<Item = (usize, &Layer)> {
+    /// The tile layers, each with its index.
+    pub fn tile_layers(&self) -> impl Iterator<Item = (LayerId, &Layer)> {
         self.layers.tile_layers()
     }
 
-    /// The views of characters, each with its index among all [`layers`](Self::layers).
-    pub fn views(&self) -> impl Iterator<Item = (usize, &Layer)> {
+    /// The views of characters, each with its index.
+    pub fn views(&self) -> impl Iterator<Item = (LayerId, &Layer)> {
         self.layers.of_kind(LayerKind::View)
     }
 
-    /// Index of the tile layer that a group is, or is in.
-    pub fn tile_layer_of_group(&self, group: GroupId) -> Option<usize> {
+    /// The tile layer that a group is, or is in.
+    pub fn tile_layer_of_group(&self, group: GroupId) -> Option<LayerId> {
         self.layers.of_group_and_kind(group, LayerKind::Tiles)
     }
 
-    /// Index of the view of a character that a group is, or is in.
-    pub fn view_of_group(&self, group: GroupId) -> Option<usize> {
+    /// The view of a character that a group is, or is in.
+    pub fn view_of_group(&self, group: GroupId) -> Option<LayerId> {
         self.layers.of_group_and_kind(group, LayerKind::View)
     }
 
-    /// Index of the view that a string is in.
-    pub fn view_of_string(&self, drawing: &Drawing, string: StringId) -> Option<usize> {
+    /// The view that a string is in.
+    pub fn view_of_string(&self, drawing: &Drawing, string: StringId) -> Option<LayerId> {
         self.view_of_group(group_of(drawing, self.strings[string].holder))
     }
 

@@ -21,7 +21,7 @@ mod wrappers;
 pub(in crate::bind) use kinds::of_ink;
 pub(in crate::bind) use layers::group_of;
 pub use layers::in_layers_of_pixels;
-pub(crate) use layers::{LayerKind, Layers};
+pub(crate) use layers::{LayerId, LayerKind, Layers};
 pub(in crate::bind) use leaders::Leaders;
 pub(crate) use nearest::DistanceMode;
 pub(in crate::bind) use parts::MatchedPart;

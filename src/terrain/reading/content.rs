@@ -7,7 +7,7 @@ use typed_index_collections::{TiVec, ti_vec};
 use super::grid::Grid;
 use super::materials::{Painted, Paints};
 use super::raster::{Item, MAX_PAINTS, Picture, paint_code};
-use crate::bind::{Bindings, PartKind, StringHolder};
+use crate::bind::{Bindings, LayerId, PartKind, StringHolder};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
@@ -30,8 +30,8 @@ pub(super) struct Content {
 }
 
 /// The content of each tile layer.
-pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
-    let mut contents = vec![Content::default(); bindings.layers.len()];
+pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> TiVec<LayerId, Content> {
+    let mut contents = ti_vec![Content::default(); bindings.layers.len()];
     // A shape with its own string is not a tile. Lines usually have no part at all.
     let mut is_tile: TiVec<ShapeId, bool> = ti_vec![true; drawing.shapes.len()];
     for part in bindings

@@ -8,7 +8,7 @@ use super::content::Content;
 use super::grid::{Grid, rectangle};
 use super::materials::Paints;
 use super::raster::Code as Painted;
-use crate::bind::Bindings;
+use crate::bind::{Bindings, LayerId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::svg::{Drawing, PaintKey, ShapeId};
@@ -38,7 +38,7 @@ pub(crate) fn cells_named(columns: usize, first: &[usize], count: usize) -> Stri
 }
 
 /// The span of the size of tiles in a layer's string.
-pub(super) fn size_span(bindings: &Bindings, layer: usize) -> Span {
+pub(super) fn size_span(bindings: &Bindings, layer: LayerId) -> Span {
     let string = &bindings.strings[bindings.layers[layer].string];
     let size = bindings.layer_attributes(layer).tile_size();
     size.map_or(string.text.whole(), |size| bindings.span_of(&size.source))
@@ -48,7 +48,7 @@ pub(super) fn size_span(bindings: &Bindings, layer: usize) -> Span {
 pub(super) fn empty(
     drawing: &Drawing,
     bindings: &Bindings,
-    layer: usize,
+    layer: LayerId,
     holds: bool,
 ) -> Diagnostic {
     let group = bindings.layers[layer].group;
@@ -78,7 +78,7 @@ pub(super) fn empty(
 /// A grid over the limit.
 pub(super) fn too_large(
     bindings: &Bindings,
-    layer: usize,
+    layer: LayerId,
     size: f64,
     [columns, rows]: [f64; 2],
 ) -> Diagnostic {
@@ -236,7 +236,7 @@ pub(super) fn plain(drawing: &Drawing, paints: &Paints<'_>, list: &[usize]) -> V
 pub(super) fn off_grid(
     drawing: &Drawing,
     bindings: &Bindings,
-    layer: usize,
+    layer: LayerId,
     grid: &Grid,
     content: &Content,
 ) -> Option<Diagnostic> {

@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::colors;
 use super::raster::{Code, paint_of, pixel_of};
-use crate::bind::{Bindings, MaterialFactors, StringId};
+use crate::bind::{Bindings, LayerId, MaterialFactors, StringId};
 use crate::source::Span;
 use crate::svg::{PaintKey, ShapeId};
 use crate::terrain::Tile;
@@ -77,15 +77,14 @@ pub(super) struct Meaning {
 /// All paints of a layer's shapes, and the legends about them.
 pub(super) struct Paints<'a> {
     bindings: &'a Bindings,
-    /// Index of the layer.
-    layer: usize,
+    layer: LayerId,
     pub(super) list: Vec<Painted<'a>>,
     known: FxHashMap<(&'a PaintKey, u64), usize>,
     legends: FxHashMap<&'a PaintKey, usize>,
 }
 
 impl<'a> Paints<'a> {
-    pub(super) fn new(bindings: &'a Bindings, layer: usize) -> Self {
+    pub(super) fn new(bindings: &'a Bindings, layer: LayerId) -> Self {
         let legends = bindings.legends.iter().enumerate();
         Self {
             bindings,

@@ -17,13 +17,15 @@ mod tests;
 use std::ops::Range;
 
 use glam::DVec2;
+use typed_index_collections::TiVec;
 
 pub(crate) use materials::{TileMaterial, TileTexture};
 
 use super::landscape::{DEFAULT_ROOF, Landscape};
 use super::map::{MAX_CELLS, Map};
-use crate::bind::{Attribute, Bindings, StringId};
+use crate::bind::{Attribute, Bindings, LayerId, StringId};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::index::index_type;
 use crate::svg::{Drawing, GroupId, PaintKey, ShapeId};
 use classify::{Classification, classify};
 use content::{Content, contents};
@@ -31,9 +33,16 @@ use grid::Grid;
 use materials::Paints;
 use raster::Canvas;
 
+index_type!(
+    /// A landscape of a drawing: one of the tile layers that have tiles.
+    pub LandscapeId
+);
+
 /// A tile layer and its landscape.
 #[derive(Debug)]
 pub struct Layer {
+    /// Its index among all layers of the drawing.
+    pub index: LayerId,
     /// Its name.
     pub name: String,
     /// Index of its string.
@@ -103,16 +112,16 @@ pub(crate) fn read(
     drawing: &Drawing,
     bindings: &Bindings,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Layer> {
+) -> TiVec<LandscapeId, Layer> {
     if bindings.tile_layers().next().is_none() {
-        return Vec::new();
+        return TiVec::new();
     }
     let mut used: Vec<bool> = bindings
         .legends
         .iter()
         .map(|legend| legend.is_used)
         .collect();
-    let mut layers = Vec::new();
+    let mut layers = TiVec::new();
     let mut all_read = true;
     let contents = contents(drawing, bindings);
     for (index, _) in bindings.tile_layers() {
@@ -145,7 +154,7 @@ pub(crate) fn read(
 struct Reading<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
-    index: usize,
+    index: LayerId,
 }
 
 impl Reading<'_> {
@@ -221,6 +230,7 @@ impl Reading<'_> {
             edges,
         };
         let layer = Layer {
+            index,
             name: of_layer.name.clone(),
             string: of_layer.string,
             group: of_layer.group,

@@ -24,7 +24,7 @@ fn read_with(svg: &str, files: MemoryResolver) -> (Vec<Layer>, Vec<String>) {
     let told = diagnostics.iter();
     let told = told.filter(|found| found.code != Code::OpenTerrain);
     let told = told.map(|found| format!("{}: {}", found.code.id(), found.message));
-    (layers, told.collect())
+    (layers.into(), told.collect())
 }
 
 fn read_svg(svg: &str) -> (Vec<Layer>, Vec<String>) {
