@@ -3,6 +3,9 @@
 //! Each kind of index is declared where the list lives that it counts, by [`index_type!`]; the list is a
 //! [`TiVec`](typed_index_collections::TiVec), which accepts no other kind.
 
+use rayon::prelude::*;
+use typed_index_collections::TiSlice;
+
 /// Declares a type of indices: a `usize` with a meaning. It converts to and from the `usize` that counts from 0, for formats and
 /// for users that number things themselves; in between, nothing should need that.
 macro_rules! index_type {
@@ -34,6 +37,13 @@ macro_rules! index_type {
 }
 
 pub(crate) use index_type;
+
+/// The indices of a list, for work on all cores.
+pub(crate) fn par_keys<K: From<usize> + Send, V>(
+    list: &TiSlice<K, V>,
+) -> impl IndexedParallelIterator<Item = K> + Clone + use<K, V> {
+    (0..list.len()).into_par_iter().map(K::from)
+}
 
 #[cfg(test)]
 mod tests {

@@ -8,7 +8,7 @@ pub mod billboard {
     pub use crate::billboard::{Character, RegionId, ViewId, stages};
 }
 pub mod bind {
-    pub use crate::bind::{PartKind, bind, in_layers_of_pixels};
+    pub use crate::bind::{PartId, PartKind, bind, in_layers_of_pixels};
 }
 #[cfg(feature = "cli")]
 pub mod cli {

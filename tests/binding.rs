@@ -245,11 +245,8 @@ fn fixes_settle_what_is_uncertain() {
                         after.replace_range(edit.span.start..edit.span.end, &edit.text);
                     }
                     let after = compiled(&after);
-                    let part = after
-                        .bindings
-                        .parts
-                        .iter()
-                        .position(|part| part.shape == shape && !part.is_stroke);
+                    let parts = &after.bindings.parts;
+                    let part = parts.position(|part| part.shape == shape && !part.is_stroke);
                     let part = part.expect("its part");
                     let main = after.bindings.parts[part].main;
                     let string = after.bindings.parts[main].string.expect("a string");

@@ -4,7 +4,7 @@
 mod common;
 
 use okoshi::diagnostic::Code;
-use okoshi::internals::bind::PartKind;
+use okoshi::internals::bind::{PartId, PartKind};
 use okoshi::resolver::MemoryResolver;
 
 /// A shape: its colour, centre and radii, and the angle by which it is turned.
@@ -576,7 +576,7 @@ fn hierarchy(drawing: &str) -> Vec<(String, String)> {
         .iter()
         .filter(|part| part.kind == PartKind::Main);
     let name =
-        |part: Option<usize>| part.map_or(String::new(), |part| bindings.parts[part].name.clone());
+        |part: Option<PartId>| part.map_or(String::new(), |part| bindings.parts[part].name.clone());
     let mut found: Vec<(String, String)> = mains
         .map(|part| (part.name.clone(), name(part.parent)))
         .collect();

@@ -12,6 +12,7 @@ use common::program::Room;
 use glam::{DAffine2, DVec2};
 use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
+use okoshi::internals::bind::PartId;
 use okoshi::internals::geometry::{
     FillRule, Outline, area, border_distance_squared, bounds, contains, intersect, resolve_overlaps,
 };
@@ -151,8 +152,8 @@ fn check_laws(compiled: &Compiled, sheet: &Sheet, page: DVec2) -> Result<(), Str
     let parts = made
         .iter()
         .flat_map(|piece| [&[piece.part][..], &piece.details].concat());
-    let parts: Vec<usize> = parts.collect();
-    let distinct: BTreeSet<usize> = parts.iter().copied().collect();
+    let parts: Vec<PartId> = parts.collect();
+    let distinct: BTreeSet<PartId> = parts.iter().copied().collect();
     if distinct.len() != parts.len() {
         return fails("a part is on two pieces".to_owned());
     }
@@ -398,7 +399,7 @@ fn joints_without_paper_are_passed_over() {
     let made = pieces(&compiled.drawing, &compiled.bindings);
     let names = made.iter().map(|piece| {
         let carrier = piece.joint.map(|joint| made[joint.parent].part);
-        let name = |part: usize| compiled.bindings.parts[part].name.as_str();
+        let name = |part: PartId| compiled.bindings.parts[part].name.as_str();
         (name(piece.part), carrier.map(name))
     });
     let names: Vec<_> = names.collect();

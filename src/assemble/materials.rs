@@ -5,7 +5,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::Owner;
 use super::textures::{Textured, Textures};
-use crate::bind::{Bindings, MaterialFactors, PartKind};
+use crate::bind::{Bindings, MaterialFactors, PartId, PartKind};
 use crate::diagnostic::Diagnostic;
 use crate::figure::LinkedModels;
 use crate::memo::Memo;
@@ -35,7 +35,7 @@ pub(super) struct Materials {
     list: TiVec<MaterialId, Material>,
     textures: TiVec<TextureId, Texture>,
     images: TiVec<ImageId, Image>,
-    of_part: Vec<PartMaterial>,
+    of_part: TiVec<PartId, PartMaterial>,
     /// Per tile layer and look its material.
     of_looks: TiVec<LandscapeId, Vec<Option<MaterialId>>>,
 }
@@ -85,7 +85,7 @@ impl Materials {
         bindings: &Bindings,
         models: &LinkedModels,
         layers: &TiSlice<LandscapeId, Layer>,
-        regions: &[usize],
+        regions: &[PartId],
         sharing: Sharing,
         resolver: &dyn Resolver,
         memo: &Memo,
@@ -103,7 +103,7 @@ impl Materials {
         );
         let mut shared = Shared::default();
         let owned_by = |owner: Owner| (sharing == Sharing::Apart).then_some(owner);
-        let look = |part: usize| {
+        let look = |part: PartId| {
             let mut factors = bindings.material_factors(drawing, part);
             let textured = textures.of(part);
             if let Some(textured) = textured {
@@ -115,8 +115,8 @@ impl Materials {
             }
             (factors, textured)
         };
-        let mut of_part = Vec::with_capacity(bindings.parts.len());
-        for (index, part) in bindings.parts.iter().enumerate() {
+        let mut of_part: TiVec<PartId, PartMaterial> = TiVec::with_capacity(bindings.parts.len());
+        for (index, part) in bindings.parts.iter_enumerated() {
             let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
             // Models bring their own materials.
             let own = built && !models.has(index);
@@ -172,7 +172,7 @@ impl Materials {
     }
 
     /// A scene that has them, and nothing else yet; and which part and which look of a tile layer has which.
-    pub(super) fn into_scene(self) -> (Scene, Vec<PartMaterial>, LookMaterials) {
+    pub(super) fn into_scene(self) -> (Scene, TiVec<PartId, PartMaterial>, LookMaterials) {
         let scene = Scene {
             materials: self.list,
             textures: self.textures,

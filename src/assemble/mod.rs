@@ -10,7 +10,7 @@ mod world;
 use typed_index_collections::{TiVec, ti_vec};
 
 use crate::billboard::{self, Character, RegionMaterials};
-use crate::bind::Bindings;
+use crate::bind::{Bindings, PartId};
 use crate::diagnostic::Diagnostic;
 use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth};
 use crate::memo::Memo;
@@ -35,14 +35,14 @@ pub(crate) struct Assembled {
     /// The clips that figures play.
     pub clips: Vec<FigureClip>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
-    pub depths: Vec<Option<NodeDepth>>,
+    pub depths: TiVec<PartId, Option<NodeDepth>>,
 }
 
 /// What a surface of a scene is made from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Owner {
-    /// The part with this index.
-    Part(usize),
+    /// A part.
+    Part(PartId),
     /// The landscape of a tile layer.
     Landscape(LandscapeId),
 }
@@ -117,7 +117,7 @@ pub(crate) fn assemble(
 }
 
 /// The parts that say what the regions of characters look like.
-fn parts_of(characters: &[Character]) -> Vec<usize> {
+fn parts_of(characters: &[Character]) -> Vec<PartId> {
     let regions = characters.iter().flat_map(|character| &character.regions);
     regions.filter_map(|region| region.part).collect()
 }
@@ -152,7 +152,7 @@ pub(crate) fn assemble_apart(
     // Each material has one owner: their order does not matter.
     let flat = materials.flat.iter();
     flat.for_each(|((part, _), material)| owners[*material] = part.map(Owner::Part));
-    for (part, material) in built.of_part.iter().enumerate() {
+    for (part, material) in built.of_part.iter_enumerated() {
         if let Some((material, _)) = material {
             owners[*material] = Some(Owner::Part(part));
         }
@@ -175,7 +175,7 @@ struct Built {
     world: WorldTransform,
     figures: FigureNodes,
     /// Per part its material.
-    of_part: Vec<PartMaterial>,
+    of_part: TiVec<PartId, PartMaterial>,
     of_looks: LookMaterials,
 }
 
@@ -183,7 +183,7 @@ struct Built {
 fn build(
     drawing: &Drawing,
     bindings: &Bindings,
-    regions: &[usize],
+    regions: &[PartId],
     sharing: Sharing,
     resolver: &dyn Resolver,
     memo: &Memo,

@@ -6,7 +6,7 @@ use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiSlice, TiVec};
 
-use crate::bind::{Bindings, PartKind, StringId};
+use crate::bind::{Bindings, PartId, PartKind, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::figure::LinkedModels;
 use crate::memo::Memo;
@@ -27,7 +27,7 @@ pub(super) struct Textures {
     textures: TiVec<TextureId, Texture>,
     images: TiVec<ImageId, Image>,
     alphas: TiVec<ImageId, Alpha>,
-    of_part: FxHashMap<usize, Textured>,
+    of_part: FxHashMap<PartId, Textured>,
     /// By tile layer and look.
     of_look: FxHashMap<(LandscapeId, usize), TextureId>,
 }
@@ -43,7 +43,7 @@ pub(super) struct Textured {
 
 /// A part whose texture is planned.
 struct TexturedPart {
-    part: usize,
+    part: PartId,
     server: Arc<PaintServer>,
     plan: usize,
     is_file: bool,
@@ -60,7 +60,7 @@ impl Textures {
         bindings: &'a Bindings,
         models: &LinkedModels,
         layers: &'a TiSlice<LandscapeId, Layer>,
-        regions: &[usize],
+        regions: &[PartId],
         resolver: &dyn Resolver,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
@@ -81,10 +81,10 @@ impl Textures {
             looks: Vec::new(),
             reported: FxHashSet::default(),
         };
-        for part in 0..bindings.parts.len() {
-            let built = matches!(bindings.parts[part].kind, PartKind::Main | PartKind::Sub);
-            if built && !models.has(part) && bindings.profile(drawing, part).is_some() {
-                collector.part(part, diagnostics);
+        for (index, part) in bindings.parts.iter_enumerated() {
+            let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
+            if built && !models.has(index) && bindings.profile(drawing, index).is_some() {
+                collector.part(index, diagnostics);
             }
         }
         for region in regions {
@@ -98,7 +98,7 @@ impl Textures {
         collector.finish(baked, diagnostics)
     }
 
-    pub(super) fn of(&self, part: usize) -> Option<Textured> {
+    pub(super) fn of(&self, part: PartId) -> Option<Textured> {
         self.of_part.get(&part).copied()
     }
 
@@ -134,7 +134,7 @@ struct Collector<'a> {
 }
 
 impl<'a> Collector<'a> {
-    fn part(&mut self, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+    fn part(&mut self, index: PartId, diagnostics: &mut Vec<Diagnostic>) {
         let (drawing, bindings) = (self.drawing, self.bindings);
         let part = &bindings.parts[index];
         let attributes = bindings.attributes(index);
@@ -220,7 +220,7 @@ impl<'a> Collector<'a> {
     }
 
     /// Reports, once for each paint, that it appears in one colour.
-    fn plain(&mut self, part: usize, why: &str) -> Option<Diagnostic> {
+    fn plain(&mut self, part: PartId, why: &str) -> Option<Diagnostic> {
         let (drawing, bindings) = (self.drawing, self.bindings);
         let part = &bindings.parts[part];
         let key = &part.paint(drawing).key;

@@ -30,7 +30,7 @@ pub fn world_transform(
 /// The middle of the lower edge of all that is built.
 fn middle_of_lower_edge(bindings: &Bindings, layers: &TiSlice<LandscapeId, Layer>) -> DVec2 {
     let is_built = |part: &&Part| matches!(part.kind, PartKind::Main | PartKind::Sub);
-    let parts = bindings.parts.par_iter().with_min_len(GRAIN);
+    let parts = bindings.parts.raw.par_iter().with_min_len(GRAIN);
     let boxes = parts.filter(is_built).map(|part| part.measure.bounds);
     let both =
         |one: (DVec2, DVec2), other: (DVec2, DVec2)| (one.0.min(other.0), one.1.max(other.1));

@@ -17,7 +17,7 @@ use super::place::{Frame, TrackPosition, frames, place};
 use super::region::{Direction, RegionId, View};
 use super::shape::{Ends, Morph, line_mesh, match_lines};
 use super::turn::between;
-use crate::bind::{Bindings, LayerId};
+use crate::bind::{Bindings, LayerId, PartId};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Outline;
 use crate::lang::keyword::Keyword;
@@ -62,8 +62,8 @@ pub struct RegionModel {
     pub meshes: Vec<RegionMesh>,
     /// The shape that it is in the first view that shows it, or of the picture that it is in.
     pub shape: Option<ShapeId>,
-    /// Index of its part there, if it has one: regions of pictures have none.
-    pub part: Option<usize>,
+    /// Its part there, if it has one: regions of pictures have none.
+    pub part: Option<PartId>,
     /// The first view that shows it.
     pub first_view: ViewId,
     /// Per view whether it is hidden there (`Hidden`).

@@ -14,7 +14,7 @@ use super::keys;
 use super::matching::RegionInView;
 use super::raster::{self, RasterView};
 use super::region::{Direction, Region, RegionId, View};
-use crate::bind::{Bindings, LayerId, PartKind};
+use crate::bind::{Bindings, LayerId, PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Outline, area, bounds, intersect};
 use crate::lang::keyword::Keyword;
@@ -49,8 +49,8 @@ pub(super) struct DrawnView {
 pub(super) struct Drawn {
     /// The shape that it is, or the picture that shows it.
     pub(super) shape: ShapeId,
-    /// Index of its part, if it has one.
-    pub(super) part: Option<usize>,
+    /// Its part, if it has one.
+    pub(super) part: Option<PartId>,
     /// The line along its border.
     pub(super) line: Option<DrawnLine>,
     /// Its middle, if it is an open line with round ends.
@@ -107,7 +107,7 @@ pub(super) fn read(
 ) -> Option<DrawnView> {
     let direction = direction(bindings, layer)?;
     let mut parts: TiVec<ShapeId, _> = ti_vec![None; drawing.shapes.len()];
-    for (index, part) in bindings.parts.iter().enumerate() {
+    for (index, part) in bindings.parts.iter_enumerated() {
         if part.kind == PartKind::Region {
             parts[part.shape] = Some(index);
         }
@@ -166,7 +166,7 @@ fn of_shape(
     drawing: &Drawing,
     bindings: &Bindings,
     index: ShapeId,
-    part: Option<usize>,
+    part: Option<PartId>,
 ) -> Option<(Region, Drawn)> {
     let shape = &drawing.shapes[index];
     let name = part.map(|part| bindings.parts[part].name.clone());

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 use rustc_hash::FxHashMap;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::character::{Character, Fill, RegionMesh, RegionModel};
-use crate::bind::Bindings;
+use crate::bind::{Bindings, PartId};
 use crate::scene::{
     AlphaMode, Animation, Interpolation, Material, MaterialId, Mesh, NewNode, Node, NodeId,
     PartMaterial, Primitive, Provenance, Scene, Surface, Timing, Track, Values, ViewDependent,
@@ -23,7 +23,7 @@ const KEYS: f64 = 8.0;
 /// The materials of regions.
 pub(crate) struct RegionMaterials<'a> {
     /// Per part the material with its texture, and the map from the drawing to texture coordinates, if it has one.
-    pub textured: &'a [PartMaterial],
+    pub textured: &'a TiSlice<PartId, PartMaterial>,
     /// The materials without a texture, by the part to which they belong and their colours.
     pub flat: FxHashMap<FlatMaterial, MaterialId>,
     /// Whether no two parts have a material in common.
@@ -31,11 +31,11 @@ pub(crate) struct RegionMaterials<'a> {
 }
 
 /// What tells materials without a texture apart: a part, if they are not shared, and sRGB with straight alpha as bits.
-pub(crate) type FlatMaterial = (Option<usize>, [u64; 4]);
+pub(crate) type FlatMaterial = (Option<PartId>, [u64; 4]);
 
 impl<'a> RegionMaterials<'a> {
     /// No materials but those with textures.
-    pub(crate) fn new(textured: &'a [PartMaterial], are_apart: bool) -> Self {
+    pub(crate) fn new(textured: &'a TiSlice<PartId, PartMaterial>, are_apart: bool) -> Self {
         Self {
             textured,
             flat: FxHashMap::default(),
@@ -44,7 +44,7 @@ impl<'a> RegionMaterials<'a> {
     }
 
     /// The material of a part in a colour, sRGB with straight alpha, each 0 to 1.
-    fn material(&mut self, part: Option<usize>, color: [f64; 4], scene: &mut Scene) -> MaterialId {
+    fn material(&mut self, part: Option<PartId>, color: [f64; 4], scene: &mut Scene) -> MaterialId {
         let owner = part.filter(|_| self.are_apart);
         let key = (owner, color.map(f64::to_bits));
         *self.flat.entry(key).or_insert_with(|| {

@@ -20,6 +20,11 @@ index_type!(
     pub StringId
 );
 
+index_type!(
+    /// A part of a drawing.
+    pub PartId
+);
+
 /// The strings and parts of a drawing, and which belong together.
 #[derive(Debug, Default)]
 pub struct Bindings {
@@ -28,7 +33,7 @@ pub struct Bindings {
     /// The strings, in the order of the file.
     pub strings: TiVec<StringId, DrawingString>,
     /// The parts, back-most first; sub-parts, legends and unused parts included.
-    pub parts: Vec<Part>,
+    pub parts: TiVec<PartId, Part>,
     /// The settings of all `%` strings, each with its string; for each keyword the last one.
     pub defaults: Vec<(StringId, Setting)>,
     /// The legends, merged by paint.
@@ -42,7 +47,7 @@ pub struct Bindings {
     /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.
     pub hierarchy_by_contact: bool,
     /// Per layer the main part that is its parent; `None` for a child of the root.
-    pub(super) parent_of_layer: TiVec<LayerId, Option<usize>>,
+    pub(super) parent_of_layer: TiVec<LayerId, Option<PartId>>,
     /// The lines that lead from strings to what they mean.
     pub(super) leaders: Leaders,
 }
@@ -117,8 +122,8 @@ impl NamedBy {
 /// The part that a string is bound to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Binding {
-    /// Index of the part.
-    pub part: usize,
+    /// The part.
+    pub part: PartId,
     /// The rule.
     pub by: BoundBy,
 }
@@ -137,7 +142,7 @@ pub struct DrawingString {
     /// The part that it is bound to.
     pub binding: Option<Binding>,
     /// Another part that is almost as near.
-    pub runner_up: Option<usize>,
+    pub runner_up: Option<PartId>,
     /// The container to whose children the string is restricted.
     pub(super) scope: Option<GroupId>,
 }
@@ -186,8 +191,8 @@ pub struct Part {
     pub shape: ShapeId,
     /// Whether its area is the shape's stroke rather than its fill.
     pub is_stroke: bool,
-    /// For ink, a stroke that lies on another part, the index of that part, which comes before it.
-    pub host: Option<usize>,
+    /// For ink, a stroke that lies on another part, that part, which comes before it.
+    pub host: Option<PartId>,
     /// Its area, drawing units.
     pub outline: Arc<Outline>,
     /// Its axis, centre and ends. `Axis` replaces the measured axis.
@@ -196,13 +201,13 @@ pub struct Part {
     pub string: Option<StringId>,
     /// Index of the legend of its paint.
     pub legend: Option<usize>,
-    /// For a main part the index of its parent; `None` for a child of the root.
-    pub parent: Option<usize>,
-    /// Index of the main part candidate of its node, which may be itself.
-    pub main: usize,
+    /// For a main part its parent; `None` for a child of the root.
+    pub parent: Option<PartId>,
+    /// The main part candidate of its node, which may be itself.
+    pub main: PartId,
     /// The joint, drawing units.
     pub origin: glam::DVec2,
-    pub(super) index: usize,
+    pub(super) index: PartId,
 }
 
 impl Part {
@@ -233,12 +238,12 @@ pub(super) fn paint(drawing: &Drawing, shape: ShapeId, is_stroke: bool) -> &Pain
 
 impl Bindings {
     /// The main part that is the parent of a layer; `None` for a child of the root.
-    pub fn parent_of_layer(&self, layer: LayerId) -> Option<usize> {
+    pub fn parent_of_layer(&self, layer: LayerId) -> Option<PartId> {
         self.parent_of_layer[layer]
     }
 
     /// The element that names a part, if no string does: its shape's, or its group's.
-    pub fn naming_element<'a>(&self, drawing: &'a Drawing, part: usize) -> Option<&'a Element> {
+    pub fn naming_element<'a>(&self, drawing: &'a Drawing, part: PartId) -> Option<&'a Element> {
         let part = &self.parts[part];
         match part.named_by {
             NamedBy::String | NamedBy::Automatic => None,

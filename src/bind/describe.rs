@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::bindings::Bindings;
+use super::bindings::{Bindings, PartId};
 use super::names::written_by_a_person;
 use crate::geometry::{self, Measure, Outline, Ring, measure, remove_collinear};
 use crate::svg::{Drawing, Element, GroupId, GroupKind, PaintKey, Shape, ShapeId, oklab};
@@ -46,13 +46,13 @@ const TIPS: f64 = 1.2;
 
 impl Bindings {
     /// A part for people: its name, or its shape.
-    pub fn describe(&self, drawing: &Drawing, part: usize) -> String {
+    pub fn describe(&self, drawing: &Drawing, part: PartId) -> String {
         let part = &self.parts[part];
         describe(drawing, &part.name, part.shape)
     }
 
     /// A part for people who know the drawing only: an automatic name tells them nothing.
-    pub fn describe_as_drawn(&self, drawing: &Drawing, part: usize) -> String {
+    pub fn describe_as_drawn(&self, drawing: &Drawing, part: PartId) -> String {
         if self.parts[part].is_automatic() {
             drawing.describe(self.parts[part].shape)
         } else {

@@ -19,10 +19,10 @@ pub(crate) use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
     MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, SignedAxis,
 };
-pub use bindings::PartKind;
 pub(crate) use bindings::{
     Bindings, BoundBy, DrawingString, NamedBy, Part, StringHolder, StringId,
 };
+pub use bindings::{PartId, PartKind};
 pub use matching::in_layers_of_pixels;
 pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
 pub(crate) use names::written_by_a_person;
@@ -46,8 +46,8 @@ pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -
 
 /// Puts the results of all steps together.
 fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindings {
-    let parts = matched.parts.into_iter().zip(tree.names).enumerate();
-    let parts = parts.map(|(index, (part, name))| Part {
+    let parts = matched.parts.into_iter_enumerated().zip(tree.names);
+    let parts = parts.map(|((index, part), name)| Part {
         name: name.name,
         named_by: name.by,
         kind: tree.nodes.kind[index],

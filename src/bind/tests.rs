@@ -33,8 +33,8 @@ fn text(x: i32, y: i32, text: &str) -> String {
     format!(r#"<text x="{x}" y="{y}" font-size="4">{text}</text>"#)
 }
 
-fn part(compiled: &Compiled, name: &str) -> usize {
-    let mut parts = compiled.bindings.parts.iter();
+fn part(compiled: &Compiled, name: &str) -> PartId {
+    let parts = &compiled.bindings.parts;
     parts.position(|part| part.name == name).unwrap()
 }
 
@@ -432,7 +432,7 @@ fn a_request_says_how_its_clip_is_played() {
         *requests[0].source,
         MotionSource::BuiltIn("walk".to_owned())
     );
-    let (from, limits) = compiled.bindings.limits_of_clips(0).unwrap();
+    let (from, limits) = compiled.bindings.limits_of_clips(0.into()).unwrap();
     assert_eq!((from, limits.omit), (SetBy::Own, 9));
 }
 
@@ -460,7 +460,7 @@ fn a_performance_belongs_to_the_motion_before_it() {
     };
     assert_eq!(own.effects, effects);
     assert!(requests[1].performance.is_none());
-    let (from, all) = bindings.performance_of_clips(0).unwrap();
+    let (from, all) = bindings.performance_of_clips(0.into()).unwrap();
     assert_eq!((from, all.file, all.keys), (SetBy::Own, "a.json", None));
 
     let elements = [
@@ -468,7 +468,7 @@ fn a_performance_belongs_to_the_motion_before_it() {
         text(150, 150, "%Perform -R \"all.json\" 3 (2 + 2)"),
     ];
     let compiled = drawing(&elements.concat());
-    let (from, all) = compiled.bindings.performance_of_clips(0).unwrap();
+    let (from, all) = compiled.bindings.performance_of_clips(0.into()).unwrap();
     assert_eq!(
         (from, all.file, all.keys),
         (SetBy::Default, "all.json", Some([3, 4]))

@@ -11,7 +11,7 @@ use super::loading::{Loaded, load};
 use super::progress::spinning;
 use super::{Outcome, counted, fail, print_out};
 use crate::billboard::{Character, RegionModel, Track};
-use crate::bind::{NamedBy, SetBy};
+use crate::bind::{NamedBy, PartId, SetBy};
 use crate::disk::is_standard_stream;
 use crate::ide::{Subject, Which};
 use crate::lang::keyword::Keyword;
@@ -221,7 +221,7 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
     listed
 }
 
-fn describe_part(loaded: &Loaded, subject: Subject<'_>, index: usize) -> String {
+fn describe_part(loaded: &Loaded, subject: Subject<'_>, index: PartId) -> String {
     let attributes = subject.attributes().into_iter();
     let mut shape = attributes.filter(|attribute| attribute.keyword == Keyword::Shape);
     let solid = shape

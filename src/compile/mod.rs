@@ -9,7 +9,7 @@ use typed_index_collections::TiVec;
 
 use crate::assemble::{self, Assembled};
 use crate::billboard::Character;
-use crate::bind::{self, Bindings};
+use crate::bind::{self, Bindings, PartId};
 use crate::crash::{self, Crash};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
 use crate::figure::NodeDepth;
@@ -71,7 +71,7 @@ pub struct Compiled {
     pub clips: Vec<rig::FigureClip>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
     #[doc(hidden)]
-    pub depths: Vec<Option<NodeDepth>>,
+    pub depths: TiVec<PartId, Option<NodeDepth>>,
     /// The drawing. Its outlines and texts are shared with the bindings.
     #[doc(hidden)]
     pub drawing: Arc<Drawing>,

@@ -1,10 +1,12 @@
 //! Reports copies (`-s`, `-d`) that coincide with their original or with another copy of it.
 
 use rayon::prelude::*;
+use typed_index_collections::TiSlice;
 
 use super::FigureContext;
-use crate::bind::PartKind;
+use crate::bind::{PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::index::par_keys;
 use crate::threads::GRAIN;
 
 /// Limit of the ancestors that are checked: each `-d` among them doubles the parts below it.
@@ -12,29 +14,26 @@ const MAX_ANCESTORS: usize = 64;
 
 /// Warns of copies that coincide.
 pub(super) fn check(context: &FigureContext<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let parts = 0..context.bindings.parts.len();
+    let parts = par_keys(&context.bindings.parts).with_min_len(GRAIN);
     let doubled: Vec<bool> = parts
         .clone()
-        .into_par_iter()
-        .with_min_len(GRAIN)
         .map(|part| context.bindings.attributes(part).shape().doubled)
         .collect();
+    let doubled = TiSlice::from_ref(&doubled);
     let copied = doubled.contains(&true);
     let found: Vec<Diagnostic> = parts
-        .into_par_iter()
-        .with_min_len(GRAIN)
         // Copies of ink coincide where those of its part do.
         .filter(|part| context.bindings.form(*part) == *part)
         .filter_map(|part| {
             let own = coincident(context, part);
-            own.or_else(|| copied.then(|| inherited(context, part, &doubled))?)
+            own.or_else(|| copied.then(|| inherited(context, part, doubled))?)
         })
         .collect();
     diagnostics.extend(found);
 }
 
 /// The least and the greatest depth of a part's solid in its parent's frame; `None` without a solid.
-fn depths(context: &FigureContext<'_>, part: usize) -> Option<[f64; 2]> {
+fn depths(context: &FigureContext<'_>, part: PartId) -> Option<[f64; 2]> {
     let built = matches!(
         context.bindings.parts[part].kind,
         PartKind::Main | PartKind::Sub
@@ -52,7 +51,7 @@ fn is_symmetric([low, high]: [f64; 2], plane: f64) -> bool {
 }
 
 /// A copy that the part's own flag makes.
-fn coincident(context: &FigureContext<'_>, part: usize) -> Option<Diagnostic> {
+fn coincident(context: &FigureContext<'_>, part: PartId) -> Option<Diagnostic> {
     let shape = context.bindings.attributes(part).shape();
     if !(shape.mirrored || shape.doubled) || !is_symmetric(depths(context, part)?, 0.0) {
         return None;
@@ -65,7 +64,11 @@ fn coincident(context: &FigureContext<'_>, part: usize) -> Option<Diagnostic> {
 }
 
 /// A copy that an ancestor's `-d` makes.
-fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Option<Diagnostic> {
+fn inherited(
+    context: &FigureContext<'_>,
+    part: PartId,
+    doubled: &TiSlice<PartId, bool>,
+) -> Option<Diagnostic> {
     let parts = &context.bindings.parts;
     let main = parts[part].main;
     let shape = context.bindings.attributes(part).shape();
@@ -100,7 +103,7 @@ fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Opti
     None
 }
 
-fn coincidence(context: &FigureContext<'_>, part: usize, message: String) -> Diagnostic {
+fn coincidence(context: &FigureContext<'_>, part: PartId, message: String) -> Diagnostic {
     let bindings = context.bindings;
     let shape = bindings.attributes(part).shape_if_set();
     let element = &context.drawing.shapes[bindings.parts[part].shape].element;

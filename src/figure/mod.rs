@@ -15,11 +15,12 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use crate::bind::{Bindings, PartKind, SetBy};
+use crate::bind::{Bindings, PartId, PartKind, SetBy};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
+use crate::index::par_keys;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::scene::{
@@ -51,7 +52,7 @@ impl LinkedModels {
     }
 
     /// Whether a part is a model, with materials of its own.
-    pub(crate) fn has(&self, part: usize) -> bool {
+    pub(crate) fn has(&self, part: PartId) -> bool {
         self.0.has(part)
     }
 
@@ -65,8 +66,8 @@ impl LinkedModels {
 pub(crate) struct Figures<'a> {
     context: FigureContext<'a>,
     layers: Layers,
-    frames: Vec<Frame>,
-    parts_of_node: Vec<Vec<usize>>,
+    frames: TiVec<PartId, Frame>,
+    parts_of_node: TiVec<PartId, Vec<PartId>>,
     tree: TiVec<NodeId, FigureNode>,
 }
 
@@ -79,17 +80,17 @@ const MAX_INK_STEP: f64 = 0.5;
 /// The nodes of a drawing's figures, in the order in which they are in the scene.
 pub(crate) struct FigureNodes {
     /// Per part its rest frame.
-    pub frames: Vec<Frame>,
+    pub frames: TiVec<PartId, Frame>,
     /// Per main part the parts whose solids are in its node.
-    pub parts_of_node: Vec<Vec<usize>>,
+    pub parts_of_node: TiVec<PartId, Vec<PartId>>,
     /// Per node the part that it shows.
     pub nodes: TiVec<NodeId, PartNode>,
     /// Per part the first node that shows it.
-    pub node_of_part: Vec<Option<NodeId>>,
+    pub node_of_part: TiVec<PartId, Option<NodeId>>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
-    pub depths: Vec<Option<NodeDepth>>,
+    pub depths: TiVec<PartId, Option<NodeDepth>>,
     /// Per part the thickness of its solid, `None` without one; empty if the drawing has no motion.
-    pub thicknesses: Vec<Option<Thickness>>,
+    pub thicknesses: TiVec<PartId, Option<Thickness>>,
 }
 
 impl<'a> Figures<'a> {
@@ -102,10 +103,9 @@ impl<'a> Figures<'a> {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let context = FigureContext::new(drawing, bindings);
-        let parts = bindings.parts.par_iter().with_min_len(GRAIN);
-        let frames: Vec<Frame> = parts
-            .map(|part| Frame::new(&part.measure, part.origin))
-            .collect();
+        let parts = bindings.parts.raw.par_iter().with_min_len(GRAIN);
+        let frames = parts.map(|part| Frame::new(&part.measure, part.origin));
+        let frames: TiVec<PartId, Frame> = frames.collect::<Vec<_>>().into();
         let (layers, buried) = Layers::arrange(&context, &frames, world, memo);
         let tree = tree::nodes(&context, &frames, &layers, diagnostics);
         copies::check(&context, diagnostics);
@@ -123,30 +123,27 @@ impl<'a> Figures<'a> {
     pub(crate) fn build(
         self,
         models: &LinkedModels,
-        materials: &[PartMaterial],
+        materials: &TiSlice<PartId, PartMaterial>,
         world: &WorldTransform,
         scene: &mut Scene,
     ) -> FigureNodes {
-        let meshes: Vec<Option<Mesh>> = self
-            .parts_of_node
-            .par_iter()
-            .enumerate()
+        let meshes: Vec<Option<Mesh>> = par_keys(&self.parts_of_node)
             .with_min_len(GRAIN)
-            .map(|(main, parts)| self.mesh(main, parts, &models.0, materials, world))
+            .map(|main| self.mesh(main, &models.0, materials, world))
             .collect();
-        let (nodes, node_of_part) = nodes::add(&self.context, self.tree, meshes, world, scene);
+        let (nodes, node_of_part) =
+            nodes::add(&self.context, self.tree, meshes.into(), world, scene);
         let bindings = self.context.bindings;
         let thicknesses = if bindings.clip_requests().is_empty() {
             Vec::new()
         } else {
-            (0..bindings.parts.len())
-                .into_par_iter()
+            par_keys(&bindings.parts)
                 .with_min_len(GRAIN)
                 .map(|part| self.context.thickness(part, self.layers.offset(part)))
                 .collect()
         };
         FigureNodes {
-            thicknesses,
+            thicknesses: thicknesses.into(),
             frames: self.frames,
             parts_of_node: self.parts_of_node,
             nodes,
@@ -158,10 +155,9 @@ impl<'a> Figures<'a> {
     /// The solids of a main part and its sub-parts, in the main part's frame.
     fn mesh(
         &self,
-        main: usize,
-        parts: &[usize],
+        main: PartId,
         models: &Models,
-        materials: &[PartMaterial],
+        materials: &TiSlice<PartId, PartMaterial>,
         world: &WorldTransform,
     ) -> Option<Mesh> {
         let mut primitives: Vec<Primitive> = Vec::new();
@@ -175,7 +171,7 @@ impl<'a> Figures<'a> {
                 }),
             }
         };
-        for &part in parts {
+        for &part in &self.parts_of_node[main] {
             if models.has(part) {
                 let frames = [&self.frames[part], &self.frames[main]];
                 let (_, both) = self.context.stand(main, part);
@@ -198,8 +194,8 @@ impl<'a> Figures<'a> {
     /// The solid of a part in the frame of its node.
     fn patch(
         &self,
-        main: usize,
-        part: usize,
+        main: PartId,
+        part: PartId,
         texture: Option<DAffine2>,
         world: &WorldTransform,
     ) -> Option<SurfacePatch> {
@@ -228,9 +224,9 @@ impl<'a> Figures<'a> {
 }
 
 /// Per main part the parts whose solids are in its node.
-fn parts_of_node(bindings: &Bindings) -> Vec<Vec<usize>> {
-    let mut parts_of_node: Vec<Vec<usize>> = vec![Vec::new(); bindings.parts.len()];
-    for (index, part) in bindings.parts.iter().enumerate() {
+fn parts_of_node(bindings: &Bindings) -> TiVec<PartId, Vec<PartId>> {
+    let mut parts_of_node: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); bindings.parts.len()];
+    for (index, part) in bindings.parts.iter_enumerated() {
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
             parts_of_node[part.main].push(index);
         }
@@ -259,7 +255,7 @@ impl<'a> FigureContext<'a> {
     }
 
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
-    fn offset(&self, part: usize) -> f64 {
+    fn offset(&self, part: PartId) -> f64 {
         let is_main = self.bindings.parts[part].main == part;
         match self.bindings.attributes(part).offset() {
             // A default has moved the sub-part's node already.
@@ -270,7 +266,7 @@ impl<'a> FigureContext<'a> {
 
     /// How far the node of a main part is moved along the viewer axis, drawing units. With `-s` its two solids are moved
     /// instead.
-    fn node_offset(&self, part: usize) -> f64 {
+    fn node_offset(&self, part: PartId) -> f64 {
         if self.bindings.attributes(part).shape().mirrored {
             0.0
         } else {
@@ -279,12 +275,12 @@ impl<'a> FigureContext<'a> {
     }
 
     /// How a part's outline gets its thickness.
-    fn profile(&self, part: usize) -> Option<Profile> {
+    fn profile(&self, part: PartId) -> Option<Profile> {
         self.bindings.profile(self.drawing, part)
     }
 
     /// The thickness of a part's solid that is moved by an offset; `None` without one.
-    fn thickness(&self, part: usize, offset: f64) -> Option<Thickness> {
+    fn thickness(&self, part: PartId, offset: f64) -> Option<Thickness> {
         let profile = self.profile(part)?;
         let measure = &self.bindings.parts[part].measure;
         let half = DVec2::new(measure.half_across, measure.half_along);
@@ -295,7 +291,7 @@ impl<'a> FigureContext<'a> {
         })
     }
 
-    fn options(&self, part: usize, profile: &Profile) -> solid::Options {
+    fn options(&self, part: PartId, profile: &Profile) -> solid::Options {
         let attributes = self.bindings.attributes(self.bindings.form(part));
         let measure = &self.bindings.parts[part].measure;
         let half = DVec2::new(measure.half_across, measure.half_along);
@@ -309,7 +305,7 @@ impl<'a> FigureContext<'a> {
     }
 
     /// The layers per half turn of a part that comes out by a share of its own heights only, unless the drawing says how many.
-    fn flattened_segments(&self, part: usize, profile: &Profile, share: f64) -> Option<u32> {
+    fn flattened_segments(&self, part: PartId, profile: &Profile, share: f64) -> Option<u32> {
         let attributes = self.bindings.attributes(self.bindings.form(part));
         // A rounding by n layers is off by its height over n², so a lower one is as close with fewer.
         let enough = |of_whole: u32| (f64::from(of_whole) * share.sqrt()).ceil() as u32;
@@ -320,9 +316,9 @@ impl<'a> FigureContext<'a> {
     /// The solid of a part by itself in the frame of its node, `[main, part]`, its plane at depth 0.
     fn natural(
         &self,
-        frames: &[Frame],
+        frames: &TiSlice<PartId, Frame>,
         world: &WorldTransform,
-        [main, part]: [usize; 2],
+        [main, part]: [PartId; 2],
         profile: Profile,
     ) -> Solid {
         let (own, node) = (&frames[part], &frames[main]);
@@ -344,7 +340,7 @@ impl<'a> FigureContext<'a> {
 
     /// The step by which a part comes out in front of what it lies on, at most this: ink no farther than half its width, drawing
     /// units.
-    fn step(&self, part: usize, step: f64) -> f64 {
+    fn step(&self, part: PartId, step: f64) -> f64 {
         let own = &self.bindings.parts[part];
         let stroke = self.drawing.shapes[own.shape].stroke.as_ref();
         match stroke {
@@ -354,7 +350,7 @@ impl<'a> FigureContext<'a> {
     }
 
     /// How far a part's solid stands from the plane of its node, drawing units, and whether it stands on both sides.
-    fn stand(&self, main: usize, part: usize) -> (f64, bool) {
+    fn stand(&self, main: PartId, part: PartId) -> (f64, bool) {
         // Ink stands where the part does on which it lies.
         let part = self.bindings.form(part);
         let shape = self.bindings.attributes(part).shape();

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::TiVec;
 
-use crate::bind::{Bindings, PartKind};
+use crate::bind::{Bindings, PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Frame, Outline};
 use crate::import::{ImportError, StaticModel, read_static_model};
@@ -21,7 +21,7 @@ const MAX_TRIANGLES: usize = 16 << 20;
 /// The linked models of a drawing, and the model of each part.
 pub(super) struct Models {
     assets: Vec<Loaded>,
-    of_part: FxHashMap<usize, usize>,
+    of_part: FxHashMap<PartId, usize>,
 }
 
 struct Loaded {
@@ -55,7 +55,7 @@ impl Models {
         let mut known: FxHashMap<&str, Result<usize, ModelError>> = FxHashMap::default();
         let mut reported = FxHashSet::default();
         let mut triangles = 0_usize;
-        for (index, part) in bindings.parts.iter().enumerate() {
+        for (index, part) in bindings.parts.iter_enumerated() {
             let Some(shape) = bindings.attributes(index).shape_if_set() else {
                 continue;
             };
@@ -108,7 +108,7 @@ impl Models {
     }
 
     /// Whether a part is a model.
-    pub(super) fn has(&self, part: usize) -> bool {
+    pub(super) fn has(&self, part: PartId) -> bool {
         self.of_part.contains_key(&part)
     }
 
@@ -143,7 +143,7 @@ impl Models {
     /// its up leads along the part's axis, and its front to the viewer.
     pub(super) fn surfaces(
         &self,
-        part: usize,
+        part: PartId,
         outline: &Outline,
         [own, node]: [&Frame; 2],
         depth: f64,

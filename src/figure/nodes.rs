@@ -2,10 +2,11 @@
 
 use glam::DQuat;
 use rayon::prelude::*;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::FigureContext;
 use super::tree::FigureNode;
+use crate::bind::PartId;
 use crate::scene::{
     Mesh, MeshId, Node, NodeId, Primitive, Provenance, Scene, SurfacePatch, WorldTransform,
 };
@@ -14,8 +15,8 @@ use crate::threads::GRAIN;
 /// A node that shows a part, and how it lies in the hierarchy.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PartNode {
-    /// Index of the part.
-    pub part: usize,
+    /// The part.
+    pub part: PartId,
     /// The parent node; `None` for a root.
     pub parent: Option<NodeId>,
     /// Whether the node is mirrored in the drawing plane.
@@ -28,10 +29,10 @@ pub(crate) struct PartNode {
 pub(super) fn add(
     context: &FigureContext<'_>,
     tree: TiVec<NodeId, FigureNode>,
-    meshes: Vec<Option<Mesh>>,
+    meshes: TiVec<PartId, Option<Mesh>>,
     world: &WorldTransform,
     scene: &mut Scene,
-) -> (TiVec<NodeId, PartNode>, Vec<Option<NodeId>>) {
+) -> (TiVec<NodeId, PartNode>, TiVec<PartId, Option<NodeId>>) {
     let mut nodes: TiVec<NodeId, PartNode> = TiVec::with_capacity(tree.len());
     for node in &tree {
         let above = node.parent.map_or(0.0, |parent| nodes[parent].depth);
@@ -66,10 +67,10 @@ pub(super) fn add(
     let in_scene = tree.raw.into_par_iter().with_min_len(GRAIN);
     scene.nodes = in_scene.map(to_scene).collect::<Vec<Node>>().into();
     let mut meshes = Meshes {
-        placed: vec![[None; 2]; meshes.len()],
+        placed: ti_vec![[None; 2]; meshes.len()],
         made: meshes,
     };
-    let mut node_of_part = vec![None; meshes.made.len()];
+    let mut node_of_part = ti_vec![None; meshes.made.len()];
     for (id, node) in nodes.iter_enumerated() {
         node_of_part[node.part].get_or_insert(id);
         match node.parent {
@@ -84,16 +85,16 @@ pub(super) fn add(
 /// Moves the meshes of parts into the scene.
 struct Meshes {
     /// Per part its mesh, until it is in the scene.
-    made: Vec<Option<Mesh>>,
+    made: TiVec<PartId, Option<Mesh>>,
     /// Per part its mesh and the mirrored mesh in the scene.
-    placed: Vec<[Option<MeshId>; 2]>,
+    placed: TiVec<PartId, [Option<MeshId>; 2]>,
 }
 
 impl Meshes {
     /// The mesh of a part, mirrored for a mirrored node. If only the other one is in the scene, it is made from that.
     fn place(
         &mut self,
-        part: usize,
+        part: PartId,
         is_mirrored: bool,
         scene: &mut TiVec<MeshId, Mesh>,
     ) -> Option<MeshId> {

@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::FigureContext;
 use super::layers::Layers;
-use crate::bind::PartKind;
+use crate::bind::{PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Frame;
 use crate::scene::NodeId;
@@ -18,8 +18,8 @@ const MAX_COPIES: usize = 1 << 16;
 #[derive(Debug, Clone)]
 pub(super) struct FigureNode {
     pub(super) name: String,
-    /// Index of the part that it shows.
-    pub(super) part: usize,
+    /// The part that it shows.
+    pub(super) part: PartId,
     /// The parent node, which comes before it.
     pub(super) parent: Option<NodeId>,
     /// Its position in the parent's frame, drawing units, y up.
@@ -33,7 +33,7 @@ pub(super) struct FigureNode {
 /// A part that needs a node.
 #[derive(Clone, Copy)]
 struct Pending {
-    part: usize,
+    part: PartId,
     /// The parent node.
     parent: Option<NodeId>,
     is_mirrored: bool,
@@ -44,26 +44,26 @@ struct Pending {
 /// The nodes of all main parts with the copies that `-d` makes, parents before children.
 pub(super) fn nodes(
     context: &FigureContext<'_>,
-    frames: &[Frame],
+    frames: &TiSlice<PartId, Frame>,
     layers: &Layers,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> TiVec<NodeId, FigureNode> {
     let parts = &context.bindings.parts;
-    let mut children: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
+    let mut children: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); parts.len()];
     let mut roots = Vec::new();
-    let mains = parts.iter().enumerate();
+    let mains = parts.iter_enumerated();
     for (index, part) in mains.filter(|(_, part)| part.kind == PartKind::Main) {
         match part.parent {
             Some(parent) => children[parent].push(index),
             None => roots.push(index),
         }
     }
-    let is_doubled = |part: usize| context.bindings.attributes(part).shape().doubled;
-    let has_copies =
-        (0..parts.len()).any(|part| parts[part].kind == PartKind::Main && is_doubled(part));
-    let taken = if has_copies { parts.as_slice() } else { &[] };
-    let mut names: FxHashMap<String, usize> =
-        taken.iter().map(|part| (part.name.clone(), 1)).collect();
+    let is_doubled = |part: PartId| context.bindings.attributes(part).shape().doubled;
+    let has_copies = parts
+        .iter_enumerated()
+        .any(|(index, part)| part.kind == PartKind::Main && is_doubled(index));
+    let taken = parts.iter().filter(|_| has_copies);
+    let mut names: FxHashMap<String, usize> = taken.map(|part| (part.name.clone(), 1)).collect();
     let mut nodes: TiVec<NodeId, FigureNode> = TiVec::with_capacity(parts.len());
     // A stack: the copy of a part is pushed first, so that it comes after the original and all below it.
     let mut stack: Vec<Pending> = Vec::new();
@@ -133,7 +133,7 @@ fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
 
 fn node(
     context: &FigureContext<'_>,
-    frames: &[Frame],
+    frames: &TiSlice<PartId, Frame>,
     layers: &Layers,
     pending: Pending,
 ) -> FigureNode {

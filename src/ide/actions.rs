@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Analysis;
 use super::at::{At, Found, attributes};
-use crate::bind::{BindRule, DistanceMode, Part, PartKind, StringId};
+use crate::bind::{BindRule, DistanceMode, Part, PartId, PartKind, StringId};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
@@ -74,7 +74,7 @@ impl Analysis {
     }
 
     /// Actions that give a part without a string one: in its description, or as a text beside it.
-    fn give_a_string(&self, index: usize) -> Vec<Action> {
+    fn give_a_string(&self, index: PartId) -> Vec<Action> {
         let part = &self.bindings().parts[index];
         if part.string.is_some() || part.kind != PartKind::Main {
             return vec![];

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{Analysis, Subject, subject};
-use crate::bind::{DrawingString, StringId};
+use crate::bind::{DrawingString, PartId, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::source::Span;
@@ -16,8 +16,8 @@ pub struct At<'a> {
     pub span: Span,
     /// The string or tag.
     pub found: Found,
-    /// Index of the part that the string or the tag has, if any; of a region, the one in this view.
-    pub part: Option<usize>,
+    /// The part that the string or the tag has, if any; of a region, the one in this view.
+    pub part: Option<PartId>,
     /// What the string or the tag belongs to. The preview shows it.
     pub subject: Option<Subject<'a>>,
     /// What the word stands for: the part that it names as a parent, the subject if it is not about the language. Hovers describe
@@ -127,7 +127,7 @@ impl Analysis {
             }
             None => {
                 let bindings = self.bindings();
-                let mut parts = 0..bindings.parts.len();
+                let mut parts = bindings.parts.keys();
                 let (part, naming) = parts.find_map(|part| {
                     let naming = bindings.naming_element(self.drawing(), part);
                     Some((part, naming.filter(|naming| is_there(naming))?))
@@ -174,15 +174,15 @@ impl Analysis {
         Some((string, text.offset_of(offset).filter(|_| inside)?))
     }
 
-    pub(super) fn part_of_shape(&self, shape: ShapeId) -> Option<usize> {
+    pub(super) fn part_of_shape(&self, shape: ShapeId) -> Option<PartId> {
         subject::part_of_shape(&self.compiled, shape)
     }
 
-    pub(super) fn part_of_string(&self, string: StringId) -> Option<usize> {
+    pub(super) fn part_of_string(&self, string: StringId) -> Option<PartId> {
         subject::part_of_string(&self.compiled, string)
     }
 
-    pub(super) fn span_of_part(&self, part: usize) -> Span {
+    pub(super) fn span_of_part(&self, part: PartId) -> Span {
         subject::span_of_part(&self.compiled, part)
     }
 

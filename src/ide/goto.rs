@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::at::{At, Found, Item, attributes};
 use super::subject::span_of_shape;
 use super::{Analysis, Symbol, Which};
-use crate::bind::{SetBy, StringId};
+use crate::bind::{PartId, SetBy, StringId};
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
@@ -54,7 +54,7 @@ impl Analysis {
     /// The string of a tag's part or landscape; for a sub-part without one, that of its main part.
     fn string_of_tag(&self, at: &At<'_>) -> Option<StringId> {
         let parts = &self.bindings().parts;
-        let own = |part: usize| parts[part].string.or(parts[parts[part].main].string);
+        let own = |part: PartId| parts[part].string.or(parts[parts[part].main].string);
         let landscape = || match at.subject?.which {
             Which::Landscape(_) => at.subject?.string_id(),
             _ => None,
@@ -79,7 +79,7 @@ impl Analysis {
     }
 
     /// What a string names: in the other views of a character, or else its own shape.
-    fn named_by(&self, string: StringId, part: Option<usize>) -> Option<Vec<Target>> {
+    fn named_by(&self, string: StringId, part: Option<PartId>) -> Option<Vec<Target>> {
         if let Some(others) = self.in_other_views(string) {
             return Some(others);
         }
@@ -88,7 +88,7 @@ impl Analysis {
     }
 
     /// The setting of a legend or default that an attribute of a part's own string overrides.
-    fn overruled(&self, string: StringId, part: usize, index: usize) -> Option<Vec<Target>> {
+    fn overruled(&self, string: StringId, part: PartId, index: usize) -> Option<Vec<Target>> {
         let keyword = attributes(&self.bindings().strings[string].annotation)[index].keyword;
         let others = self.bindings().inherited(part, keyword)?;
         Some(vec![Target::Here(
@@ -161,13 +161,13 @@ impl Analysis {
             Some(keyword) => std::slice::from_ref(keyword),
             None => Keyword::ALL,
         };
-        let goes_by = |part: &usize| {
+        let goes_by = |part: &PartId| {
             keywords.iter().any(|keyword| {
                 let source = self.bindings().setting(*part, *keyword);
                 source.is_some_and(|source| source.string == string && source.from != SetBy::Own)
             })
         };
-        let parts = 0..self.bindings().parts.len();
+        let parts = self.bindings().parts.keys();
         parts
             .filter(goes_by)
             .map(|part| self.span_of_part(part))

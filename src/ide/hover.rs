@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::at::{At, Found, Item, attributes};
 use super::subject::bound_by;
 use super::{Analysis, Subject, Symbol, Which};
-use crate::bind::{BoundBy, NamedBy, PartKind, SetBy, StringId};
+use crate::bind::{BoundBy, NamedBy, PartId, PartKind, SetBy, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::{Keyword, kinds};
@@ -222,7 +222,7 @@ impl Analysis {
     }
 
     /// A part: its ancestors, its element and why it is bound to that, and the source of each attribute; the partners of a region.
-    pub(super) fn part_card(&self, index: usize) -> String {
+    pub(super) fn part_card(&self, index: PartId) -> String {
         let bindings = self.bindings();
         let part = &bindings.parts[index];
         let mut out = match part.kind {
@@ -297,11 +297,10 @@ impl Analysis {
             let _ = write!(out, "\n{driven}");
         }
         if part.kind == PartKind::Main {
-            let children = (0..bindings.parts.len()).filter(|child| {
-                bindings.parts[*child].kind == PartKind::Main
-                    && bindings.parts[*child].parent == Some(index)
-            });
-            if let Some(names) = self.names(children.collect()) {
+            let parts = bindings.parts.iter_enumerated();
+            let children = parts
+                .filter(|(_, child)| child.kind == PartKind::Main && child.parent == Some(index));
+            if let Some(names) = self.names(children.map(|(child, _)| child).collect()) {
                 let _ = write!(out, "\nAttached parts: {names}.");
             }
         }
@@ -309,7 +308,7 @@ impl Analysis {
     }
 
     /// `Root › Ubody › **Rarm**`
-    fn lineage(&self, part: usize) -> String {
+    fn lineage(&self, part: PartId) -> String {
         let parts = &self.bindings().parts;
         let mut names = vec![format!("**{}**", escaped(&parts[part].name))];
         let mut at = part;
@@ -326,7 +325,7 @@ impl Analysis {
         names.join(" › ")
     }
 
-    fn element_of(&self, part: usize) -> String {
+    fn element_of(&self, part: PartId) -> String {
         let element = &self.drawing().shapes[self.bindings().parts[part].shape].element;
         let called = element.describe();
         if element.label.is_some() || element.id.is_some() {
@@ -345,7 +344,7 @@ impl Analysis {
         out
     }
 
-    fn legend_card(&self, string: StringId, part: usize) -> String {
+    fn legend_card(&self, string: StringId, part: PartId) -> String {
         let mut out = format!(
             "A legend for all parts that are painted like {}.",
             self.element_of(part)
@@ -360,10 +359,10 @@ impl Analysis {
     }
 
     /// The parts that inherit an attribute from a legend or a `%` string.
-    fn parts_inheriting_from(&self, string: StringId) -> Vec<usize> {
+    fn parts_inheriting_from(&self, string: StringId) -> Vec<PartId> {
         let bindings = self.bindings();
         let keywords = attributes(&bindings.strings[string].annotation);
-        let goes_by = |part: &usize| {
+        let goes_by = |part: &PartId| {
             let is_built = matches!(bindings.parts[*part].kind, PartKind::Main | PartKind::Sub);
             is_built
                 && keywords.iter().any(|attribute| {
@@ -371,10 +370,10 @@ impl Analysis {
                     source.is_some_and(|source| source.string == string)
                 })
         };
-        (0..bindings.parts.len()).filter(goes_by).collect()
+        bindings.parts.keys().filter(goes_by).collect()
     }
 
-    fn names(&self, parts: Vec<usize>) -> Option<String> {
+    fn names(&self, parts: Vec<PartId>) -> Option<String> {
         let shown: Vec<_> = parts
             .iter()
             .take(MAX_NAMED)

@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use super::uses::own_name;
-use crate::bind::{NamedBy, PartKind, SetBy, StringHolder, StringId};
+use crate::bind::{NamedBy, PartId, PartKind, SetBy, StringHolder, StringId};
 use crate::lang::looks_like_string;
 use crate::source::Span;
 
@@ -37,8 +37,7 @@ impl Analysis {
             return vec![];
         }
         let mut out = vec![];
-        for index in 0..bindings.parts.len() {
-            let part = &bindings.parts[index];
+        for (index, part) in bindings.parts.iter_enumerated() {
             if part.kind != PartKind::Main {
                 continue;
             }
@@ -61,7 +60,7 @@ impl Analysis {
     }
 
     /// After a shape's tag: its name, which no string gives, and its parent.
-    fn without_string(&self, index: usize) -> Option<Inlay> {
+    fn without_string(&self, index: PartId) -> Option<Inlay> {
         let bindings = self.bindings();
         let part = &bindings.parts[index];
         let at = self.drawing().shapes[part.shape].element.span.end;
@@ -96,7 +95,7 @@ impl Analysis {
     }
 
     /// Before a description without a name: the name of its element.
-    fn name_of_element(&self, index: usize, string: StringId) -> Option<Inlay> {
+    fn name_of_element(&self, index: PartId, string: StringId) -> Option<Inlay> {
         let bindings = self.bindings();
         let found = &bindings.strings[string];
         let text = found.text.as_str();
@@ -123,7 +122,7 @@ impl Analysis {
     }
 
     /// After a string: the attributes that its part inherits from a legend or `%`.
-    fn inherited_by(&self, index: usize, string: StringId) -> Option<Inlay> {
+    fn inherited_by(&self, index: PartId, string: StringId) -> Option<Inlay> {
         let bindings = self.bindings();
         let text = &bindings.strings[string].text;
         let resolved = bindings.resolved(self.drawing(), index).into_iter();

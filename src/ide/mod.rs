@@ -48,7 +48,7 @@ pub(crate) use uses::{Symbol, Use};
 
 use std::sync::Arc;
 
-use crate::bind::{Bindings, PartKind};
+use crate::bind::{Bindings, PartId, PartKind};
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
 use crate::svg::Drawing;
@@ -108,9 +108,9 @@ impl Analysis {
     }
 
     /// The main part with a name; the back-most if there are several.
-    fn part_named(&self, name: &str) -> Option<usize> {
+    fn part_named(&self, name: &str) -> Option<PartId> {
         let named = |part: &crate::bind::Part| part.kind == PartKind::Main && part.name == name;
-        self.bindings().parts.iter().position(named)
+        self.bindings().parts.position(named)
     }
 
     /// Whether a variable of this name is defined.

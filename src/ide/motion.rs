@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::Analysis;
 use super::at::attributes;
 use super::hover::escaped;
-use crate::bind::{PartKind, StringId};
+use crate::bind::{PartId, PartKind, StringId};
 use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
 use crate::limited::frame_ranges;
@@ -21,7 +21,7 @@ const MAX_JOINTS: usize = 8;
 
 impl Analysis {
     /// The clips of the drawing, those of the part's figure first.
-    pub(super) fn clips_for(&self, part: Option<usize>) -> Vec<&FigureClip> {
+    pub(super) fn clips_for(&self, part: Option<PartId>) -> Vec<&FigureClip> {
         let main = part.map(|part| self.bindings().parts[part].main);
         let mut clips: Vec<&FigureClip> = self.compiled.clips.iter().collect();
         clips.sort_by_key(|clip| main.is_none_or(|main| clip.part_drive(main).is_none()));
@@ -30,7 +30,7 @@ impl Analysis {
 
     /// The joint that drives a part, and why, in each clip of its figure: one paragraph for all clips that agree. `None` for
     /// parts of figures without clips.
-    pub(super) fn driven_card(&self, part: usize) -> Option<String> {
+    pub(super) fn driven_card(&self, part: PartId) -> Option<String> {
         if self.bindings().parts[part].kind != PartKind::Main {
             return None;
         }

@@ -6,7 +6,7 @@ use super::Item;
 use super::at::tokens;
 use crate::billboard::{TrackId, ViewId};
 use crate::bind::{
-    Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Resolved, SetBy, StringId,
+    Bindings, BoundBy, DrawingString, NamedBy, Part, PartId, PartKind, Resolved, SetBy, StringId,
 };
 use crate::compile::Compiled;
 use crate::source::Span;
@@ -25,7 +25,7 @@ pub struct Subject<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Which {
     /// A part of a figure; also legends and unused parts.
-    Part(usize),
+    Part(PartId),
     /// A landscape.
     Landscape(LandscapeId),
     /// A character that turns.
@@ -38,7 +38,7 @@ impl<'a> Subject<'a> {
     /// Everything in a drawing, in the order of `inspect`: the parts in paint order, the landscapes, the characters, each with its
     /// regions behind it.
     pub fn all(compiled: &'a Compiled) -> impl Iterator<Item = Self> {
-        let parts = compiled.bindings.parts.iter().enumerate();
+        let parts = compiled.bindings.parts.iter_enumerated();
         let parts = parts.filter(|(_, part)| !is_content(part));
         let parts = parts.map(|(part, _)| Which::Part(part));
         let landscapes = compiled.layers.keys().map(Which::Landscape);
@@ -58,7 +58,7 @@ impl<'a> Subject<'a> {
     }
 
     /// A part. What is drawn in a landscape or a view belongs to that, and is none of its own there.
-    pub(super) fn of_part(compiled: &'a Compiled, part: usize) -> Option<Self> {
+    pub(super) fn of_part(compiled: &'a Compiled, part: PartId) -> Option<Self> {
         match &compiled.bindings.parts[part] {
             content if is_content(content) => Self::of_content(compiled, content.shape),
             _ => Some(Self {
@@ -308,25 +308,25 @@ fn is_content(part: &Part) -> bool {
 }
 
 /// The part of a shape; the fill if fill and border are two.
-pub(super) fn part_of_shape(compiled: &Compiled, shape: ShapeId) -> Option<usize> {
-    let mut parts = compiled.bindings.parts.iter();
+pub(super) fn part_of_shape(compiled: &Compiled, shape: ShapeId) -> Option<PartId> {
+    let parts = &compiled.bindings.parts;
     parts.position(|part| part.shape == shape)
 }
 
 /// The part that a string describes; `None` if another string describes it too, and came first.
-pub(super) fn part_of_string(compiled: &Compiled, string: StringId) -> Option<usize> {
+pub(super) fn part_of_string(compiled: &Compiled, string: StringId) -> Option<PartId> {
     let part = compiled.bindings.strings[string].binding?.part;
     (compiled.bindings.parts[part].string == Some(string)).then_some(part)
 }
 
 /// The rule by which a part has its string.
-pub(super) fn bound_by(compiled: &Compiled, part: usize) -> Option<BoundBy> {
+pub(super) fn bound_by(compiled: &Compiled, part: PartId) -> Option<BoundBy> {
     let Bindings { parts, strings, .. } = &compiled.bindings;
     Some(strings[parts[part].string?].binding?.by)
 }
 
 /// The span that names a part: in its string, or the tag of its shape or group.
-pub(super) fn span_of_part(compiled: &Compiled, part: usize) -> Span {
+pub(super) fn span_of_part(compiled: &Compiled, part: PartId) -> Span {
     let Compiled {
         bindings, drawing, ..
     } = compiled;

@@ -1,7 +1,9 @@
 //! The figure's hierarchy, as an outline of the drawing.
 
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
 use super::Analysis;
-use crate::bind::PartKind;
+use crate::bind::{PartId, PartKind};
 use crate::source::Span;
 
 /// The greatest depth of the outline; deeper parts are siblings of their ancestor at this depth.
@@ -31,9 +33,11 @@ impl Analysis {
         if !bindings.annotated {
             return vec![];
         }
-        let mut children: Vec<Vec<usize>> = vec![vec![]; bindings.parts.len()];
+        let mut children: TiVec<PartId, Vec<PartId>> = ti_vec![vec![]; bindings.parts.len()];
         let mut roots = vec![];
-        let mut order: Vec<usize> = (0..bindings.parts.len())
+        let mut order: Vec<PartId> = bindings
+            .parts
+            .keys()
             .filter(|part| bindings.parts[*part].kind == PartKind::Main)
             .collect();
         order.sort_by_cached_key(|part| self.span_of_part(*part));
@@ -46,9 +50,14 @@ impl Analysis {
         self.outline_of(&roots, &children, 0)
     }
 
-    fn outline_of(&self, parts: &[usize], children: &[Vec<usize>], depth: usize) -> Vec<Outline> {
+    fn outline_of(
+        &self,
+        parts: &[PartId],
+        children: &TiSlice<PartId, Vec<PartId>>,
+        depth: usize,
+    ) -> Vec<Outline> {
         let mut out = vec![];
-        let mut waiting: Vec<usize> = parts.iter().rev().copied().collect();
+        let mut waiting: Vec<PartId> = parts.iter().rev().copied().collect();
         while let Some(part) = waiting.pop() {
             let mut outline = self.outline_entry(part);
             outline.is_joint = !children[part].is_empty();
@@ -62,7 +71,7 @@ impl Analysis {
         out
     }
 
-    fn outline_entry(&self, part: usize) -> Outline {
+    fn outline_entry(&self, part: PartId) -> Outline {
         let bindings = self.bindings();
         let selection = self.span_of_part(part);
         let shape = bindings.setting(part, crate::lang::keyword::Keyword::Shape);

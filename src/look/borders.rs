@@ -63,13 +63,13 @@ mod tests {
 
     #[test]
     fn two_pixels_on_each_side_of_a_border_are_near_it() {
-        let (part, nothing) = (Some(Owner::Part(0)), None);
+        let (part, nothing) = (Some(Owner::Part(0.into())), None);
         let row = [nothing, nothing, nothing, nothing, part, part, part, part];
         let drawn = Drawn {
             size: [8, 2],
             colors: vec![[0; 4]; 16],
             owners: [row, row].concat(),
-            models: vec![false],
+            models: vec![false].into(),
             regions: FxHashMap::default(),
         };
         let borders = Borders::find(&drawn);

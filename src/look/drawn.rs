@@ -2,10 +2,11 @@
 
 use resvg::tiny_skia::{FillRule, Mask, PathBuilder, Transform};
 use rustc_hash::FxHashMap;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::LookError;
 use crate::assemble::Owner;
-use crate::bind::{Bindings, Part, PartKind};
+use crate::bind::{Bindings, Part, PartId, PartKind};
 use crate::compile::Compiled;
 use crate::geometry::Outline;
 use crate::resolver::Resolver;
@@ -24,9 +25,9 @@ pub(super) struct Drawn {
     /// Per pixel what was drawn last there.
     pub(super) owners: Vec<Option<Owner>>,
     /// Per part whether a linked model is in its place.
-    pub(super) models: Vec<bool>,
+    pub(super) models: TiVec<PartId, bool>,
     /// The parts that are regions of characters, each with the part of the same region in the first view.
-    pub(super) regions: FxHashMap<usize, usize>,
+    pub(super) regions: FxHashMap<PartId, PartId>,
 }
 
 impl Drawn {
@@ -46,8 +47,8 @@ impl Drawn {
         let left_out = left_out(drawing, bindings, &owners);
         let raster = svg::raster(text, resolver, &left_out, size, scale);
         let raster = raster.ok_or(LookError::Drawing)?;
-        let models = 0..bindings.parts.len();
-        let is_model = |part: usize| bindings.attributes(part).shape().kind == "model";
+        let models = bindings.parts.keys();
+        let is_model = |part: PartId| bindings.attributes(part).shape().kind == "model";
         Ok(Self {
             size,
             colors: raster.pixels,
@@ -72,7 +73,7 @@ impl Drawn {
 }
 
 /// The parts that views of characters show, each with the part of the same region in the first view.
-fn regions(compiled: &Compiled) -> FxHashMap<usize, usize> {
+fn regions(compiled: &Compiled) -> FxHashMap<PartId, PartId> {
     let mut first_of_shape = FxHashMap::default();
     for region in compiled.characters.iter().flat_map(|c| &c.regions) {
         let Some(first) = region.part else { continue };
@@ -80,7 +81,7 @@ fn regions(compiled: &Compiled) -> FxHashMap<usize, usize> {
         let shapes = shown.filter_map(|(shape, is_hidden)| shape.filter(|_| !is_hidden));
         first_of_shape.extend(shapes.map(|shape| (shape, first)));
     }
-    let parts = compiled.bindings.parts.iter().enumerate();
+    let parts = compiled.bindings.parts.iter_enumerated();
     let regions = parts.filter(|(_, part)| part.kind == PartKind::Region);
     regions
         .filter_map(|(index, part)| Some((index, *first_of_shape.get(&part.shape)?)))
@@ -88,11 +89,14 @@ fn regions(compiled: &Compiled) -> FxHashMap<usize, usize> {
 }
 
 /// Per part what it is in the model; `None` for what is not built.
-fn owners_of_parts(compiled: &Compiled, regions: &FxHashMap<usize, usize>) -> Vec<Option<Owner>> {
+fn owners_of_parts(
+    compiled: &Compiled,
+    regions: &FxHashMap<PartId, PartId>,
+) -> TiVec<PartId, Option<Owner>> {
     let Compiled {
         bindings, drawing, ..
     } = compiled;
-    let owner = |(index, part): (usize, &Part)| match part.kind {
+    let owner = |(index, part): (PartId, &Part)| match part.kind {
         PartKind::Main | PartKind::Sub => {
             let is_built = bindings.profile(drawing, index).is_some();
             is_built.then_some(Owner::Part(index))
@@ -101,7 +105,7 @@ fn owners_of_parts(compiled: &Compiled, regions: &FxHashMap<usize, usize>) -> Ve
         PartKind::Region => regions.contains_key(&index).then_some(Owner::Part(index)),
         PartKind::Legend | PartKind::Unused => None,
     };
-    bindings.parts.iter().enumerate().map(owner).collect()
+    bindings.parts.iter_enumerated().map(owner).collect()
 }
 
 /// The landscape that a shape belongs to.
@@ -117,7 +121,7 @@ fn landscape_of(compiled: &Compiled, shape: ShapeId) -> Option<LandscapeId> {
 fn left_out(
     drawing: &Drawing,
     bindings: &Bindings,
-    owners: &[Option<Owner>],
+    owners: &TiSlice<PartId, Option<Owner>>,
 ) -> FxHashMap<usize, LeftOut> {
     /// What is built of an element, and how many shapes it has.
     #[derive(Default)]
@@ -176,7 +180,7 @@ fn left_out(
 fn last_drawn(
     drawing: &Drawing,
     bindings: &Bindings,
-    owners: &[Option<Owner>],
+    owners: &TiSlice<PartId, Option<Owner>>,
     [width, height]: [u32; 2],
     scale: f64,
 ) -> Result<Vec<Option<Owner>>, LookError> {

@@ -1,7 +1,7 @@
 //! What looks different from the drawing, in words.
 
 use super::{Instead, Look, PartLook};
-use crate::bind::PartKind;
+use crate::bind::{PartId, PartKind};
 use crate::compile::Compiled;
 use crate::diagnostic::{Code, Diagnostic};
 
@@ -22,9 +22,9 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
     let Compiled {
         bindings, drawing, ..
     } = compiled;
-    let name = |part: usize| bindings.describe_as_drawn(drawing, part);
+    let name = |part: PartId| bindings.describe_as_drawn(drawing, part);
     let who = name(look.part);
-    let span = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
+    let span = |part: PartId| drawing.shapes[bindings.parts[part].shape].element.span;
     let (why, help) = match instead {
         Instead::OtherColor => (
             "it has another colour there".to_owned(),

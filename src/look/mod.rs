@@ -22,6 +22,7 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
 use crate::assemble::{Owner, assemble_apart};
+use crate::bind::PartId;
 use crate::compile::Compiled;
 use crate::crash::Crash;
 use crate::export::{self, GLB};
@@ -54,8 +55,8 @@ pub struct Look {
 /// How a part looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PartLook {
-    /// Index of the part.
-    pub part: usize,
+    /// The part.
+    pub part: PartId,
     /// The number of counted pixels that show it in the drawing.
     pub pixels: usize,
     /// How many of them show the right colour in the model.
@@ -79,7 +80,7 @@ pub enum Instead {
     /// Nothing.
     Nothing,
     /// Another part.
-    Part(usize),
+    Part(PartId),
     /// The landscape of a tile layer.
     Landscape(LandscapeId),
 }
@@ -185,8 +186,8 @@ fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look
     let borders = Borders::find(drawn);
     let recolored = Recolored::new(compiled);
     let (mut pixels, mut right) = (0, 0);
-    let mut parts: FxHashMap<usize, PartLook> = FxHashMap::default();
-    let mut instead: FxHashMap<(usize, Instead), usize> = FxHashMap::default();
+    let mut parts: FxHashMap<PartId, PartLook> = FxHashMap::default();
+    let mut instead: FxHashMap<(PartId, Instead), usize> = FxHashMap::default();
     for (at, (shown, color)) in shown.iter().enumerate() {
         let (owner, drawn_color) = (drawn.owners[at], drawn.colors[at]);
         let is_empty = drawn_color[3] == 0 && color[3] == 0;
@@ -251,7 +252,7 @@ fn is_alike(one: [u8; 4], other: [u8; 4]) -> bool {
 
 /// What shows other colours than were drawn.
 struct Recolored {
-    parts: Vec<bool>,
+    parts: TiVec<PartId, bool>,
     landscapes: TiVec<LandscapeId, bool>,
 }
 
@@ -262,13 +263,13 @@ impl Recolored {
         let Compiled {
             bindings, drawing, ..
         } = compiled;
-        let by_strings = |part: usize| {
+        let by_strings = |part: PartId| {
             let set = |keyword: &Keyword| bindings.setting(part, *keyword).is_some();
             OF_COLOR.iter().any(set)
         };
-        let mut parts: Vec<bool> = (0..bindings.parts.len()).map(by_strings).collect();
+        let mut parts: TiVec<PartId, bool> = bindings.parts.keys().map(by_strings).collect();
         if parts.contains(&true) {
-            for (index, part) in bindings.parts.iter().enumerate() {
+            for (index, part) in bindings.parts.iter_enumerated() {
                 let has_server = part.paint(drawing).server.is_some();
                 parts[index] |= has_server || drawing.shapes[part.shape].opacity < 1.0;
             }

@@ -75,11 +75,11 @@ fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scen
     let extents = layers.iter().map(extent);
     // So far apart that none reaches into another, or into a figure.
     let apart = 2.0 * (compiled.drawing.page.1.length() + extents.fold(0.0, f64::max));
-    let last_part = compiled.bindings.parts.iter().rposition(|part| {
+    let last_part = compiled.bindings.parts.iter().rfind(|part| {
         use crate::bind::PartKind;
         matches!(part.kind, PartKind::Main | PartKind::Sub)
     });
-    let last_shape = last_part.map(|part| compiled.bindings.parts[part].shape);
+    let last_shape = last_part.map(|part| part.shape);
     for (index, (node, layer)) in bent.into_iter().zip(layers).enumerate() {
         let first = layer.sources.first().map(|source| source.shape);
         let steps = if first > last_shape {

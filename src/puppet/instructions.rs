@@ -167,7 +167,7 @@ mod tests {
         PieceMark {
             word: word.to_owned(),
             color: [1, 2, 3],
-            part: 0,
+            part: 0.into(),
             origin: MarkOrigin::Suggested,
         }
     }

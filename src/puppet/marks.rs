@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::pieces::PaperPiece;
 use crate::anatomy::{self, Role};
-use crate::bind::Bindings;
+use crate::bind::{Bindings, PartId};
 use crate::geometry::bounds;
 use crate::svg::Drawing;
 
@@ -31,8 +31,8 @@ pub struct PieceMark {
     pub word: String,
     /// Red, green, blue, sRGB.
     pub color: [u8; 3],
-    /// The part that has it, an index into the bindings' parts.
-    pub part: usize,
+    /// The part that has it.
+    pub part: PartId,
     /// Whether a string gives it, or the sheet suggests it.
     pub origin: MarkOrigin,
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec2;
 
 use crate::anatomy::{self, Role};
-use crate::bind::{Bindings, PartKind};
+use crate::bind::{Bindings, PartId, PartKind};
 use crate::geometry::{
     Outline, area, bounds, centroid, distance_squared, intersect, offset, union,
 };
@@ -23,10 +23,10 @@ const NEAR: f64 = 0.02;
 /// A piece of paper: a part with its details. Points are in drawing units from the page's top left corner.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PaperPiece {
-    /// The main part, an index into the bindings' parts.
-    pub part: usize,
+    /// The main part.
+    pub part: PartId,
     /// The other main parts that are drawn on it.
-    pub details: Vec<usize>,
+    pub details: Vec<PartId>,
     /// Its shapes by [`Shape::leaf`](crate::svg::Shape::leaf), in paint order.
     pub leaves: Vec<usize>,
     /// The first shape of the main part, likewise.
@@ -68,9 +68,9 @@ pub fn pieces(drawing: &Drawing, bindings: &Bindings) -> Vec<PaperPiece> {
 }
 
 /// Per main part all parts in its node.
-fn members(bindings: &Bindings) -> BTreeMap<usize, Vec<usize>> {
-    let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (index, part) in bindings.parts.iter().enumerate() {
+fn members(bindings: &Bindings) -> BTreeMap<PartId, Vec<PartId>> {
+    let mut members: BTreeMap<PartId, Vec<PartId>> = BTreeMap::new();
+    for (index, part) in bindings.parts.iter_enumerated() {
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
             members.entry(part.main).or_default().push(index);
         }
@@ -82,7 +82,7 @@ fn members(bindings: &Bindings) -> BTreeMap<usize, Vec<usize>> {
 struct Cutter<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
-    members: BTreeMap<usize, Vec<usize>>,
+    members: BTreeMap<PartId, Vec<PartId>>,
     pieces: Vec<PaperPiece>,
 }
 
@@ -115,9 +115,9 @@ impl Cutter<'_> {
     }
 
     /// The piece of a part by itself; `None` if nothing of it is built.
-    fn piece(&self, part: usize) -> Option<PaperPiece> {
+    fn piece(&self, part: PartId) -> Option<PaperPiece> {
         let bindings = self.bindings;
-        let is_built = |member: &&usize| {
+        let is_built = |member: &&PartId| {
             let form = bindings.form(**member);
             bindings.attributes(form).shape().kind != "none"
         };
@@ -200,7 +200,7 @@ impl Cutter<'_> {
         }
     }
 
-    fn role(&self, part: usize) -> Option<Role> {
+    fn role(&self, part: PartId) -> Option<Role> {
         Role::of(&anatomy::terms(&self.bindings.parts[part].name))
     }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::bind::PartId;
 use crate::compile::Compiled;
 use crate::rig::{FigureClip, PartDrive, Performance};
 
@@ -56,7 +57,7 @@ pub(crate) fn clips(compiled: &Compiled) -> Vec<Clip<'_>> {
 }
 
 fn report<'a>(compiled: &'a Compiled, clip: &'a FigureClip) -> Clip<'a> {
-    let name = |part: usize| compiled.bindings.parts[part].name.as_str();
+    let name = |part: PartId| compiled.bindings.parts[part].name.as_str();
     let (driven, unmatched): (Vec<_>, Vec<_>) =
         clip.parts.iter().partition(|drive| drive.joint.is_some());
     let joint = |drive: &&PartDrive| Some((name(drive.part), clip.joint_name(drive.joint?)));

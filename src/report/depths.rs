@@ -1,5 +1,6 @@
 //! How far in front of others parts lie, and why, for people.
 
+use crate::bind::PartId;
 use crate::compile::Compiled;
 use crate::figure::Reason;
 
@@ -7,15 +8,15 @@ use crate::figure::Reason;
 const NONE: f64 = 5e-3;
 
 /// Why a main part lies at its depth; `None` for one that lies in the plane of what it hangs on, and for parts without a node.
-pub(crate) fn depth_reason(compiled: &Compiled, part: usize) -> Option<String> {
+pub(crate) fn depth_reason(compiled: &Compiled, part: PartId) -> Option<String> {
     let (parts, depths) = (&compiled.bindings.parts, &compiled.depths);
-    let name = |part: usize| &parts[parts[part].main].name;
+    let name = |part: PartId| &parts[parts[part].main].name;
     let own = depths[part]?;
-    let from = |other: usize| match depths[other] {
+    let from = |other: PartId| match depths[other] {
         Some(other) => own.depth - other.depth,
         None => 0.0,
     };
-    let place = |other: usize| {
+    let place = |other: PartId| {
         let (name, by) = (name(other), from(other));
         match by {
             _ if by.abs() < NONE => format!("as deep as {name}"),

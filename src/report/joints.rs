@@ -1,5 +1,8 @@
 //! Which joint drives which part, and why.
 
+use typed_index_collections::{TiVec, ti_vec};
+
+use crate::bind::PartId;
 use crate::compile::Compiled;
 
 /// The joint that drives a part.
@@ -13,8 +16,8 @@ pub(crate) struct Driver<'a> {
 
 /// Per part the joint that drives it, from the first clip of its figure in which one does, else the first clip's reason why none does.
 /// `None` for parts of figures that do not move.
-pub(crate) fn drivers(compiled: &Compiled) -> Vec<Option<Driver<'_>>> {
-    let mut drivers: Vec<Option<Driver>> = vec![None; compiled.bindings.parts.len()];
+pub(crate) fn drivers(compiled: &Compiled) -> TiVec<PartId, Option<Driver<'_>>> {
+    let mut drivers: TiVec<PartId, Option<Driver>> = ti_vec![None; compiled.bindings.parts.len()];
     for clip in &compiled.clips {
         for drive in &clip.parts {
             let driver = &mut drivers[drive.part];

@@ -11,7 +11,7 @@ use super::figures::FigureGroup;
 use super::performed::{self, Channels, Performed};
 use super::rigging::{self, RestNodes};
 use super::tracks::AnimatedNodes;
-use crate::bind::{ClipLimits, ClipRequest, PerformanceRequest, SetBy};
+use crate::bind::{ClipLimits, ClipRequest, PartId, PerformanceRequest, SetBy};
 use crate::clips::{BuiltIn, Legs};
 use crate::diagnostic::Diagnostic;
 use crate::labels::{Class, Figure};
@@ -152,7 +152,7 @@ impl<'a> ClipBuilder<'a> {
         }
         let plan = channels.plan(matched, &request, tracks, motion, self.memo);
         let parts = &self.context.bindings.parts;
-        let name = |part: usize| parts[part].name.clone();
+        let name = |part: PartId| parts[part].name.clone();
         let of_parts = channels.parts(&matched.group);
         performed::report(&plan, tracks, &of_parts, name, &request, diagnostics);
         Some(FoundPerformance {
@@ -331,7 +331,7 @@ impl<'a> ClipBuilder<'a> {
 }
 
 /// What the strings say about all clips of a figure: that of any of its parts takes precedence over one for all figures.
-fn of_figure<T>(group: &FigureGroup, said: impl Fn(usize) -> Option<(SetBy, T)>) -> Option<T> {
+fn of_figure<T>(group: &FigureGroup, said: impl Fn(PartId) -> Option<(SetBy, T)>) -> Option<T> {
     let parts = std::iter::once(&group.root).chain(&group.parts);
     let said = parts.filter_map(|part| said(*part));
     let (_, first) = said.min_by_key(|(from, _)| *from)?;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::bind::{FollowedName, PartMark, PerformanceRequest};
+use crate::bind::{FollowedName, PartId, PartMark, PerformanceRequest};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::limited::{Cut, MAX_OMITTED_RUN};
 use crate::mark_tracks;
@@ -274,9 +274,9 @@ pub(super) fn odd_performance(
 #[derive(Debug, Default)]
 pub(super) struct MatchProblems {
     /// Per part, and the name that its string gives or an empty one, how often the problem occurred, and its last occurrence.
-    problems: BTreeMap<(usize, String), (usize, Problem)>,
+    problems: BTreeMap<(PartId, String), (usize, Problem)>,
     /// Per part how many clips its figure has.
-    clips: BTreeMap<usize, usize>,
+    clips: BTreeMap<PartId, usize>,
 }
 
 impl MatchProblems {
@@ -285,7 +285,7 @@ impl MatchProblems {
             *self.clips.entry(*part).or_default() += 1;
         }
         for problem in &matching.problems {
-            let keys: Vec<(usize, String)> = match problem {
+            let keys: Vec<(PartId, String)> = match problem {
                 Problem::UnknownBone { part, name, .. }
                 | Problem::AmbiguousBone { part, name, .. } => {
                     vec![(group.parts[*part], name.clone())]
@@ -328,7 +328,7 @@ impl MatchProblems {
 
 fn match_problem(
     context: &Context<'_>,
-    part: usize,
+    part: PartId,
     problem: &Problem,
     skeleton: Option<&Skeleton>,
 ) -> Diagnostic {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{FigureClip, Performed};
-use crate::bind::Bindings;
+use crate::bind::{Bindings, PartId};
 use crate::performance::{Filming, Information};
 
 /// The most values of a curve in a report: more cannot be told apart on a screen.
@@ -114,7 +114,7 @@ impl Performed {
         let [red, green, blue] = track.color;
         let emphasized = plan.emphasized == Some(channel);
         let ratio = plan.ratio(channel);
-        let name = |part: &usize| bindings.parts[*part].name.as_str();
+        let name = |part: &PartId| bindings.parts[*part].name.as_str();
         PerformedMark {
             name: &track.name,
             color: format!("#{red:02x}{green:02x}{blue:02x}"),

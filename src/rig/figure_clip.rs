@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::bind::PartId;
 use crate::labels::{Label, Tip};
 use crate::limited::{Cut, Exposure};
 use crate::limited::{KeyTimes, Measured};
@@ -25,8 +26,8 @@ pub struct FigureClip {
     pub file: String,
     /// Where a string asks for the clip.
     pub requested_at: Span,
-    /// The root of the figure, an index into the bindings' parts.
-    pub root: usize,
+    /// The root of the figure.
+    pub root: PartId,
     /// What drives which part: all parts of the figure that are in the hierarchy, in drawing order.
     pub parts: Vec<PartDrive>,
     /// The motion of the file, with all its frames.
@@ -40,7 +41,7 @@ pub struct FigureClip {
     /// How the performance is filmed.
     pub filmed: Filmed,
     /// The parts in the order of `retargeted`.
-    pub(super) order: Vec<usize>,
+    pub(super) order: Vec<PartId>,
     pub(super) retargeted: Arc<RetargetedClip>,
     pub(super) measured: Arc<Measured>,
     pub(super) animated: Arc<AnimatedNodes>,
@@ -49,8 +50,8 @@ pub struct FigureClip {
 /// A part of a figure, and the joint that drives it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PartDrive {
-    /// Index of the part.
-    pub part: usize,
+    /// The part.
+    pub part: PartId,
     /// The joint; `None` for a part that follows its parent.
     pub joint: Option<JointId>,
     /// The far end of the bone or chain that it points along; `None` for a part that turns with its joint.
@@ -110,7 +111,7 @@ impl FigureClip {
     }
 
     /// What drives a part of the figure, or why nothing does; `None` for parts of other figures.
-    pub fn part_drive(&self, part: usize) -> Option<&PartDrive> {
+    pub fn part_drive(&self, part: PartId) -> Option<&PartDrive> {
         let index = self.parts.binary_search_by_key(&part, |drive| drive.part);
         index.ok().map(|index| &self.parts[index])
     }
@@ -236,9 +237,9 @@ pub(crate) fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
 
 /// What drives these parts of the drawing, which are those of the matched figure, in the same order; and which of them swing.
 pub(super) fn part_drives(
-    parts: &[usize],
+    parts: &[PartId],
     matching: &Matching,
-    swings: impl Fn(usize) -> bool,
+    swings: impl Fn(PartId) -> bool,
 ) -> Vec<PartDrive> {
     let drives = parts.iter().zip(&matching.parts);
     let drives = drives.map(|(part, matched)| PartDrive {
@@ -269,7 +270,7 @@ pub(super) fn stem(file: &str) -> &str {
 }
 
 /// A name that no clip of the figure has yet: the wanted one, followed by a number if necessary.
-pub(super) fn free_name(clips: &[FigureClip], root: usize, wanted: &str) -> String {
+pub(super) fn free_name(clips: &[FigureClip], root: PartId, wanted: &str) -> String {
     let is_free = |name: &str| {
         !clips
             .iter()

@@ -1,9 +1,10 @@
 //! Finds the figures of a drawing: groups of parts that are connected, by strings or because they touch.
 
 use glam::DVec2;
+use typed_index_collections::ti_vec;
 
 use crate::anatomy::{self, Role};
-use crate::bind::{Bindings, Part, PartKind};
+use crate::bind::{Bindings, Part, PartId, PartKind};
 use crate::geometry::{self, Body, area, connected};
 
 /// Roots of one figure may be this far apart, as a share of the larger one's height with all its descendants.
@@ -12,19 +13,19 @@ const GAP: f64 = 0.02;
 /// The parts of one figure.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FigureGroup {
-    /// Its parts, indices into the bindings' parts.
-    pub parts: Vec<usize>,
+    /// Its parts.
+    pub parts: Vec<PartId>,
     /// Per part its parent, an index into `parts`: by its string, or because they touch.
     pub parents: Vec<Option<usize>>,
-    /// The part that carries the others, an index into the bindings' parts.
-    pub root: usize,
+    /// The part that carries the others.
+    pub root: PartId,
     /// The parts without a parent by their strings, each with the parts that it touches; indices into `parts`.
     touching: Vec<(usize, Vec<usize>)>,
 }
 
 impl FigureGroup {
     /// Whether the motion that a part's string asks for is meant for this figure; `None` addresses all figures.
-    pub(super) fn is_addressed_by(&self, part: Option<usize>) -> bool {
+    pub(super) fn is_addressed_by(&self, part: Option<PartId>) -> bool {
         part.is_none_or(|part| self.parts.contains(&part))
     }
 
@@ -34,7 +35,7 @@ impl FigureGroup {
     }
 
     /// The same figure with another root, which must be a part without a parent by its string.
-    pub(super) fn rooted_at(mut self, part: usize) -> Self {
+    pub(super) fn rooted_at(mut self, part: PartId) -> Self {
         let Some(root) = self.parts.iter().position(|own| *own == part) else {
             return self;
         };
@@ -72,21 +73,17 @@ pub(crate) fn find(bindings: &Bindings) -> Vec<FigureGroup> {
 
 /// A part without a parent, first, and its descendants.
 struct Tree {
-    parts: Vec<usize>,
+    parts: Vec<PartId>,
     low: DVec2,
     high: DVec2,
 }
 
 fn trees(bindings: &Bindings) -> Vec<Tree> {
     let is_main = |part: &Part| part.kind == PartKind::Main;
-    let mut children = vec![Vec::new(); bindings.parts.len()];
+    let mut children = ti_vec![Vec::new(); bindings.parts.len()];
     let mut trees = Vec::new();
-    let mains = bindings
-        .parts
-        .iter()
-        .enumerate()
-        .filter(|(_, part)| is_main(part));
-    for (index, part) in mains {
+    let parts = bindings.parts.iter_enumerated();
+    for (index, part) in parts.filter(|(_, part)| is_main(part)) {
         match part.parent {
             Some(parent) => children[parent].push(index),
             None => trees.push(Tree {
@@ -129,12 +126,12 @@ fn group(
     near: &[Vec<usize>],
     members: &[usize],
 ) -> FigureGroup {
-    let parts: Vec<usize> = members
+    let parts: Vec<PartId> = members
         .iter()
         .flat_map(|tree| &trees[*tree].parts)
         .copied()
         .collect();
-    let place: std::collections::BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
+    let place: std::collections::BTreeMap<PartId, usize> = parts.iter().copied().zip(0..).collect();
     let parents = parts
         .iter()
         .map(|part| bindings.parts[*part].parent.map(|parent| place[&parent]));
@@ -143,16 +140,16 @@ fn group(
         let others = near[*tree].iter().map(|other| place[&first(other)]);
         (place[&first(tree)], others.collect())
     });
-    let size = |part: &usize| area(&bindings.parts[*part].outline);
+    let size = |part: &PartId| area(&bindings.parts[*part].outline);
     // A head may be larger than the trunk of a stick figure.
-    let may_carry = |part: &usize| {
+    let may_carry = |part: &PartId| {
         let role = Role::of(&anatomy::terms(&bindings.parts[*part].name));
         role.is_none_or(|role| role.trunk().is_some())
     };
     // The first of the largest ones, so that equal parts do not swap roles.
     let largest = members.iter().map(first).rev();
     let largest = largest.max_by(|a, b| {
-        let rank = |part: &usize| (may_carry(part), size(part));
+        let rank = |part: &PartId| (may_carry(part), size(part));
         let ((carries_a, a), (carries_b, b)) = (rank(a), rank(b));
         carries_a.cmp(&carries_b).then(a.total_cmp(&b))
     });

@@ -19,11 +19,11 @@ mod tracks;
 
 use std::sync::Arc;
 
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 pub(crate) use crate::mocap::JointId;
 
-use crate::bind::{Bindings, MotionSource};
+use crate::bind::{Bindings, MotionSource, PartId};
 use crate::clips::BuiltIn;
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
@@ -62,11 +62,11 @@ pub(crate) struct Context<'a> {
     /// From the drawing's axes to the world's.
     pub world: &'a WorldTransform,
     /// Per part its rest frame.
-    pub frames: &'a [Frame],
+    pub frames: &'a TiSlice<PartId, Frame>,
     /// Per main part the parts whose solids are in its node.
-    pub parts_of_node: &'a [Vec<usize>],
+    pub parts_of_node: &'a TiSlice<PartId, Vec<PartId>>,
     /// Per part the thickness of its solid, `None` without one.
-    pub thicknesses: &'a [Option<Thickness>],
+    pub thicknesses: &'a TiSlice<PartId, Option<Thickness>>,
 }
 
 /// A motion that a string asks for.

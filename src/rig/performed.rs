@@ -9,7 +9,7 @@ use super::Context;
 use super::builder::MatchedFigure;
 use super::diagnostics::{self, MarkProblem};
 use super::figures::FigureGroup;
-use crate::bind::{Camerawork, PartMark, PerformanceRequest};
+use crate::bind::{Camerawork, PartId, PartMark, PerformanceRequest};
 use crate::diagnostic::{Diagnostic, nearest_word};
 use crate::labels::{Facing, Tip};
 use crate::mark_tracks::{Hsv, MarkId, MarkTrack, MarkTracks, hue_difference, same_name};
@@ -50,8 +50,8 @@ pub struct Performed {
 pub struct PerformedParts {
     /// The mark.
     pub mark: MarkId,
-    /// Indices of the parts.
-    pub parts: Vec<usize>,
+    /// The parts.
+    pub parts: Vec<PartId>,
 }
 
 /// The channels of a performance, in places of a figure's group.
@@ -336,7 +336,7 @@ pub(super) fn report(
     plan: &Plan,
     tracks: &MarkTracks,
     channels: &[PerformedParts],
-    names: impl Fn(usize) -> String,
+    names: impl Fn(PartId) -> String,
     request: &PerformanceRequest<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {

@@ -1,11 +1,12 @@
 //! Builds rigs from the figures of a drawing.
 
 use glam::{DQuat, DVec2, DVec3};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::Context;
 use super::figures::FigureGroup;
 use super::surface;
-use crate::bind;
+use crate::bind::{self, PartId};
 use crate::geometry::{Frame, y_up};
 use crate::labels::{Carry, Figure, FigurePart};
 use crate::labels::{Class, Facing};
@@ -17,8 +18,8 @@ use crate::retarget::{Rig, RigPart};
 /// A figure as it is drawn, its parts in the order of the group; drawing units, y up.
 pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure {
     let bindings = context.bindings;
-    let middle = |part: usize| y_up(bindings.parts[part].measure.center);
-    let part = |(place, &index): (usize, &usize)| {
+    let middle = |part: PartId| y_up(bindings.parts[part].measure.center);
+    let part = |(place, &index): (usize, &PartId)| {
         let part = &bindings.parts[index];
         let [one, other] = part.measure.ends.map(y_up);
         let nearer = |to: DVec2| {
@@ -149,7 +150,7 @@ pub(super) fn rig(
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RestNode {
     /// The part.
-    pub part: usize,
+    pub part: PartId,
     /// Whether it is a child of the model's root.
     pub is_rooted: bool,
     /// Whether it is mirrored in the drawing plane.
@@ -160,12 +161,12 @@ pub(crate) struct RestNode {
 
 /// Per part its node at rest, in drawing units and the drawing's axes, and whether that is a child of the model's root; without
 /// copies of parts.
-pub(super) struct RestNodes(Vec<Option<(Transform, bool)>>);
+pub(super) struct RestNodes(TiVec<PartId, Option<(Transform, bool)>>);
 
 impl RestNodes {
     /// The nodes of a scene, given the rest frames of parts.
-    pub(super) fn new(frames: &[Frame], nodes: &[RestNode]) -> Self {
-        let mut rest = vec![None; frames.len()];
+    pub(super) fn new(frames: &TiSlice<PartId, Frame>, nodes: &[RestNode]) -> Self {
+        let mut rest = ti_vec![None; frames.len()];
         for node in nodes {
             let frame = &frames[node.part];
             // The original precedes its copies.
@@ -180,7 +181,7 @@ impl RestNodes {
         Self(rest)
     }
 
-    fn of(&self, part: usize) -> (Transform, bool) {
+    fn of(&self, part: PartId) -> (Transform, bool) {
         let origin = Transform {
             rotation: DQuat::IDENTITY,
             position: DVec3::ZERO,

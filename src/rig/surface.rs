@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::Context;
+use crate::bind::PartId;
 use crate::geometry::y_up;
 
 /// The directions around the viewer's axis in which a surface is measured …
@@ -16,7 +17,7 @@ const SOFT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// each with its node's depth.
 pub(super) fn outermost(
     context: &Context<'_>,
-    nodes: impl Iterator<Item = (usize, f64)> + Clone,
+    nodes: impl Iterator<Item = (PartId, f64)> + Clone,
 ) -> Vec<DVec3> {
     let mut points: Vec<DVec3> = Vec::new();
     for step in 0..AROUND {
@@ -62,7 +63,7 @@ struct Support {
 
 impl Support {
     /// That of a part whose node has a depth; `None` without an outline.
-    fn of(context: &Context<'_>, part: usize, depth: f64, around: DVec2) -> Option<Self> {
+    fn of(context: &Context<'_>, part: PartId, depth: f64, around: DVec2) -> Option<Self> {
         let own = &context.bindings.parts[part];
         let rings = own.outline.polygons.iter().filter_map(|p| p.rings.first());
         let points = rings.flatten().map(|point| y_up(*point));

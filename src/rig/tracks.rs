@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::{DQuat, DVec3};
 use typed_index_collections::TiVec;
 
+use crate::bind::PartId;
 use crate::limited::KeyTimes;
 use crate::mocap::turns::continuous;
 use crate::retarget::RetargetedClip;
@@ -35,12 +36,12 @@ impl AnimatedNodes {
     pub(super) fn animation(
         &self,
         name: &str,
-        parts: &[usize],
+        parts: &[PartId],
         clip: &RetargetedClip,
         keys: &KeyTimes,
         shifts: Option<&Shifts<'_>>,
     ) -> Animation {
-        let index: BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
+        let index: BTreeMap<PartId, usize> = parts.iter().copied().zip(0..).collect();
         let mut tracks = Vec::new();
         for (node, rest) in self.nodes.iter_enumerated() {
             let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames().is_empty()) else {

@@ -100,7 +100,7 @@ fn a_part_behind_another_is_reported() {
     assert!((0.8..0.98).contains(&look.right), "{}", look.right);
     let eye = look.parts[1];
     assert_eq!(eye.right, 0);
-    assert_eq!(eye.instead, Some((Instead::Part(0), eye.pixels)));
+    assert_eq!(eye.instead, Some((Instead::Part(0.into()), eye.pixels)));
     let found = hints(&compiled, &look);
     let [hint] = found.as_slice() else {
         panic!("{found:?}");

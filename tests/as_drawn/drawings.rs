@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
-use okoshi::internals::bind::PartKind;
+use okoshi::internals::bind::{PartId, PartKind};
 
 use crate::common;
 use crate::sample::Sample;
@@ -74,8 +74,8 @@ fn little_is_left_out_on_purpose() {
 /// Whether a drawing leaves the depths of all parts to the program, and has parts.
 fn is_free(compiled: &Compiled) -> bool {
     let parts = &compiled.bindings.parts;
-    let built = |index: &usize| matches!(parts[*index].kind, PartKind::Main | PartKind::Sub);
-    let mut built = (0..parts.len()).filter(built).peekable();
+    let built = |index: &PartId| matches!(parts[*index].kind, PartKind::Main | PartKind::Sub);
+    let mut built = parts.keys().filter(built).peekable();
     built.peek().is_some() && built.all(|part| compiled.bindings.given_depth(part).is_none())
 }
 

@@ -235,7 +235,7 @@ fn found(compiled: &Compiled, id: &str) -> (Found, String) {
         }
     };
     let parts = &compiled.bindings.parts;
-    let mut own = parts.iter().enumerate().filter(|(_, part)| {
+    let mut own = parts.iter_enumerated().filter(|(_, part)| {
         let shape = &drawing.shapes[part.shape];
         shape.element.id.as_deref() == Some(id) || inside(shape.group)
     });

@@ -6,6 +6,7 @@ use std::path::Path;
 use glam::{DQuat, DVec2, DVec3};
 use okoshi::FolderResolver;
 use okoshi::compile::{Compiled, Options, compile};
+use okoshi::internals::bind::PartId;
 use okoshi::internals::labels::Facing;
 use okoshi::internals::mocap::{Clip, JointId, Pose, Transform};
 use okoshi::internals::retarget::Landmarks;
@@ -97,7 +98,7 @@ fn chain(clip: &Clip, pose: &Pose, why: &str) -> Option<DVec3> {
 }
 
 /// The axis of a part in the drawing's axes: from its joint to its far end.
-fn axis(compiled: &Compiled, part: usize) -> DVec3 {
+fn axis(compiled: &Compiled, part: PartId) -> DVec3 {
     let part = &compiled.bindings.parts[part];
     let flip = |point: DVec2| DVec2::new(point.x, -point.y);
     let origin = flip(part.origin);

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{SetBy, Source};
-use crate::bind::bindings::{Bindings, StringId};
+use crate::bind::bindings::{Bindings, PartId, StringId};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
 use crate::lang::keyword::Keyword;
@@ -13,8 +13,8 @@ use crate::source::Span;
 /// The settings that say how deep a part lies; at least one of them is set.
 #[derive(Debug, Clone, Copy)]
 pub struct GivenDepth<'a> {
-    /// Index of the part.
-    pub part: usize,
+    /// The part.
+    pub part: PartId,
     /// `Shape` with depths.
     pub shape: Option<Source<'a>>,
     /// `Offset`.
@@ -35,7 +35,7 @@ impl<'a> GivenDepth<'a> {
 
 impl Bindings {
     /// What gives a part its depth; `None` if the program is to find it. Depths after `%` are a thickness only.
-    pub fn given_depth(&self, part: usize) -> Option<GivenDepth<'_>> {
+    pub fn given_depth(&self, part: PartId) -> Option<GivenDepth<'_>> {
         let own = |keyword: Keyword| {
             let source = self.setting(part, keyword);
             source.filter(|source| source.from < SetBy::Default)
@@ -110,7 +110,7 @@ impl Bindings {
     }
 
     /// Whether a part would have this kind of `Shape` without the attribute of its own string that sets it.
-    fn is_usual(&self, part: usize, kind: &str, attribute: &Attribute) -> bool {
+    fn is_usual(&self, part: PartId, kind: &str, attribute: &Attribute) -> bool {
         let usual = self.inherited(part, Keyword::Shape);
         let is_usual = match usual.map(|usual| (usual.from, &usual.setting.value)) {
             Some((SetBy::Default, Value::Shape(usual))) => {
@@ -175,11 +175,11 @@ mod tests {
         let source =
             format!("{head}{string}</desc></rect><text x='2' y='90'>{defaults}</text></svg>");
         let compiled = compile(&source, &Options::default(), &MemoryResolver::default());
-        let given = compiled.bindings.given_depth(0)?;
+        let given = compiled.bindings.given_depth(0.into())?;
         let edits = compiled.bindings.without_depth(&given)?;
         let after = applied(&source, &edits);
         let compiled = compile(&after, &Options::default(), &MemoryResolver::default());
-        assert!(compiled.bindings.given_depth(0).is_none(), "{after}");
+        assert!(compiled.bindings.given_depth(0.into()).is_none(), "{after}");
         let end = after.find("</desc>").unwrap();
         Some(after[head.len()..end].to_owned())
     }

@@ -35,7 +35,7 @@ pub(super) fn merge(
     let Matched { strings, parts, .. } = matched;
     let mut legends: Vec<Legend> = Vec::new();
     let mut by_paint: FxHashMap<&PaintKey, usize> = FxHashMap::default();
-    for (index, part) in parts.iter().enumerate() {
+    for (index, part) in parts.iter_enumerated() {
         let is_sample = matched.kinds[index] == PartKind::Legend && part.main == index;
         let Some(string) = part.string.filter(|_| is_sample) else {
             continue;

@@ -1,6 +1,6 @@
 //! Characteristic joints: the parts with `Mark`, and what `Follow` names.
 
-use crate::bind::bindings::Bindings;
+use crate::bind::bindings::{Bindings, PartId};
 use crate::lang::ast::ArgumentKind;
 use crate::source::Span;
 
@@ -26,7 +26,7 @@ pub struct FollowedName<'a> {
 
 impl Bindings {
     /// The mark of a part, from its own string, the legend of its paint or a `%` string.
-    pub fn mark(&self, part: usize) -> Option<PartMark<'_>> {
+    pub fn mark(&self, part: PartId) -> Option<PartMark<'_>> {
         let mark = self.attributes(part).mark()?;
         Some(PartMark {
             word: &mark.value.word,
@@ -36,7 +36,7 @@ impl Bindings {
     }
 
     /// What is edited together with a part, in the order of its `Follow`.
-    pub fn follows(&self, part: usize) -> Vec<FollowedName<'_>> {
+    pub fn follows(&self, part: PartId) -> Vec<FollowedName<'_>> {
         let Some(follows) = self.attributes(part).follows() else {
             return Vec::new();
         };

@@ -16,9 +16,9 @@ pub(crate) use motions::{
     Camerawork, ClipLimits, ClipRequest, MotionSource, PerformanceRequest, SignedAxis,
 };
 
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec};
 
-use super::bindings::{Bindings, DrawingString, StringId};
+use super::bindings::{Bindings, DrawingString, PartId, StringId};
 use super::matching::{LayerId, Matched};
 use crate::diagnostic::Diagnostic;
 use crate::lang::keyword::{AttributeString, Keyword};
@@ -173,7 +173,7 @@ pub(in crate::bind) struct PartAttributes {
     /// The legends, merged by paint.
     pub(in crate::bind) legends: Vec<Legend>,
     /// Per part the legend of its paint.
-    pub(in crate::bind) legend_of_part: Vec<Option<usize>>,
+    pub(in crate::bind) legend_of_part: TiVec<PartId, Option<usize>>,
 }
 
 /// Finds out who sets the attributes of each part.
@@ -190,7 +190,7 @@ impl PartAttributes {
     pub(in crate::bind) fn attributes<'a>(
         &'a self,
         matched: &'a Matched,
-        part: usize,
+        part: PartId,
     ) -> Attributes<'a> {
         let setters = Setters {
             strings: &matched.strings,
@@ -219,7 +219,7 @@ impl Bindings {
     }
 
     /// The attributes of a part.
-    pub fn attributes(&self, part: usize) -> Attributes<'_> {
+    pub fn attributes(&self, part: PartId) -> Attributes<'_> {
         let part = &self.parts[part];
         self.setters().attributes(part.string, part.legend)
     }
@@ -245,19 +245,19 @@ impl Bindings {
     }
 
     /// The source of a part's attribute; `None` leaves the built-in default.
-    pub fn setting(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
+    pub fn setting(&self, part: PartId, keyword: Keyword) -> Option<Source<'_>> {
         self.attributes(part).source(keyword)
     }
 
     /// The source that a part's attribute would have without the part's own string.
-    pub fn inherited(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
+    pub fn inherited(&self, part: PartId, keyword: Keyword) -> Option<Source<'_>> {
         let attributes = self.setters().attributes(None, self.parts[part].legend);
         attributes.source(keyword)
     }
 
     /// The part whose attributes give a part its form: for ink the part on which it lies, unless the legend of its paint has a
     /// `Shape`.
-    pub fn form(&self, part: usize) -> usize {
+    pub fn form(&self, part: PartId) -> PartId {
         let host = self.parts[part].host;
         let host = host.filter(|_| !self.attributes(part).have_own_form());
         host.unwrap_or(part)
@@ -265,14 +265,14 @@ impl Bindings {
 
     /// How a part's outline gets its thickness; `None` for `Shape none`, and for ink on a model, which takes the place of all
     /// that is drawn there.
-    pub fn profile(&self, drawing: &Drawing, part: usize) -> Option<Profile> {
+    pub fn profile(&self, drawing: &Drawing, part: PartId) -> Option<Profile> {
         let form = self.form(part);
         let profile = self.attributes(form).profile(drawing);
         profile.filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
     }
 
     /// The factors of a part's material.
-    pub fn material_factors(&self, drawing: &Drawing, part: usize) -> MaterialFactors {
+    pub fn material_factors(&self, drawing: &Drawing, part: PartId) -> MaterialFactors {
         let attributes = self.attributes(part);
         let paint = self.parts[part].paint(drawing);
         let [r, g, b] = paint.color.map(|channel| f64::from(channel) / 255.0);
@@ -284,7 +284,7 @@ impl Bindings {
     }
 
     /// Every attribute of a part that is set, and the ones that every solid has, in the order of the reference.
-    pub fn resolved(&self, drawing: &Drawing, part: usize) -> Vec<Resolved> {
+    pub fn resolved(&self, drawing: &Drawing, part: PartId) -> Vec<Resolved> {
         let builtin = |keyword| match keyword {
             Keyword::Color => {
                 let [r, g, b, _] = self

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::SetBy;
-use crate::bind::bindings::{Bindings, DrawingString};
+use crate::bind::bindings::{Bindings, DrawingString, PartId};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
@@ -14,8 +14,8 @@ pub(crate) use crate::lang::value::{Camerawork, MotionSource, PerformanceEffects
 /// A clip that a string asks for with `Motion`.
 #[derive(Debug, Clone)]
 pub struct ClipRequest<'a> {
-    /// Index of the main part of the string; `None` for a string that applies to all figures.
-    pub part: Option<usize>,
+    /// The main part of the string; `None` for a string that applies to all figures.
+    pub part: Option<PartId>,
     /// The link to a motion file, or the word for a clip that comes along.
     pub source: &'a MotionSource,
     /// Where the file or the word is written.
@@ -183,14 +183,14 @@ impl Bindings {
 
     /// The `Limited` that applies to all clips of a part's figure, from the part's own string, the legend of its paint or a `%`
     /// string, and which of these it is.
-    pub fn limits_of_clips(&self, part: usize) -> Option<(SetBy, ClipLimits)> {
+    pub fn limits_of_clips(&self, part: PartId) -> Option<(SetBy, ClipLimits)> {
         let source = self.setting(part, Keyword::Limited)?;
         let limits = ClipLimits::of(source.setting, self.span_of(&source))?;
         Some((source.from, limits))
     }
 
     /// The `Perform` that applies to all clips of a part's figure, likewise.
-    pub fn performance_of_clips(&self, part: usize) -> Option<(SetBy, PerformanceRequest<'_>)> {
+    pub fn performance_of_clips(&self, part: PartId) -> Option<(SetBy, PerformanceRequest<'_>)> {
         let source = self.setting(part, Keyword::Perform)?;
         let performance = PerformanceRequest::of(source.setting, &self.strings[source.string])?;
         Some((source.from, performance))

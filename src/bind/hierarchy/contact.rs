@@ -5,11 +5,12 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiSlice;
 
 use super::Context;
 use super::names::{self, Names};
 use crate::anatomy::{self, Role, Term, sides};
-use crate::bind::bindings::{NamedBy, PartKind};
+use crate::bind::bindings::{NamedBy, PartId, PartKind};
 use crate::bind::matching::Matched;
 use crate::bind::names::OwnName;
 use crate::geometry::{self, Body, Outline, area, intersect};
@@ -25,11 +26,16 @@ const MAX_OVERLAP_POINTS: usize = 1 << 19;
 const UNNAMED: u32 = 1000;
 
 /// Whether the hierarchy comes from contact: no string names a part, but people named at least two otherwise.
-pub(super) fn decides(drawing: &Drawing, matched: &Matched, names: &[OwnName]) -> bool {
-    let parts = 0..matched.parts.len();
+pub(super) fn decides(
+    drawing: &Drawing,
+    matched: &Matched,
+    names: &TiSlice<PartId, OwnName>,
+) -> bool {
+    let parts = matched.parts.keys();
     let mains = parts.filter(|part| matched.kinds[*part] == PartKind::Main);
-    let by_string = |part: usize| names[part].by == NamedBy::String && !names[part].name.is_empty();
-    let otherwise = |part: &usize| {
+    let by_string =
+        |part: PartId| names[part].by == NamedBy::String && !names[part].name.is_empty();
+    let otherwise = |part: &PartId| {
         !names[*part].name.is_empty() || names::of_main_part(drawing, matched, *part).is_some()
     };
     !mains.clone().any(by_string) && mains.filter(otherwise).nth(1).is_some()
@@ -44,7 +50,7 @@ fn is_named(name: &OwnName) -> bool {
 /// In each connected group the root is the trunk by its name, else the largest named part. From there the others are attached
 /// in the order of their distance: to the part that carries them by anatomy if they touch it, else to the one that
 /// they overlap most of those nearest to the root. A part without a name hangs on the named part that it overlaps most.
-pub(super) fn parents(context: Context<'_>, names: &Names) -> Vec<(usize, Option<usize>)> {
+pub(super) fn parents(context: Context<'_>, names: &Names) -> Vec<(PartId, Option<PartId>)> {
     let bodies = NamedBodies::read(context, names);
     let part = |place: usize| bodies.parts[place];
     let found = bodies.parents().into_iter();
@@ -68,7 +74,7 @@ impl NamedBody {
     fn read(
         matched: &Matched,
         names: &Names,
-        part: usize,
+        part: PartId,
         places: &FxHashMap<&str, usize>,
     ) -> Self {
         let annotation = matched.string_of(part).map(|string| &string.annotation);
@@ -103,7 +109,7 @@ impl NamedBody {
 
 /// The main parts of a drawing, with those that they touch. Places are indices into `parts`.
 struct NamedBodies {
-    parts: Vec<usize>,
+    parts: Vec<PartId>,
     bodies: Vec<NamedBody>,
     /// Per part those that their strings attach to it.
     followers: Vec<Vec<usize>>,
@@ -115,7 +121,7 @@ struct NamedBodies {
 impl NamedBodies {
     fn read(context: Context<'_>, names: &Names) -> Self {
         let Context { matched, nodes, .. } = context;
-        let parts: Vec<usize> = context.mains().collect();
+        let parts: Vec<PartId> = context.mains().collect();
         let called = parts.iter().map(|part| names.of(*part));
         let places: FxHashMap<&str, usize> = called.zip(0..).collect();
         let mut bodies: Vec<NamedBody> = parts
@@ -134,7 +140,7 @@ impl NamedBodies {
                 let (low, high) = matched.parts[*part.0].measure.bounds;
                 (top.min(low.y), bottom.max(high.y))
             });
-        let place: FxHashMap<usize, usize> = parts.iter().copied().zip(0..).collect();
+        let place: FxHashMap<PartId, usize> = parts.iter().copied().zip(0..).collect();
         let mut outlines: Vec<Vec<&Outline>> = vec![vec![]; parts.len()];
         let mut bounds: Vec<_> = parts
             .iter()
@@ -281,7 +287,7 @@ impl NamedBodies {
 }
 
 /// Reads what the names of one figure's parts say. Clothes name what wears them if nothing else does.
-fn read_names(names: &Names, parts: &[usize], mut figure: Vec<usize>, bodies: &mut [NamedBody]) {
+fn read_names(names: &Names, parts: &[PartId], mut figure: Vec<usize>, bodies: &mut [NamedBody]) {
     figure.retain(|place| bodies[*place].named);
     let terms = |place: &usize| anatomy::terms(names.of(parts[*place]));
     let mut said: Vec<Vec<Term>> = figure.iter().map(terms).collect();

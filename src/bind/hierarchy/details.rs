@@ -1,9 +1,10 @@
 //! Details: parts without a string stay with the part that they lie on.
 
 use rustc_hash::FxHashSet;
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::{Nodes, names};
-use crate::bind::bindings::PartKind;
+use crate::bind::bindings::{PartId, PartKind};
 use crate::bind::matching::{Matched, Stacking, of_ink};
 use crate::lang::ast::Annotation;
 use crate::svg::Drawing;
@@ -28,18 +29,18 @@ pub(super) fn join(
             _ => None,
         })
         .collect();
-    let counts = |part: usize| {
+    let counts = |part: PartId| {
         let own = names::of_main_part(drawing, matched, part);
         own.is_some_and(|own| by_contact || mentioned.contains(own.name.as_str()))
     };
-    let mut members: Vec<Vec<usize>> = vec![Vec::new(); matched.parts.len()];
-    for (index, part) in matched.parts.iter().enumerate() {
+    let mut members: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); matched.parts.len()];
+    for (index, part) in matched.parts.iter_enumerated() {
         if stacking.has(index) {
             members[part.main].push(index);
         }
     }
     // In paint order, so that what a part lies on has found its own owner.
-    for (main, members) in members.iter().enumerate() {
+    for (main, members) in members.iter_enumerated() {
         let is_free = nodes.kind[main] == PartKind::Main && matched.parts[main].string.is_none();
         if members.is_empty() || !is_free || stacking.is_ground(main) || counts(main) {
             continue;
@@ -54,7 +55,7 @@ pub(super) fn join(
             }
         }
     }
-    for (index, part) in matched.parts.iter().enumerate() {
+    for (index, part) in matched.parts.iter_enumerated() {
         if let Some(host) = part.host {
             nodes.main[index] = nodes.main[host];
             nodes.kind[index] = of_ink(nodes.kind[host]);
@@ -64,9 +65,9 @@ pub(super) fn join(
 }
 
 /// The main part on which most of a unit lies.
-fn owner(nodes: &Nodes, stacking: &Stacking, members: &[usize]) -> Option<usize> {
+fn owner(nodes: &Nodes, stacking: &Stacking, members: &[PartId]) -> Option<PartId> {
     let facts = stacking.of_unit(members);
-    let mut shares: Vec<(usize, f64)> = Vec::new();
+    let mut shares: Vec<(PartId, f64)> = Vec::new();
     for &(part, share) in &facts.under {
         let main = nodes.main[part];
         let takes_children = nodes.kind[main] == PartKind::Main;

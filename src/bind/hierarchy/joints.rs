@@ -1,11 +1,13 @@
 //! The joints of parts: where they turn.
 
 use glam::DVec2;
+use typed_index_collections::TiSlice;
 
 use super::Axes;
 use super::names::Names;
 use crate::anatomy::{self, Term};
 use crate::bind::attributes::PartAttributes;
+use crate::bind::bindings::PartId;
 use crate::bind::matching::Matched;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, distance_squared};
@@ -24,23 +26,23 @@ pub(super) struct Joints<'a> {
     pub(super) matched: &'a Matched,
     pub(super) attributes: &'a PartAttributes,
     pub(super) names: &'a Names,
-    pub(super) parents: &'a [Option<usize>],
+    pub(super) parents: &'a TiSlice<PartId, Option<PartId>>,
     pub(super) axes: &'a Axes,
 }
 
 impl Joints<'_> {
-    fn measure(&self, part: usize) -> &Measure {
+    fn measure(&self, part: PartId) -> &Measure {
         self.axes.measure(self.matched, part)
     }
 
-    fn chosen(&self, part: usize) -> Option<Origin> {
+    fn chosen(&self, part: PartId) -> Option<Origin> {
         self.attributes.attributes(self.matched, part).origin()
     }
 
     /// The joint of a main part (paper, section 3.5).
-    pub(super) fn origin(&self, index: usize) -> DVec2 {
+    pub(super) fn origin(&self, index: PartId) -> DVec2 {
         let measure = self.measure(index);
-        let center = |parent: usize| self.measure(parent).center;
+        let center = |parent: PartId| self.measure(parent).center;
         let parent = self.parents[index];
         let [start, end] = sorted_ends(measure, parent.map(center));
         match self.chosen(index) {
@@ -65,7 +67,7 @@ impl Joints<'_> {
     }
 
     /// Whether a part is by its name a limb, which never turns about its middle.
-    fn is_hinged(&self, index: usize) -> bool {
+    fn is_hinged(&self, index: PartId) -> bool {
         let terms = anatomy::terms(self.names.of(index));
         // 足 is a leg, or a foot if it is attached to a leg.
         let is_foot = terms.contains(&Term::LegOrFoot)
@@ -79,7 +81,7 @@ impl Joints<'_> {
 
     /// The end at which a limb is attached: the one that lies on its parent or nearer to its outline. Of ends that are equally near it
     /// is the upper one of what hangs, such as arms and legs, else the one nearer to the parent's centre, which is given first.
-    fn hinge(&self, part: usize, parent: usize, [start, far]: [DVec2; 2]) -> DVec2 {
+    fn hinge(&self, part: PartId, parent: PartId, [start, far]: [DVec2; 2]) -> DVec2 {
         let outline = &self.matched.parts[parent].outline;
         let gap = |end: DVec2| distance_squared(outline, end).sqrt();
         let (near, other) = (gap(start), gap(far));
@@ -95,7 +97,7 @@ impl Joints<'_> {
     }
 
     /// Reports a long part beside its parent that turns about its middle, which is seldom meant.
-    pub(super) fn turns_about_middle(&self, index: usize, origin: DVec2) -> Option<Diagnostic> {
+    pub(super) fn turns_about_middle(&self, index: PartId, origin: DVec2) -> Option<Diagnostic> {
         let Self {
             drawing,
             matched,

@@ -14,15 +14,16 @@ use rayon::prelude::*;
 use rstar::primitives::GeomWithData;
 use rstar::{PointDistance, RTree};
 use rustc_hash::FxHashMap;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::attributes::PartAttributes;
-use super::bindings::{NamedBy, PartKind};
+use super::bindings::{NamedBy, PartId, PartKind};
 use super::describe::describe;
 use super::matching::{LayerId, Matched};
 use super::names::OwnName;
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{Measure, measure_along};
+use crate::index::par_keys;
 use crate::memo::{Bits, Long, Memo};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
@@ -39,36 +40,40 @@ pub(in crate::bind) struct Tree {
     /// The parts that share nodes.
     pub(in crate::bind) nodes: Nodes,
     /// Per part its name; empty for sub-parts, legends and unused parts without one.
-    pub(in crate::bind) names: Vec<OwnName>,
+    pub(in crate::bind) names: TiVec<PartId, OwnName>,
     /// Per part its parent, for a main part; `None` for a child of the root.
-    pub(in crate::bind) parents: Vec<Option<usize>>,
+    pub(in crate::bind) parents: TiVec<PartId, Option<PartId>>,
     /// Per layer its parent, likewise.
-    pub(in crate::bind) parent_of_layer: TiVec<LayerId, Option<usize>>,
+    pub(in crate::bind) parent_of_layer: TiVec<LayerId, Option<PartId>>,
     /// The axes of the parts.
     pub(in crate::bind) axes: Axes,
     /// Per part its joint, drawing units.
-    pub(in crate::bind) origins: Vec<DVec2>,
+    pub(in crate::bind) origins: TiVec<PartId, DVec2>,
 }
 
 /// Which parts share a node.
 pub(in crate::bind) struct Nodes {
     /// Per part the main part candidate of its node.
-    pub(in crate::bind) main: Vec<usize>,
+    pub(in crate::bind) main: TiVec<PartId, PartId>,
     /// Per part its kind.
-    pub(in crate::bind) kind: Vec<PartKind>,
+    pub(in crate::bind) kind: TiVec<PartId, PartKind>,
 }
 
 /// The axes that `Axis` turns.
-pub(in crate::bind) struct Axes(FxHashMap<usize, Measure>);
+pub(in crate::bind) struct Axes(FxHashMap<PartId, Measure>);
 
 impl Axes {
     /// The axis, center and ends of a part that `Axis` turns.
-    pub(in crate::bind) fn turned(&self, part: usize) -> Option<Measure> {
+    pub(in crate::bind) fn turned(&self, part: PartId) -> Option<Measure> {
         self.0.get(&part).copied()
     }
 
     /// The axis, center and ends of a part.
-    pub(in crate::bind) fn measure<'a>(&'a self, matched: &'a Matched, part: usize) -> &'a Measure {
+    pub(in crate::bind) fn measure<'a>(
+        &'a self,
+        matched: &'a Matched,
+        part: PartId,
+    ) -> &'a Measure {
         self.0.get(&part).unwrap_or(&matched.parts[part].measure)
     }
 }
@@ -82,8 +87,8 @@ struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    fn mains(self) -> impl Iterator<Item = usize> + use<'a> {
-        let kinds = self.nodes.kind.iter().enumerate();
+    fn mains(self) -> impl Iterator<Item = PartId> + use<'a> {
+        let kinds = self.nodes.kind.iter_enumerated();
         kinds.filter_map(|(part, kind)| (*kind == PartKind::Main).then_some(part))
     }
 }
@@ -133,8 +138,8 @@ pub(in crate::bind) fn build(
         parents: &parents,
         axes: &axes,
     };
-    let mains: Vec<usize> = context.mains().collect();
-    let found: Vec<(usize, DVec2, Option<Diagnostic>)> = mains
+    let mains: Vec<PartId> = context.mains().collect();
+    let found: Vec<(PartId, DVec2, Option<Diagnostic>)> = mains
         .into_par_iter()
         .with_min_len(GRAIN)
         .map(|part| {
@@ -143,7 +148,7 @@ pub(in crate::bind) fn build(
         })
         .collect();
     let centers = matched.parts.iter().map(|part| part.measure.center);
-    let mut origins: Vec<DVec2> = centers.collect();
+    let mut origins: TiVec<PartId, DVec2> = centers.collect();
     for (part, origin, finding) in found {
         origins[part] = origin;
         diagnostics.extend(finding);
@@ -160,7 +165,7 @@ pub(in crate::bind) fn build(
 }
 
 /// Replaces the parents of some parts.
-fn set(parents: &mut [Option<usize>], found: Vec<(usize, Option<usize>)>) {
+fn set(parents: &mut TiSlice<PartId, Option<PartId>>, found: Vec<(PartId, Option<PartId>)>) {
     for (part, parent) in found {
         parents[part] = parent;
     }
@@ -173,16 +178,16 @@ fn automatic(
     names: &mut Names,
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Option<usize>> {
+) -> TiVec<PartId, Option<PartId>> {
     let Context {
         drawing, matched, ..
     } = context;
-    let (named, waiting): (Vec<usize>, Vec<usize>) = context
+    let (named, waiting): (Vec<PartId>, Vec<PartId>) = context
         .mains()
         .partition(|part| !names.of(*part).is_empty());
     // What has a string carries what labels and ids name, and both carry what nothing names. Without strings two names are needed:
     // one says nothing about what hangs on what.
-    let (by_string, mut by_element): (Vec<usize>, Vec<usize>) = named
+    let (by_string, mut by_element): (Vec<PartId>, Vec<PartId>) = named
         .iter()
         .partition(|part| matched.parts[**part].string.is_some());
     let carriers = if by_string.is_empty() && by_element.len() < 2 {
@@ -193,7 +198,7 @@ fn automatic(
     if by_string.is_empty() {
         by_element.clear();
     }
-    let mut parents = vec![None; matched.parts.len()];
+    let mut parents = ti_vec![None; matched.parts.len()];
     let found = nearest(matched, by_string, &by_element, memo);
     let carrying = parents::carrying(matched, names);
     for (part, parent) in by_element.iter().copied().zip(found.iter().copied()) {
@@ -227,11 +232,11 @@ fn automatic(
 /// The nearest of some parts to each of others.
 fn nearest(
     matched: &Matched,
-    named: Vec<usize>,
-    waiting: &[usize],
+    named: Vec<PartId>,
+    waiting: &[PartId],
     memo: &Memo,
-) -> Arc<[Option<usize>]> {
-    let center = |part: usize| Bits(matched.parts[part].measure.center.to_array());
+) -> Arc<[Option<PartId>]> {
+    let center = |part: PartId| Bits(matched.parts[part].measure.center.to_array());
     let question = NearestNamed {
         named: named.into_iter().map(|part| (center(part), part)).collect(),
         centers: waiting.iter().map(|part| center(*part)).collect(),
@@ -242,15 +247,15 @@ fn nearest(
 /// Which named part is nearest to each part without a string?
 #[derive(PartialEq, Eq, Hash)]
 struct NearestNamed {
-    /// The centres of the named parts, with their indices.
-    named: Long<(Bits<[f64; 2]>, usize)>,
+    /// The centres of the named parts.
+    named: Long<(Bits<[f64; 2]>, PartId)>,
     /// The centres of the parts without a string.
     centers: Long<Bits<[f64; 2]>>,
 }
 
 impl NearestNamed {
     /// The nearest named part of each; of several at the same distance, the back-most.
-    fn answer(&self) -> Arc<[Option<usize>]> {
+    fn answer(&self) -> Arc<[Option<PartId>]> {
         let named = self.named.0.iter();
         let named = named.map(|(center, part)| GeomWithData::new(center.0, *part));
         let tree = RTree::bulk_load(named.collect());
@@ -271,8 +276,7 @@ fn axes(
     names: &Names,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Axes {
-    let found: Vec<(usize, Axis)> = (0..context.matched.parts.len())
-        .into_par_iter()
+    let found: Vec<(PartId, Axis)> = par_keys(&context.matched.parts)
         .with_min_len(GRAIN)
         .filter_map(|part| Some((part, axis(context, attributes, names, part)?)))
         .collect();
@@ -286,7 +290,7 @@ fn axes(
             Axis::Guessed(finding) => guessed.push((part, finding)),
         }
     }
-    let (parts, findings): (Vec<usize>, Vec<Diagnostic>) = guessed.into_iter().unzip();
+    let (parts, findings): (Vec<PartId>, Vec<Diagnostic>) = guessed.into_iter().unzip();
     let described = || listed(parts.iter().map(|part| context.describe(names, *part)));
     few_or_one(
         findings,
@@ -313,7 +317,7 @@ fn axis(
     context: Context<'_>,
     attributes: &PartAttributes,
     names: &Names,
-    index: usize,
+    index: PartId,
 ) -> Option<Axis> {
     let Context {
         drawing,
@@ -352,7 +356,7 @@ fn axis(
 
 impl Context<'_> {
     /// A part for people.
-    fn describe(self, names: &Names, part: usize) -> String {
+    fn describe(self, names: &Names, part: PartId) -> String {
         describe(self.drawing, names.of(part), self.matched.parts[part].shape)
     }
 }

@@ -1,9 +1,10 @@
 //! The names of parts: those that strings give them, and those that people gave their shapes and groups.
 
 use rustc_hash::{FxHashMap, FxHashSet};
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::Context;
-use crate::bind::bindings::{DrawingString, NamedBy, PartKind, StringHolder};
+use crate::bind::bindings::{DrawingString, NamedBy, PartId, PartKind, StringHolder};
 use crate::bind::matching::Matched;
 use crate::bind::names::{OwnName, of_element};
 use crate::diagnostic::{Code, Diagnostic};
@@ -14,16 +15,16 @@ use crate::svg::Drawing;
 /// The names of the parts.
 pub(super) struct Names {
     /// Per part; empty for parts without a name.
-    pub(super) of_part: Vec<OwnName>,
+    pub(super) of_part: TiVec<PartId, OwnName>,
     /// The main parts by name; of several with the same name, the first.
-    pub(super) by_name: FxHashMap<String, usize>,
+    pub(super) by_name: FxHashMap<String, PartId>,
     /// The names of the tile layers, which no part may have.
     of_layers: FxHashSet<String>,
 }
 
 /// Per part the name that its string gives it: the name that it says, or else that of the element that it describes.
-pub(super) fn of_strings(drawing: &Drawing, matched: &Matched) -> Vec<OwnName> {
-    let name = |part: usize| {
+pub(super) fn of_strings(drawing: &Drawing, matched: &Matched) -> TiVec<PartId, OwnName> {
+    let name = |part: PartId| {
         let string = matched.string_of(part)?;
         let Annotation::Part(annotation) = &string.annotation else {
             return None;
@@ -54,14 +55,14 @@ pub(super) fn of_strings(drawing: &Drawing, matched: &Matched) -> Vec<OwnName> {
         name: String::new(),
         by: NamedBy::String,
     };
-    let parts = 0..matched.parts.len();
+    let parts = matched.parts.keys();
     parts
         .map(|part| name(part).unwrap_or_else(nameless))
         .collect()
 }
 
 /// The name that a main part has without a string: that of its node's group, else that of its shape.
-pub(super) fn of_main_part(drawing: &Drawing, matched: &Matched, part: usize) -> Option<OwnName> {
+pub(super) fn of_main_part(drawing: &Drawing, matched: &Matched, part: PartId) -> Option<OwnName> {
     let part = &matched.parts[part];
     part.node_group
         .and_then(|group| of_element(&drawing.groups[group].element, Some(group)))
@@ -72,7 +73,7 @@ impl Names {
     /// The names of main parts that strings give. Reports those that are given twice.
     pub(super) fn new(
         context: Context<'_>,
-        of_part: Vec<OwnName>,
+        of_part: TiVec<PartId, OwnName>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let by_name = by_name(context, &of_part, diagnostics);
@@ -85,7 +86,7 @@ impl Names {
     }
 
     /// The name of a part.
-    pub(super) fn of(&self, part: usize) -> &str {
+    pub(super) fn of(&self, part: PartId) -> &str {
         &self.of_part[part].name
     }
 
@@ -95,7 +96,7 @@ impl Names {
     }
 
     /// Names a main part.
-    pub(super) fn give(&mut self, part: usize, name: String, by: NamedBy) {
+    pub(super) fn give(&mut self, part: PartId, name: String, by: NamedBy) {
         self.by_name.insert(name.clone(), part);
         self.of_part[part] = OwnName { name, by };
     }
@@ -130,7 +131,7 @@ impl Names {
 }
 
 /// The name that a part's string says.
-fn said(matched: &Matched, part: usize) -> Option<&Name> {
+fn said(matched: &Matched, part: PartId) -> Option<&Name> {
     match &matched.string_of(part)?.annotation {
         Annotation::Part(part) => part.name.as_ref(),
         _ => None,
@@ -140,22 +141,22 @@ fn said(matched: &Matched, part: usize) -> Option<&Name> {
 /// The main parts by the names that strings give them; of several with the same name, the first.
 fn by_name(
     context: Context<'_>,
-    of_part: &[OwnName],
+    of_part: &TiSlice<PartId, OwnName>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> FxHashMap<String, usize> {
+) -> FxHashMap<String, PartId> {
     let Context {
         drawing,
         matched,
         nodes,
     } = context;
-    let mut names: FxHashMap<String, usize> = FxHashMap::default();
+    let mut names: FxHashMap<String, PartId> = FxHashMap::default();
     names.reserve(of_part.len());
-    let span = |part: usize| match (said(matched, part), matched.string_of(part)) {
+    let span = |part: PartId| match (said(matched, part), matched.string_of(part)) {
         (Some(name), Some(string)) => string.text.span(name.range.clone()),
         (None, Some(string)) => string.text.whole(),
         _ => drawing.shapes[matched.parts[part].shape].element.span,
     };
-    for (part, OwnName { name, .. }) in of_part.iter().enumerate() {
+    for (part, OwnName { name, .. }) in of_part.iter_enumerated() {
         if nodes.kind[part] != PartKind::Main || name.is_empty() {
             continue;
         }

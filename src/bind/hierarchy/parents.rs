@@ -1,11 +1,11 @@
 //! The parents of parts and tile layers: the names after `@`.
 
 use rustc_hash::{FxHashMap, FxHashSet};
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::names::Names;
 use super::{Context, ROOT};
-use crate::bind::bindings::{DrawingString, PartKind};
+use crate::bind::bindings::{DrawingString, PartId, PartKind};
 use crate::bind::matching::{LayerId, LayerKind, Matched};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
@@ -16,7 +16,7 @@ pub(super) fn of_strings(
     context: Context<'_>,
     names: &Names,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<(usize, Option<usize>)> {
+) -> Vec<(PartId, Option<PartId>)> {
     let mut unknown = Unknown::new(&names.by_name);
     let mut found = Vec::new();
     for part in context.mains() {
@@ -33,7 +33,7 @@ pub(super) fn of_strings(
 }
 
 /// The part that a part's string names after `@`.
-fn named_parent(matched: &Matched, part: usize, names: &Names) -> Option<usize> {
+fn named_parent(matched: &Matched, part: PartId, names: &Names) -> Option<PartId> {
     match &matched.string_of(part)?.annotation {
         Annotation::Part(part) => names.by_name.get(&part.parent.as_ref()?.text).copied(),
         _ => None,
@@ -41,8 +41,8 @@ fn named_parent(matched: &Matched, part: usize, names: &Names) -> Option<usize> 
 }
 
 /// The parts to which strings attach others.
-pub(super) fn carrying(matched: &Matched, names: &Names) -> FxHashSet<usize> {
-    let parts = 0..matched.parts.len();
+pub(super) fn carrying(matched: &Matched, names: &Names) -> FxHashSet<PartId> {
+    let parts = matched.parts.keys();
     parts
         .filter_map(|part| named_parent(matched, part, names))
         .collect()
@@ -52,9 +52,9 @@ pub(super) fn carrying(matched: &Matched, names: &Names) -> FxHashSet<usize> {
 pub(super) fn hangs_on(
     matched: &Matched,
     names: &Names,
-    parents: &[Option<usize>],
-    part: usize,
-    other: usize,
+    parents: &TiSlice<PartId, Option<PartId>>,
+    part: PartId,
+    other: PartId,
 ) -> bool {
     let mut at = part;
     // More steps than parts lead in a circle, which is reported later.
@@ -75,7 +75,7 @@ pub(super) fn of_layers(
     context: Context<'_>,
     names: &Names,
     diagnostics: &mut Vec<Diagnostic>,
-) -> TiVec<LayerId, Option<usize>> {
+) -> TiVec<LayerId, Option<PartId>> {
     let mut unknown = Unknown::new(&names.by_name);
     let layers = context.matched.layers.iter().map(|layer| {
         if layer.kind != LayerKind::Tiles {
@@ -98,7 +98,7 @@ fn parent(
     string: &DrawingString,
     own: &str,
     unknown: &mut Unknown<'_>,
-) -> Result<Option<usize>, Box<Diagnostic>> {
+) -> Result<Option<PartId>, Box<Diagnostic>> {
     let Annotation::Part(annotation) = &string.annotation else {
         return Ok(None);
     };
@@ -154,17 +154,17 @@ const MAX_COMPARED: usize = 1 << 22;
 /// What is known about names that no main part has, so that one that many strings name is looked up once.
 struct Unknown<'a> {
     /// The main parts by name.
-    names: &'a FxHashMap<String, usize>,
+    names: &'a FxHashMap<String, PartId>,
     sorted: Option<Vec<&'a str>>,
     /// The nearest names of those looked up: at most two, as one may be that of the part itself.
     near: FxHashMap<String, [Option<&'a str>; 2]>,
     /// The first part that is no main part, by name.
-    sub_parts: Option<FxHashMap<String, usize>>,
+    sub_parts: Option<FxHashMap<String, PartId>>,
     compared: usize,
 }
 
 impl<'a> Unknown<'a> {
-    fn new(names: &'a FxHashMap<String, usize>) -> Self {
+    fn new(names: &'a FxHashMap<String, PartId>) -> Self {
         Self {
             names,
             sorted: None,
@@ -205,10 +205,10 @@ impl<'a> Unknown<'a> {
     }
 
     /// A sub-part, or a part that is left out, with a name.
-    fn sub_part(&mut self, context: Context<'_>, names: &Names, name: &str) -> Option<usize> {
+    fn sub_part(&mut self, context: Context<'_>, names: &Names, name: &str) -> Option<PartId> {
         let sub_parts = self.sub_parts.get_or_insert_with(|| {
             let mut found = FxHashMap::default();
-            for (part, kind) in context.nodes.kind.iter().enumerate() {
+            for (part, kind) in context.nodes.kind.iter_enumerated() {
                 if *kind != PartKind::Main && !names.of(part).is_empty() {
                     found.entry(names.of(part).to_owned()).or_insert(part);
                 }
@@ -224,7 +224,7 @@ const OTHER_SIGNS: [char; 7] = [':', '>', '<', '/', '=', '→', '+'];
 
 /// Reports names such as `Arm:Body`, where `Body` is a part.
 pub(super) fn other_signs(matched: &Matched, names: &Names, diagnostics: &mut Vec<Diagnostic>) {
-    for part in 0..matched.parts.len() {
+    for part in matched.parts.keys() {
         let Some(string) = matched.string_of(part) else {
             continue;
         };
@@ -261,24 +261,24 @@ pub(super) fn other_signs(matched: &Matched, names: &Names, diagnostics: &mut Ve
 pub(super) fn without_cycles(
     context: Context<'_>,
     names: &Names,
-    mut parents: Vec<Option<usize>>,
+    mut parents: TiVec<PartId, Option<PartId>>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Option<usize>> {
+) -> TiVec<PartId, Option<PartId>> {
     let Context {
         drawing, matched, ..
     } = context;
-    // 0: not yet visited; otherwise the number of the walk that visited it.
-    let mut seen = vec![0_usize; parents.len()];
-    for start in 0..parents.len() {
+    // Per part the first of the walk that visited it.
+    let mut seen: TiVec<PartId, Option<PartId>> = ti_vec![None; parents.len()];
+    for start in parents.keys() {
         let mut part = start;
-        while seen[part] == 0 {
-            seen[part] = start + 1;
+        while seen[part].is_none() {
+            seen[part] = Some(start);
             match parents[part] {
                 Some(parent) => part = parent,
                 None => break,
             }
         }
-        if seen[part] != start + 1 || parents[part].is_none() {
+        if seen[part] != Some(start) || parents[part].is_none() {
             continue;
         }
         let mut cycle = vec![part];
@@ -289,7 +289,7 @@ pub(super) fn without_cycles(
         {
             cycle.push(parent);
         }
-        let span = |part: usize| {
+        let span = |part: PartId| {
             let string = matched.string_of(part);
             match string.map(|string| (&string.annotation, &string.text)) {
                 Some((Annotation::Part(annotation), text)) => annotation
@@ -332,9 +332,9 @@ mod tests {
     use crate::compile::{Options, compile};
     use crate::resolver::MemoryResolver;
 
-    fn names(count: usize) -> FxHashMap<String, usize> {
+    fn names(count: usize) -> FxHashMap<String, PartId> {
         (0..count)
-            .map(|index| (format!("Part{index}"), index))
+            .map(|index| (format!("Part{index}"), index.into()))
             .collect()
     }
 

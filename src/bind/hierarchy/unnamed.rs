@@ -1,7 +1,9 @@
 //! Reports parts that have their name and their parent without a string.
 
+use typed_index_collections::TiSlice;
+
 use super::names::Names;
-use crate::bind::bindings::NamedBy;
+use crate::bind::bindings::{NamedBy, PartId};
 use crate::bind::matching::Matched;
 use crate::diagnostic::{Code, Diagnostic, FEW, listed};
 use crate::svg::Drawing;
@@ -11,12 +13,12 @@ pub(super) fn report(
     drawing: &Drawing,
     matched: &Matched,
     names: &Names,
-    parents: &[Option<usize>],
-    parts: &[usize],
+    parents: &TiSlice<PartId, Option<PartId>>,
+    parts: &[PartId],
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let described = |part: &usize| drawing.describe(matched.parts[*part].shape);
-    let report = |part: usize, message: String| {
+    let described = |part: &PartId| drawing.describe(matched.parts[*part].shape);
+    let report = |part: PartId, message: String| {
         let element = &drawing.shapes[matched.parts[part].shape].element;
         Diagnostic::new(Code::AutomaticName, element.span, message)
     };

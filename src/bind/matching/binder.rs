@@ -15,7 +15,7 @@ use super::parts::MatchedPart;
 use super::settings::BindRule;
 use super::stacking::Stacking;
 use super::strings::ReadString;
-use crate::bind::bindings::{Binding, BoundBy, StringHolder, StringId};
+use crate::bind::bindings::{Binding, BoundBy, PartId, StringHolder, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::memo::{Bits, Memo};
@@ -27,8 +27,8 @@ const MAX_OPENINGS: usize = 32;
 /// A string with the part that it is bound to, and another part that it may mean.
 struct Match {
     string: StringId,
-    part: usize,
-    runner_up: Option<usize>,
+    part: PartId,
+    runner_up: Option<PartId>,
 }
 
 /// What a string is bound to.
@@ -36,7 +36,7 @@ struct Match {
 pub(super) struct Bound {
     pub(super) binding: Option<Binding>,
     /// Another part that is almost as near.
-    pub(super) runner_up: Option<usize>,
+    pub(super) runner_up: Option<PartId>,
     /// The container to whose children the string is restricted.
     pub(super) scope: Scope,
 }
@@ -45,7 +45,7 @@ pub(super) struct Bound {
 pub(super) struct Rules {
     /// Per string.
     pub(super) bound: TiVec<StringId, Bound>,
-    pub(super) parts: Vec<MatchedPart>,
+    pub(super) parts: TiVec<PartId, MatchedPart>,
     pub(super) node_groups: NodeGroups,
     /// How the parts cover each other, if it had to be found out.
     pub(super) stacking: Option<Arc<Stacking>>,
@@ -60,14 +60,14 @@ pub(super) struct Binder<'a> {
     diagnostics: &'a mut Vec<Diagnostic>,
     /// Per string.
     bound: TiVec<StringId, Bound>,
-    parts: Vec<MatchedPart>,
+    parts: TiVec<PartId, MatchedPart>,
     node_groups: NodeGroups,
     /// How the parts cover each other, once it has been asked for.
     stacking: OnceLock<Arc<Stacking>>,
     /// Per group its back-most part.
-    back_most: TiVec<GroupId, Option<usize>>,
+    back_most: TiVec<GroupId, Option<PartId>>,
     /// Per shape its first part.
-    part_of_shape: TiVec<ShapeId, Option<usize>>,
+    part_of_shape: TiVec<ShapeId, Option<PartId>>,
 }
 
 impl<'a> Binder<'a> {
@@ -75,7 +75,7 @@ impl<'a> Binder<'a> {
         drawing: &'a Drawing,
         strings: &'a TiSlice<StringId, ReadString>,
         leaders: &'a Leaders,
-        mut parts: Vec<MatchedPart>,
+        mut parts: TiVec<PartId, MatchedPart>,
         node_groups: NodeGroups,
         memo: &'a Memo,
         diagnostics: &'a mut Vec<Diagnostic>,
@@ -83,7 +83,7 @@ impl<'a> Binder<'a> {
         let mut back_most: TiVec<GroupId, _> = ti_vec![None; drawing.groups.len()];
         let mut part_of_shape: TiVec<ShapeId, _> = ti_vec![None; drawing.shapes.len()];
         let is_ink = |part: &MatchedPart| part.host.is_some();
-        let all = parts.iter().enumerate();
+        let all = parts.iter_enumerated();
         for (index, part) in all.filter(|(_, part)| !is_ink(part)) {
             // If an inner group has a part already, so have the groups around it.
             let chain = node_groups.chain(drawing.shapes[part.shape].group);
@@ -244,7 +244,7 @@ impl<'a> Binder<'a> {
         let places: Vec<TextPlace> = strings.iter().map(place).collect();
         let stacking = self.stacking();
         for round in 0.. {
-            let scope = |part: usize| self.scope_of(part, is_free);
+            let scope = |part: PartId| self.scope_of(part, is_free);
             let meant = meant::find(&places, &stacking, &self.parts, scope, self.memo);
             if meant.opened.is_empty() || round == MAX_OPENINGS {
                 let pairs = strings.iter().zip(&meant.found);
@@ -265,8 +265,8 @@ impl<'a> Binder<'a> {
     }
 
     /// Opens the groups of main parts.
-    fn open(&mut self, mains: &[usize]) {
-        let mut members: BTreeMap<usize, Vec<(usize, GroupId)>> = BTreeMap::new();
+    fn open(&mut self, mains: &[PartId]) {
+        let mut members: BTreeMap<PartId, Vec<(usize, GroupId)>> = BTreeMap::new();
         for part in &self.parts {
             if mains.binary_search(&part.main).is_ok() {
                 let group = self.drawing.shapes[part.shape].group;
@@ -281,7 +281,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Which strings may name a main part: those of its container, or all outside of containers; `None` if none may.
-    fn scope_of(&self, part: usize, is_free: bool) -> Option<Scope> {
+    fn scope_of(&self, part: PartId, is_free: bool) -> Option<Scope> {
         let MatchedPart { string, source, .. } = self.parts[part];
         let scope = if is_free {
             // Parts in a tile layer are reserved for the strings in it.
@@ -308,8 +308,8 @@ impl<'a> Binder<'a> {
 
     /// Binds strings to their nearest parts, as the paper does.
     fn nearest(&mut self, strings: &[(Scope, StringId)], is_free: bool, mode: DistanceMode) {
-        let mut candidates: FxHashMap<Scope, Vec<usize>> = FxHashMap::default();
-        for part in 0..self.parts.len() {
+        let mut candidates: FxHashMap<Scope, Vec<PartId>> = FxHashMap::default();
+        for part in self.parts.keys() {
             if self.parts[part].main == part
                 && let Some(scope) = self.scope_of(part, is_free)
             {
@@ -333,14 +333,14 @@ impl<'a> Binder<'a> {
     fn matches(
         &self,
         strings: &[(Scope, StringId)],
-        candidates: &[usize],
+        candidates: &[PartId],
         mode: DistanceMode,
     ) -> Vec<Match> {
         let corner = |(_, string): &(Scope, StringId)| match self.strings[*string].holder {
             StringHolder::Label(label) => self.drawing.labels[label].0.position.corner,
             StringHolder::Shape(_) | StringHolder::Group(_) => glam::DVec2::ZERO,
         };
-        let target = |part: &usize| nearest::Target::of(&self.parts[*part]);
+        let target = |part: &PartId| nearest::Target::of(&self.parts[*part]);
         let problem = nearest::AssignmentProblem {
             corners: strings.iter().map(corner).map(Bits).collect(),
             targets: candidates.iter().map(target).collect(),
@@ -390,7 +390,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn bind(&mut self, string: StringId, part: usize, by: BoundBy) {
+    fn bind(&mut self, string: StringId, part: PartId, by: BoundBy) {
         if let Some(other) = self.parts[part].string {
             let other_span = self.strings[other].text.whole();
             let shape = self.parts[part].shape;
@@ -418,7 +418,7 @@ impl<'a> Binder<'a> {
 /// them: if `is_scoped`.
 pub(super) fn stacking(
     drawing: &Drawing,
-    parts: &[MatchedPart],
+    parts: &TiSlice<PartId, MatchedPart>,
     node_groups: &NodeGroups,
     is_scoped: bool,
     memo: &Memo,

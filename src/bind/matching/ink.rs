@@ -15,9 +15,11 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::node_groups::PartSource;
 use super::parts::MatchedPart;
+use crate::bind::bindings::PartId;
 use crate::geometry::{
     BoxTree, Measure, Outline, area_around, bounds, crosses, distance_squared, indexed_box,
 };
+use crate::index::par_keys;
 use crate::memo::{Long, Memo, Same};
 use crate::svg::{Drawing, Shape, ShapeId, StrokeSource};
 use crate::threads::GRAIN;
@@ -99,8 +101,7 @@ impl Question {
             }
             _ => None,
         };
-        let shapes = (0..roles.len()).into_par_iter().with_min_len(GRAIN);
-        let hosts: Vec<_> = shapes.map(|shape| host(shape.into())).collect();
+        let hosts: Vec<_> = par_keys(roles).with_min_len(GRAIN).map(host).collect();
         Arc::new(hosts.into())
     }
 }
@@ -250,11 +251,11 @@ fn edges(outline: &Outline) -> RTree<Line<[f64; 2]>> {
 /// Gives ink its host: the part that is the fill of the shape on which it lies. Ink on what is no part is left out.
 pub(super) fn attach(
     drawn: impl Iterator<Item = (PartSource, Arc<Outline>, Measure)>,
-) -> Vec<MatchedPart> {
-    let mut part_of_shape: FxHashMap<ShapeId, usize> = FxHashMap::default();
-    let mut attached: Vec<MatchedPart> = Vec::new();
+) -> TiVec<PartId, MatchedPart> {
+    let mut part_of_shape: FxHashMap<ShapeId, PartId> = FxHashMap::default();
+    let mut attached: TiVec<PartId, MatchedPart> = TiVec::new();
     for (source, outline, measure) in drawn {
-        let index = attached.len();
+        let index = attached.next_key();
         let mut part = MatchedPart::new(index, &source, outline, measure);
         if let Some(host) = source.host {
             let Some(host) = part_of_shape.get(&host) else {

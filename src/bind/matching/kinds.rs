@@ -1,10 +1,10 @@
 //! The kinds of parts, now that the strings are bound.
 
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::layers::{LayerKind, Layers};
 use super::parts::MatchedPart;
-use crate::bind::bindings::{DrawingString, PartKind, StringId};
+use crate::bind::bindings::{DrawingString, PartId, PartKind, StringId};
 use crate::lang::ast::Annotation;
 use crate::svg::{Drawing, ShapeId};
 
@@ -12,11 +12,11 @@ use crate::svg::{Drawing, ShapeId};
 pub(super) fn classify(
     drawing: &Drawing,
     strings: &TiSlice<StringId, DrawingString>,
-    parts: &[MatchedPart],
+    parts: &TiSlice<PartId, MatchedPart>,
     layers: &Layers,
     backgrounds: &TiSlice<ShapeId, bool>,
-) -> Vec<PartKind> {
-    let kind = |(index, part): (usize, &MatchedPart)| {
+) -> TiVec<PartId, PartKind> {
+    let kind = |(index, part): (PartId, &MatchedPart)| {
         let is_main = part.main == index;
         match part.string.map(|string| &strings[string].annotation) {
             None if backgrounds[part.shape] => PartKind::Unused,
@@ -26,9 +26,9 @@ pub(super) fn classify(
             _ => PartKind::Sub,
         }
     };
-    let mut kinds: Vec<PartKind> = parts.iter().enumerate().map(kind).collect();
+    let mut kinds: TiVec<PartId, PartKind> = parts.iter_enumerated().map(kind).collect();
     // Sub-parts are left out together with their main part.
-    for (index, part) in parts.iter().enumerate() {
+    for (index, part) in parts.iter_enumerated() {
         let of_main = kinds[part.main];
         if part.main != index && matches!(of_main, PartKind::Unused | PartKind::Legend) {
             kinds[index] = of_main;
@@ -47,7 +47,7 @@ pub(super) fn classify(
             }
         }
     }
-    for (index, part) in parts.iter().enumerate() {
+    for (index, part) in parts.iter_enumerated() {
         if let Some(host) = part.host {
             kinds[index] = of_ink(kinds[host]);
         }

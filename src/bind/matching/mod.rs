@@ -33,7 +33,7 @@ use std::sync::Arc;
 
 use typed_index_collections::TiVec;
 
-use super::bindings::{DrawingString, PartKind, StringId};
+use super::bindings::{DrawingString, PartId, PartKind, StringId};
 use crate::diagnostic::Diagnostic;
 use crate::lang::Variables;
 use crate::lang::value::Setting;
@@ -50,9 +50,9 @@ pub(in crate::bind) struct Matched {
     /// The strings, in the order of the file.
     pub(in crate::bind) strings: TiVec<StringId, DrawingString>,
     /// The parts, back-most first.
-    pub(in crate::bind) parts: Vec<MatchedPart>,
+    pub(in crate::bind) parts: TiVec<PartId, MatchedPart>,
     /// Per part its kind, before details join what they lie on.
-    pub(in crate::bind) kinds: Vec<PartKind>,
+    pub(in crate::bind) kinds: TiVec<PartId, PartKind>,
     /// The layers.
     pub(in crate::bind) layers: Layers,
     /// The settings of all `%` strings, each with its string; for each keyword the last one.
@@ -163,7 +163,7 @@ impl Matched {
     }
 
     /// The string of a part.
-    pub(in crate::bind) fn string_of(&self, part: usize) -> Option<&DrawingString> {
+    pub(in crate::bind) fn string_of(&self, part: PartId) -> Option<&DrawingString> {
         Some(&self.strings[self.parts[part].string?])
     }
 }

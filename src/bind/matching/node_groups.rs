@@ -14,7 +14,7 @@ use super::parts::MatchedPart;
 use super::settings::Strokes;
 use super::strings::ReadString;
 use super::wrappers;
-use crate::bind::bindings::{StringHolder, StringId};
+use crate::bind::bindings::{PartId, StringHolder, StringId};
 use crate::memo::Memo;
 use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId};
 
@@ -322,9 +322,9 @@ fn roles(
 }
 
 /// Makes the back-most part of each node its main part candidate.
-pub(super) fn choose_mains(node_groups: &NodeGroups, parts: &mut [MatchedPart]) {
-    let mut mains: FxHashMap<(Option<GroupId>, GroupId), usize> = FxHashMap::default();
-    for index in 0..parts.len() {
+pub(super) fn choose_mains(node_groups: &NodeGroups, parts: &mut TiSlice<PartId, MatchedPart>) {
+    let mut mains: FxHashMap<(Option<GroupId>, GroupId), PartId> = FxHashMap::default();
+    for index in parts.keys() {
         let source = parts[index].source;
         let main = match (parts[index].host, node_groups.node_group[source]) {
             (Some(host), _) => parts[host].main,

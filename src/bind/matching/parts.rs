@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::node_groups::PartSource;
-use crate::bind::bindings::{self, StringId};
+use crate::bind::bindings::{self, PartId, StringId};
 use crate::geometry::{Measure, Outline};
 use crate::svg::{Drawing, GroupId, Paint, ShapeId};
 
@@ -14,16 +14,16 @@ pub(in crate::bind) struct MatchedPart {
     pub(in crate::bind) shape: ShapeId,
     /// Whether its area is the shape's stroke rather than its fill.
     pub(in crate::bind) is_stroke: bool,
-    /// For ink, a stroke that lies on another part, the index of that part, which comes before it.
-    pub(in crate::bind) host: Option<usize>,
+    /// For ink, a stroke that lies on another part, that part, which comes before it.
+    pub(in crate::bind) host: Option<PartId>,
     /// Its area, drawing units.
     pub(in crate::bind) outline: Arc<Outline>,
     /// Its axis, center and ends, as they are drawn.
     pub(in crate::bind) measure: Measure,
     /// Its string.
     pub(in crate::bind) string: Option<StringId>,
-    /// Index of the main part candidate of its node, which may be itself.
-    pub(in crate::bind) main: usize,
+    /// The main part candidate of its node, which may be itself.
+    pub(in crate::bind) main: PartId,
     /// The group whose content shares its node.
     pub(in crate::bind) node_group: Option<GroupId>,
     /// Index of its source.
@@ -33,7 +33,7 @@ pub(in crate::bind) struct MatchedPart {
 impl MatchedPart {
     /// A part without a string, alone in its node.
     pub(super) fn new(
-        index: usize,
+        index: PartId,
         source: &PartSource,
         outline: Arc<Outline>,
         measure: Measure,

@@ -4,11 +4,14 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use rayon::prelude::*;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::parts::MatchedPart;
+use crate::bind::bindings::PartId;
 use crate::geometry::{
     BoxTree, EdgeRanges, Intervals, Outline, Scanlines, area, area_around, contains, indexed_box,
 };
+use crate::index::par_keys;
 use crate::memo::{Bits, Long, Memo, Same};
 use crate::threads::GRAIN;
 
@@ -23,12 +26,12 @@ const MAX_NEIGHBORS: usize = 512;
 /// As soon as it is known what is seen directly under a part, no more than this many of the parts that it lies on are recorded.
 const MAX_HOSTS: usize = 8;
 
-/// How the parts of a drawing cover each other. Indices are those of the parts, which are in paint order.
+/// How the parts of a drawing cover each other. The parts are in paint order.
 #[derive(Debug)]
 pub(in crate::bind) struct Stacking {
-    parts: Vec<StackedPart>,
-    tree: BoxTree<usize>,
-    facts: Vec<Facts>,
+    parts: TiVec<PartId, StackedPart>,
+    tree: BoxTree<PartId>,
+    facts: TiVec<PartId, Facts>,
     /// How many of the back-most parts are ground.
     ground: usize,
 }
@@ -50,9 +53,9 @@ pub(in crate::bind) struct Facts {
     /// Its visible area, which nothing covers, square units.
     pub(super) shown: f64,
     /// The parts directly under it, each with the share of its area that lies on the part.
-    pub(in crate::bind) under: Box<[(usize, f64)]>,
+    pub(in crate::bind) under: Box<[(PartId, f64)]>,
     /// The earlier parts on which nearly all of it lies, the topmost first.
-    pub(super) lies_on: Box<[usize]>,
+    pub(super) lies_on: Box<[PartId]>,
 }
 
 /// What stacking is computed from.
@@ -75,13 +78,13 @@ struct Scratch {
     own: Intervals,
     other: Intervals,
     rest: Intervals,
-    near: Vec<usize>,
+    near: Vec<PartId>,
 }
 
 impl Stacking {
     /// The stacking of the parts that `takes_part` names. `page`: minimum corner and size.
     pub(super) fn read(
-        parts: &[MatchedPart],
+        parts: &TiSlice<PartId, MatchedPart>,
         page: (DVec2, DVec2),
         takes_part: impl Fn(&MatchedPart) -> bool,
         memo: &Memo,
@@ -110,7 +113,9 @@ impl Stacking {
                 takes_part: part.takes_part,
             })
             .collect();
-        let boxes = parts.iter().enumerate().filter(|(_, part)| part.takes_part);
+        let parts: TiVec<PartId, StackedPart> = parts.into();
+        let boxes = parts.iter_enumerated();
+        let boxes = boxes.filter(|(_, part)| part.takes_part);
         let boxes = boxes.map(|(index, part)| indexed_box(part.bounds, index));
         let tree = BoxTree::bulk_load(boxes.collect());
         let nothing = Outline::default();
@@ -125,11 +130,10 @@ impl Stacking {
         let mut stacking = Self {
             parts,
             tree,
-            facts: vec![],
+            facts: ti_vec![],
             ground,
         };
-        stacking.facts = (0..stacking.parts.len())
-            .into_par_iter()
+        let facts: Vec<Facts> = par_keys(&stacking.parts)
             .with_min_len(GRAIN)
             .map_init(Scratch::default, |scratch, part| {
                 let takes_part = stacking.parts[part].takes_part;
@@ -137,36 +141,37 @@ impl Stacking {
             })
             .map(Option::unwrap_or_default)
             .collect();
+        stacking.facts = facts.into();
         stacking
     }
 
     /// The outline of a part.
-    pub(super) fn outline(&self, part: usize) -> &Arc<Outline> {
+    pub(super) fn outline(&self, part: PartId) -> &Arc<Outline> {
         &self.parts[part].outline
     }
 
     /// The corners of a part's bounding box, the smallest coordinates first.
-    pub(super) fn bounds(&self, part: usize) -> (DVec2, DVec2) {
+    pub(super) fn bounds(&self, part: PartId) -> (DVec2, DVec2) {
         self.parts[part].bounds
     }
 
     /// Whether a part is ground: one of the back-most parts, which fill the page.
-    pub(in crate::bind) fn is_ground(&self, part: usize) -> bool {
-        part < self.ground
+    pub(in crate::bind) fn is_ground(&self, part: PartId) -> bool {
+        usize::from(part) < self.ground
     }
 
     /// Whether a part takes part: others cover nothing, and nothing is known about them.
-    pub(in crate::bind) fn has(&self, part: usize) -> bool {
+    pub(in crate::bind) fn has(&self, part: PartId) -> bool {
         self.parts[part].takes_part
     }
 
     /// What is known about a part.
-    pub(super) fn of_part(&self, part: usize) -> &Facts {
+    pub(super) fn of_part(&self, part: PartId) -> &Facts {
         &self.facts[part]
     }
 
     /// What is known about parts that are one unit; at least one, in paint order.
-    pub(in crate::bind) fn of_unit(&self, members: &[usize]) -> Facts {
+    pub(in crate::bind) fn of_unit(&self, members: &[PartId]) -> Facts {
         match members {
             [part] => self.facts[*part].clone(),
             _ => self.measure(members, &mut Scratch::default()),
@@ -174,10 +179,10 @@ impl Stacking {
     }
 
     /// The parts at a point, the topmost first.
-    pub(super) fn at(&self, point: DVec2) -> Vec<usize> {
+    pub(super) fn at(&self, point: DVec2) -> Vec<PartId> {
         let boxes = self.tree.locate_all_at_point([point.x, point.y]);
         let found = boxes.map(|found| found.data);
-        let mut found: Vec<usize> = found
+        let mut found: Vec<PartId> = found
             .filter(|part| contains(&self.parts[*part].outline, point))
             .collect();
         found.sort_unstable_by(|a, b| b.cmp(a));
@@ -185,13 +190,13 @@ impl Stacking {
     }
 
     /// Whether a point lies on a part.
-    pub(super) fn is_on(&self, part: usize, point: DVec2) -> bool {
+    pub(super) fn is_on(&self, part: PartId, point: DVec2) -> bool {
         let (low, high) = self.parts[part].bounds;
         let in_box = point.cmpge(low).all() && point.cmple(high).all();
         in_box && contains(&self.parts[part].outline, point)
     }
 
-    fn measure(&self, members: &[usize], scratch: &mut Scratch) -> Facts {
+    fn measure(&self, members: &[PartId], scratch: &mut Scratch) -> Facts {
         let Scratch {
             own,
             other,
@@ -222,7 +227,7 @@ impl Stacking {
             };
         }
         let lines = Scanlines::across((low, high));
-        let cut = |part: usize, out: &mut Intervals| {
+        let cut = |part: PartId, out: &mut Intervals| {
             let part = &self.parts[part];
             lines.cut(&part.outline, &part.ranges, out);
         };

@@ -59,7 +59,7 @@ pub(super) fn without_mark(
         return;
     }
     let mut found: Vec<(Span, bool)> = Vec::new();
-    for (part, kind) in tree.nodes.kind.iter().enumerate() {
+    for (part, kind) in tree.nodes.kind.iter_enumerated() {
         let attributes = attributes.attributes(matched, part);
         let follow = attributes.source(Keyword::Follow);
         let Some(source) = follow.filter(|_| *kind == PartKind::Main) else {

@@ -1,7 +1,7 @@
 //! Parts off the page or far from it: a few are reported one by one, many as one.
 
 use crate::bind::attributes::PartAttributes;
-use crate::bind::bindings::PartKind;
+use crate::bind::bindings::{PartId, PartKind};
 use crate::bind::describe::describe;
 use crate::bind::hierarchy::Tree;
 use crate::bind::matching::Matched;
@@ -24,7 +24,7 @@ pub(super) fn far_away(
     }
     let size = drawing.page.1.max_element();
     let mut findings = Vec::new();
-    for (part, kind) in tree.nodes.kind.iter().enumerate() {
+    for (part, kind) in tree.nodes.kind.iter_enumerated() {
         let offset = attributes.attributes(matched, part).offset();
         let Some(offset) = offset.filter(|_| *kind == PartKind::Main) else {
             continue;
@@ -60,15 +60,15 @@ pub(super) fn report(
         return;
     }
     let (page_low, page_size) = drawing.page;
-    let parts = 0..matched.parts.len();
-    let off: Vec<usize> = parts
+    let parts = matched.parts.keys();
+    let off: Vec<PartId> = parts
         .filter(|part| {
             let (low, high) = tree.axes.measure(matched, *part).bounds;
             let off = high.cmplt(page_low).any() || low.cmpgt(page_low + page_size).any();
             off && tree.nodes.kind[*part] == PartKind::Main
         })
         .collect();
-    let name = |part: usize| format!("`{}`", tree.names[part].name);
+    let name = |part: PartId| format!("`{}`", tree.names[part].name);
     let findings = off.iter().map(|part| {
         let element = &drawing.shapes[matched.parts[*part].shape].element;
         let message = format!("{} is off the page", name(*part));

@@ -157,7 +157,7 @@ impl AllTaken {
     fn of(drawing: &Drawing, matched: &Matched) -> Self {
         let mut subs: TiVec<GroupId, usize> = ti_vec![0; drawing.groups.len()];
         let mut is_part: TiVec<ShapeId, bool> = ti_vec![false; drawing.shapes.len()];
-        for (index, part) in matched.parts.iter().enumerate() {
+        for (index, part) in matched.parts.iter_enumerated() {
             is_part[part.shape] = true;
             if part.string.is_none() && part.main != index {
                 let main = &matched.parts[part.main];

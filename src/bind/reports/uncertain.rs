@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::bind::bindings::{BoundBy, DrawingString, PartKind, StringHolder};
+use crate::bind::bindings::{BoundBy, DrawingString, PartId, PartKind, StringHolder};
 use crate::bind::matching::Matched;
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::Annotation;
@@ -24,7 +24,7 @@ fn hint(drawing: &Drawing, matched: &Matched, string: &DrawingString) -> Option<
         return None;
     }
     // By its looks: the name of a part may be what this string, or another uncertain one, says.
-    let shape = |part: usize| drawing.describe(matched.parts[part].shape);
+    let shape = |part: PartId| drawing.describe(matched.parts[part].shape);
     let [own, other] = [binding.part, rival].map(shape);
     let text = string.text.as_str().trim();
     let text = text
@@ -63,12 +63,12 @@ fn hint(drawing: &Drawing, matched: &Matched, string: &DrawingString) -> Option<
     Some(hint)
 }
 
-fn part_span(drawing: &Drawing, matched: &Matched, part: usize) -> Span {
+fn part_span(drawing: &Drawing, matched: &Matched, part: PartId) -> Span {
     drawing.shapes[matched.parts[part].shape].element.span
 }
 
 /// The element whose description names the unit of a main part: its group, or its shape.
-fn element<'a>(drawing: &'a Drawing, matched: &Matched, part: usize) -> &'a Element {
+fn element<'a>(drawing: &'a Drawing, matched: &Matched, part: PartId) -> &'a Element {
     let part = &matched.parts[part];
     match matched
         .node_groups

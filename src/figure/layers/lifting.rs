@@ -6,8 +6,10 @@
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::{Arrangement, Layers, NodeDepth};
+use crate::bind::PartId;
 use crate::geometry::Frame;
 use crate::scene::WorldTransform;
 use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights};
@@ -24,7 +26,7 @@ const SAME: f64 = 0.01;
 /// All that lifting depends on.
 pub(super) struct Lifting<'a> {
     pub(super) arrangement: Arrangement<'a>,
-    pub(super) frames: &'a [Frame],
+    pub(super) frames: &'a TiSlice<PartId, Frame>,
     pub(super) world: &'a WorldTransform,
 }
 
@@ -42,22 +44,18 @@ impl Lifting<'_> {
     /// How the parts lie in depth, with nodes at these depths.
     pub(super) fn arrange(
         &self,
-        nodes: Vec<Option<NodeDepth>>,
+        nodes: TiVec<PartId, Option<NodeDepth>>,
         recent: Arc<RecentHeights>,
     ) -> Layers {
-        let parts = self.arrangement.context.bindings.parts.len();
-        let mut offsets: Vec<f64> = (0..parts)
-            .map(|part| {
-                self.arrangement
-                    .context
-                    .stand(self.arrangement.context.bindings.parts[part].main, part)
-                    .0
-            })
+        let context = self.arrangement.context;
+        let parts = context.bindings.parts.iter_enumerated();
+        let mut offsets: TiVec<PartId, f64> = parts
+            .map(|(index, part)| context.stand(part.main, index).0)
             .collect();
         for shape in self.arrangement.shapes {
             offsets[shape.part] = shape.offset;
         }
-        let mut raised = vec![[0.0; 2]; parts];
+        let mut raised = ti_vec![[0.0; 2]; offsets.len()];
         // Per shape its faces, moved outwards, if it is not laid on others.
         let mut moved: Vec<Option<Faces>> = Vec::with_capacity(self.arrangement.shapes.len());
         let mut lays: Vec<Option<Lay>> = Vec::with_capacity(self.arrangement.shapes.len());
@@ -213,9 +211,9 @@ impl Lifting<'_> {
     fn pile(
         &self,
         lays: Vec<Option<Lay>>,
-        raised: &[[f64; 2]],
+        raised: &TiSlice<PartId, [f64; 2]>,
         recent: Arc<RecentHeights>,
-    ) -> (Pile, Vec<Option<usize>>) {
+    ) -> (Pile, TiVec<PartId, Option<usize>>) {
         let mut takes_part = vec![false; self.arrangement.shapes.len()];
         for (index, lay) in lays.iter().enumerate() {
             if let Some(lay) = lay {
@@ -225,7 +223,7 @@ impl Lifting<'_> {
             }
         }
         let mut place = vec![usize::MAX; self.arrangement.shapes.len()];
-        let mut places = vec![None; self.arrangement.context.bindings.parts.len()];
+        let mut places = ti_vec![None; self.arrangement.context.bindings.parts.len()];
         let mut count = 0;
         for index in (0..self.arrangement.shapes.len()).filter(|index| takes_part[*index]) {
             place[index] = count;

@@ -12,8 +12,10 @@ mod wraps;
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::FigureContext;
+use crate::bind::PartId;
 use crate::geometry::Frame;
 use crate::memo::Memo;
 use crate::scene::WorldTransform;
@@ -43,28 +45,28 @@ pub enum Reason {
     Given,
     /// It is drawn over a part.
     DrawnOver {
-        /// Index of the part.
-        part: usize,
+        /// The part.
+        part: PartId,
     },
     /// It is drawn before a part that lies over it.
     DrawnUnder {
-        /// Index of the part.
-        part: usize,
+        /// The part.
+        part: PartId,
     },
     /// It lies on a part, or around it, and goes with it.
     With {
-        /// Index of the part.
-        part: usize,
+        /// The part.
+        part: PartId,
     },
     /// It is the far one of two limbs.
     Twin {
-        /// Index of the near one.
-        of: usize,
+        /// The near one.
+        of: PartId,
     },
     /// It lies behind a part that covers it.
     Backdrop {
-        /// Index of the part.
-        of: usize,
+        /// The part.
+        of: PartId,
     },
 }
 
@@ -119,13 +121,13 @@ impl Arrangement<'_> {
 /// How the parts of a drawing lie in depth.
 pub(super) struct Layers {
     /// Per part that has a node, its depth.
-    nodes: Vec<Option<NodeDepth>>,
+    nodes: TiVec<PartId, Option<NodeDepth>>,
     /// Per part how far the plane of its solid lies in front of that of its node, drawing units.
-    offsets: Vec<f64>,
+    offsets: TiVec<PartId, f64>,
     /// Per part how far the faces of its solid are moved outwards, back and front.
-    raised: Vec<[f64; 2]>,
+    raised: TiVec<PartId, [f64; 2]>,
     /// Per part its place in the pile, if it has one.
-    places: Vec<Option<usize>>,
+    places: TiVec<PartId, Option<usize>>,
     pile: Arc<Pile>,
 }
 
@@ -133,7 +135,7 @@ impl Layers {
     /// How the parts lie, and which of them given depths hide or let float.
     pub(super) fn arrange(
         context: &FigureContext<'_>,
-        frames: &[Frame],
+        frames: &TiSlice<PartId, Frame>,
         world: &WorldTransform,
         memo: &Memo,
     ) -> (Self, Vec<Buried>) {
@@ -196,17 +198,14 @@ impl Layers {
             frames,
             world,
         };
-        let node = |part: usize| {
+        let node = |part: PartId| {
             let node = nodes.of_part[part]?;
             Some(NodeDepth {
                 depth: node_depths.depths[node],
                 reason: node_depths.reasons[node],
             })
         };
-        let layers = lifting.arrange(
-            (0..context.bindings.parts.len()).map(node).collect(),
-            recent,
-        );
+        let layers = lifting.arrange(context.bindings.parts.keys().map(node).collect(), recent);
         let buried = Search {
             arrangement,
             layers: &layers,
@@ -216,33 +215,33 @@ impl Layers {
     }
 
     /// Per part that has a node, its depth.
-    pub(super) fn into_nodes(self) -> Vec<Option<NodeDepth>> {
+    pub(super) fn into_nodes(self) -> TiVec<PartId, Option<NodeDepth>> {
         self.nodes
     }
 
     /// How far the node of a main part is in front of the node that it hangs on, drawing units.
-    pub(super) fn node_step(&self, part: usize, parent: Option<usize>) -> f64 {
-        let depth = |part: usize| self.nodes[part].map_or(0.0, |node| node.depth);
+    pub(super) fn node_step(&self, part: PartId, parent: Option<PartId>) -> f64 {
+        let depth = |part: PartId| self.nodes[part].map_or(0.0, |node| node.depth);
         depth(part) - parent.map_or(0.0, depth)
     }
 
     /// How far the plane of a part's solid lies in front of that of its node, drawing units.
-    pub(super) fn offset(&self, part: usize) -> f64 {
+    pub(super) fn offset(&self, part: PartId) -> f64 {
         self.offsets[part]
     }
 
     /// How far the back and the front face of a part's solid are moved outwards, drawing units.
-    pub(super) fn raised(&self, part: usize) -> [f64; 2] {
+    pub(super) fn raised(&self, part: PartId) -> [f64; 2] {
         self.raised[part]
     }
 
     /// Whether a part is lifted by others.
-    pub(super) fn is_lifted(&self, part: usize) -> bool {
+    pub(super) fn is_lifted(&self, part: PartId) -> bool {
         self.places[part].is_some_and(|body| self.pile.bodies()[body].lay.is_some())
     }
 
     /// A part's place in the pile, if that makes its surface.
-    pub(super) fn in_pile(&self, part: usize) -> Option<(&Arc<Pile>, usize)> {
+    pub(super) fn in_pile(&self, part: PartId) -> Option<(&Arc<Pile>, usize)> {
         let body = self.places[part].filter(|body| self.pile.makes(*body))?;
         Some((&self.pile, body))
     }

@@ -3,12 +3,13 @@
 use glam::DVec2;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiSlice;
 
 use super::nodes::Nodes;
 use super::overlaps::{Overlap, Scratch};
 use super::shapes::Shape;
 use super::{Cover, Reason};
-use crate::bind::Part;
+use crate::bind::{Part, PartId};
 
 /// The share of an overlap in front of which what is drawn later lies.
 const QUANTILE: f64 = 0.9;
@@ -67,7 +68,7 @@ pub(super) fn backdrops(
 
 /// What the depths of nodes are computed from.
 pub(super) struct Figure<'a> {
-    pub(super) parts: &'a [Part],
+    pub(super) parts: &'a TiSlice<PartId, Part>,
     pub(super) shapes: &'a [Shape],
     pub(super) nodes: &'a Nodes,
     pub(super) overlaps: &'a [Vec<Overlap>],

@@ -1,15 +1,17 @@
 //! The nodes of figures as far as depths depend on them.
 
+use typed_index_collections::{TiVec, ti_vec};
+
 use super::super::FigureContext;
 use super::shapes::Shape;
-use crate::bind::{PartKind, SetBy};
+use crate::bind::{PartId, PartKind, SetBy};
 
 /// The nodes, by an index of their own, in the order of their main parts.
 pub(super) struct Nodes {
     /// Per node its main part.
-    pub(super) main: Vec<usize>,
+    pub(super) main: Vec<PartId>,
     /// Per part its node, if it is a main part.
-    pub(super) of_part: Vec<Option<usize>>,
+    pub(super) of_part: TiVec<PartId, Option<usize>>,
     pub(super) parent: Vec<Option<usize>>,
     /// Per node the shape of its main part, if that has a solid.
     pub(super) shape: Vec<Option<usize>>,
@@ -29,9 +31,9 @@ pub(super) struct Nodes {
 impl Nodes {
     pub(super) fn new(context: &FigureContext<'_>, shapes: &[Shape]) -> Self {
         let parts = &context.bindings.parts;
-        let is_main = |part: &usize| parts[*part].kind == PartKind::Main;
-        let main: Vec<usize> = (0..parts.len()).filter(is_main).collect();
-        let mut of_part = vec![None; parts.len()];
+        let is_main = |part: &PartId| parts[*part].kind == PartKind::Main;
+        let main: Vec<PartId> = parts.keys().filter(is_main).collect();
+        let mut of_part = ti_vec![None; parts.len()];
         for (node, part) in main.iter().enumerate() {
             of_part[*part] = Some(node);
         }
@@ -70,8 +72,8 @@ impl Nodes {
             open.push((node, true));
             open.extend(children[node].iter().map(|child| (*child, false)));
         }
-        let offset = |part: usize| context.bindings.attributes(part).offset();
-        let given = |(node, part): (usize, &usize)| {
+        let offset = |part: PartId| context.bindings.attributes(part).offset();
+        let given = |(node, part): (usize, &PartId)| {
             let own = offset(*part).filter(|offset| offset.source.from < SetBy::Default);
             let is_given = shape[node].is_some_and(|shape| shapes[shape].is_given);
             let is_mirrored = context.bindings.attributes(*part).shape().mirrored;
@@ -82,7 +84,7 @@ impl Nodes {
                 None => is_given.then_some(0.0),
             }
         };
-        let shift = |part: &usize| match offset(*part) {
+        let shift = |part: &PartId| match offset(*part) {
             Some(offset) if offset.source.from == SetBy::Default => context.node_offset(*part),
             _ => 0.0,
         };

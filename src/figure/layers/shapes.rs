@@ -6,18 +6,18 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::super::FigureContext;
-use crate::bind::PartKind;
+use crate::bind::{PartId, PartKind};
 use crate::geometry::{EdgeRanges, Outline, area};
+use crate::index::par_keys;
 use crate::solid::{Profile, SolidHeights};
 use crate::threads::GRAIN;
 
 /// A part with a solid, in the order of drawing.
 #[derive(Debug)]
 pub(super) struct Shape {
-    /// Index of the part.
-    pub(super) part: usize,
+    pub(super) part: PartId,
     /// The main part of its node.
-    pub(super) main: usize,
+    pub(super) main: PartId,
     pub(super) outline: Arc<Outline>,
     pub(super) bounds: (DVec2, DVec2),
     pub(super) ranges: EdgeRanges,
@@ -70,14 +70,13 @@ impl Shape {
 
 /// The shapes of a drawing, back-most first.
 pub(super) fn shapes(context: &FigureContext<'_>) -> Vec<Shape> {
-    (0..context.bindings.parts.len())
-        .into_par_iter()
+    par_keys(&context.bindings.parts)
         .with_min_len(GRAIN)
         .filter_map(|part| shape(context, part))
         .collect()
 }
 
-fn shape(context: &FigureContext<'_>, index: usize) -> Option<Shape> {
+fn shape(context: &FigureContext<'_>, index: PartId) -> Option<Shape> {
     let bindings = context.bindings;
     let part = &bindings.parts[index];
     if !matches!(part.kind, PartKind::Main | PartKind::Sub) {

@@ -9,7 +9,7 @@ impl Cursor<'_> {
     pub(super) fn marks(&self, word: &str) -> Choice<Proposal> {
         let bindings = self.context.analysis.bindings();
         let mut marks: Vec<(&str, &str)> = Vec::new();
-        for (index, part) in bindings.parts.iter().enumerate() {
+        for (index, part) in bindings.parts.iter_enumerated() {
             if let Some(mark) = bindings.mark(index).filter(|_| !part.name.is_empty())
                 && !marks.iter().any(|(known, _)| *known == mark.word)
             {

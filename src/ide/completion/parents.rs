@@ -2,9 +2,11 @@
 
 use std::collections::HashSet;
 
+use typed_index_collections::{TiVec, ti_vec};
+
 use super::choice::{Choice, choose};
 use super::{Cursor, Proposal, ProposalKind, own_name_of};
-use crate::bind::{Bindings, Part, PartKind};
+use crate::bind::{Bindings, Part, PartId, PartKind};
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
 
 impl Cursor<'_> {
@@ -15,8 +17,8 @@ impl Cursor<'_> {
             Some(string) => self.context.analysis.part_of_string(string),
             None => None,
         };
-        let carried = own.map_or_else(Vec::new, |own| descendants_of(bindings, own));
-        let is_possible = |index: usize| !carried.get(index).copied().unwrap_or(false);
+        let carried = own.map_or_else(TiVec::new, |own| descendants_of(bindings, own));
+        let is_possible = |index: PartId| !carried.get(index).copied().unwrap_or(false);
         self.parts(word, place, is_possible)
     }
 
@@ -32,11 +34,11 @@ impl Cursor<'_> {
         &self,
         word: &str,
         place: NamePlace,
-        is_possible: impl Fn(usize) -> bool,
+        is_possible: impl Fn(PartId) -> bool,
     ) -> Choice<Proposal> {
         let bindings = self.context.analysis.bindings();
         let typed = own_name_of(self.text, self.in_desc);
-        let parts = bindings.parts.iter().enumerate().filter(|(index, part)| {
+        let parts = bindings.parts.iter_enumerated().filter(|(index, part)| {
             part.kind == PartKind::Main
                 && !part.name.is_empty()
                 && !part.name.contains('"')
@@ -66,14 +68,14 @@ impl Cursor<'_> {
 }
 
 /// For each part whether it is `own` or a descendant of it.
-fn descendants_of(bindings: &Bindings, own: usize) -> Vec<bool> {
-    let mut children: Vec<Vec<usize>> = vec![vec![]; bindings.parts.len()];
-    for (index, part) in bindings.parts.iter().enumerate() {
+fn descendants_of(bindings: &Bindings, own: PartId) -> TiVec<PartId, bool> {
+    let mut children: TiVec<PartId, Vec<PartId>> = ti_vec![vec![]; bindings.parts.len()];
+    for (index, part) in bindings.parts.iter_enumerated() {
         if let Some(parent) = part.parent {
             children[parent].push(index);
         }
     }
-    let mut carried = vec![false; bindings.parts.len()];
+    let mut carried = ti_vec![false; bindings.parts.len()];
     let mut waiting = vec![own];
     while let Some(part) = waiting.pop() {
         if !std::mem::replace(&mut carried[part], true) {

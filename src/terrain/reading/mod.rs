@@ -23,7 +23,7 @@ pub(crate) use materials::{TileMaterial, TileTexture};
 
 use super::landscape::{DEFAULT_ROOF, Landscape};
 use super::map::{MAX_CELLS, Map};
-use crate::bind::{Attribute, Bindings, LayerId, StringId};
+use crate::bind::{Attribute, Bindings, LayerId, PartId, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::index::index_type;
 use crate::svg::{Drawing, GroupId, PaintKey, ShapeId};
@@ -63,8 +63,8 @@ pub struct Layer {
     pub roof: f64,
     /// The radius of the ground's bevel, tiles.
     pub bevel: f64,
-    /// Index of the main part that it hangs on; `None` hangs on the root.
-    pub parent: Option<usize>,
+    /// The main part that it hangs on; `None` hangs on the root.
+    pub parent: Option<PartId>,
     /// The shapes that tiles are made from, back-most first.
     pub sources: Vec<TileSource>,
 }

@@ -6,11 +6,13 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use rustc_hash::FxHashMap;
+use typed_index_collections::TiSlice;
 
 use super::nearest::{AssignmentProblem, DistanceMode, Target};
 use super::parts::MatchedPart;
 use super::stacking::Stacking;
 use crate::assignment::{self, Assignment};
+use crate::bind::bindings::PartId;
 use crate::memo::{Bits, Memo};
 use units::{Candidate, Candidates, Units};
 pub(in crate::bind::matching) use units::{Scope, TextPlace};
@@ -32,17 +34,17 @@ const SHOWS: f64 = 0.5;
 #[derive(Debug, Default)]
 pub(super) struct Meant {
     /// Per text the main part of what it means, and of what it means if it does not mean that.
-    pub(super) found: Vec<Option<(usize, Option<usize>)>>,
+    pub(super) found: Vec<Option<(PartId, Option<PartId>)>>,
     /// Main parts of groups that several texts mean, each text something in them.
-    pub(super) opened: Vec<usize>,
+    pub(super) opened: Vec<PartId>,
 }
 
 /// Finds what texts mean, by an assignment whose rows are the texts and whose columns are the units. `scope` tells for a main part which texts may mean its unit.
 pub(super) fn find(
     texts: &[TextPlace],
     stacking: &Arc<Stacking>,
-    parts: &[MatchedPart],
-    scope: impl Fn(usize) -> Option<Scope>,
+    parts: &TiSlice<PartId, MatchedPart>,
+    scope: impl Fn(PartId) -> Option<Scope>,
     memo: &Memo,
 ) -> Meant {
     let units = Units::read(stacking, parts, scope, memo);
@@ -89,7 +91,7 @@ pub(super) fn find(
 fn share_out_rest(
     texts: &[TextPlace],
     units: &Units,
-    parts: &[MatchedPart],
+    parts: &TiSlice<PartId, MatchedPart>,
     assignment: &mut Assignment,
 ) {
     // In the order of their first texts.

@@ -6,7 +6,9 @@ use glam::DVec2;
 use rayon::prelude::*;
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashMap;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
+use crate::bind::bindings::PartId;
 use crate::bind::matching::parts::MatchedPart;
 use crate::bind::matching::stacking::{Facts, Stacking};
 use crate::geometry::{Outline, distance_squared};
@@ -52,8 +54,8 @@ const VISITS: usize = 32;
 /// What a text can name: a shape, or a group. Its members share a node.
 #[derive(Debug)]
 pub(super) struct Unit {
-    /// Indices of its parts, in paint order.
-    pub(super) members: Vec<usize>,
+    /// Its parts, in paint order.
+    pub(super) members: Vec<PartId>,
     /// Its bounding box.
     bounds: (DVec2, DVec2),
     /// Its area, square units.
@@ -76,7 +78,7 @@ pub(super) struct Units {
     stacking: Arc<Stacking>,
     pub(super) units: Vec<Unit>,
     /// Per part its unit.
-    of_part: Vec<usize>,
+    of_part: TiVec<PartId, usize>,
     /// Per scope the members of its units.
     trees: FxHashMap<Scope, RTree<Member>>,
 }
@@ -86,7 +88,7 @@ pub(super) struct Units {
 struct UnitsKey {
     stacking: Same<Stacking>,
     /// Per part the main part candidate of its node, and for such a candidate the scope, if texts may name it.
-    parts: Long<(usize, Option<Scope>)>,
+    parts: Long<(PartId, Option<Scope>)>,
 }
 
 /// Where a text lies.
@@ -126,26 +128,27 @@ impl Units {
     /// The units of `parts`; `scope` tells for a main part candidate which texts may name its unit.
     pub(super) fn read(
         stacking: &Arc<Stacking>,
-        parts: &[MatchedPart],
-        scope: impl Fn(usize) -> Option<Scope>,
+        parts: &TiSlice<PartId, MatchedPart>,
+        scope: impl Fn(PartId) -> Option<Scope>,
         memo: &Memo,
     ) -> Arc<Self> {
-        let part = |(index, part): (usize, &MatchedPart)| {
+        let part = |(index, part): (PartId, &MatchedPart)| {
             let scope = (part.main == index).then(|| scope(index)).flatten();
             (part.main, scope)
         };
         let key = UnitsKey {
             stacking: Same(Arc::clone(stacking)),
-            parts: parts.iter().enumerate().map(part).collect(),
+            parts: parts.iter_enumerated().map(part).collect(),
         };
         memo.get(key, |key| Arc::new(Self::new(key)))
     }
 
     fn new(key: &UnitsKey) -> Self {
         let stacking = &key.stacking.0;
-        let mut of_part = vec![usize::MAX; key.parts.0.len()];
-        let mut members: Vec<Vec<usize>> = Vec::new();
-        for (index, (main, _)) in key.parts.0.iter().enumerate() {
+        let parts: &TiSlice<PartId, _> = TiSlice::from_ref(&key.parts.0);
+        let mut of_part = ti_vec![usize::MAX; parts.len()];
+        let mut members: Vec<Vec<PartId>> = Vec::new();
+        for (index, (main, _)) in parts.iter_enumerated() {
             // The main part is the back-most of its node.
             if *main == index {
                 of_part[index] = members.len();
@@ -172,7 +175,7 @@ impl Units {
                     host: host.map(|part| of_part[part]),
                     hidden: facts.shown < HARDLY_SHOWS * facts.area,
                     ground: members.iter().all(|part| stacking.is_ground(*part)),
-                    scope: key.parts.0[members[0]].1,
+                    scope: parts[members[0]].1,
                     members,
                 }
             })
@@ -355,8 +358,8 @@ fn cost_of(distance: f64) -> f64 {
 }
 
 /// The part on which a unit lies, if it is a detail: a larger, earlier one that is no ground and of which more shows.
-fn host(stacking: &Stacking, facts: &Facts) -> Option<usize> {
-    let is_host = |part: &usize| {
+fn host(stacking: &Stacking, facts: &Facts) -> Option<PartId> {
+    let is_host = |part: &PartId| {
         let other = stacking.of_part(*part);
         !stacking.is_ground(*part) && other.area > facts.area && other.shown >= facts.area
     };

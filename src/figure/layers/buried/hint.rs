@@ -2,6 +2,7 @@
 
 use super::super::FigureContext;
 use super::{Buried, Harm};
+use crate::bind::PartId;
 use crate::diagnostic::{Code, Diagnostic, Fix, listed};
 use crate::source::Span;
 
@@ -43,8 +44,8 @@ fn hint(
         drawing, bindings, ..
     } = context;
     let given = bindings.given_depth(found.first()?.given)?;
-    let name = |part: usize| bindings.describe_as_drawn(drawing, part);
-    let mut others: Vec<usize> = found.iter().map(|found| found.other).collect();
+    let name = |part: PartId| bindings.describe_as_drawn(drawing, part);
+    let mut others: Vec<PartId> = found.iter().map(|found| found.other).collect();
     others.sort_unstable();
     others.dedup();
     let what = listed(found.iter().map(|found| match found.harm {
@@ -75,7 +76,7 @@ fn hint(
     } else {
         ["this is hidden", "this hides it"]
     };
-    let place = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
+    let place = |part: PartId| drawing.shapes[bindings.parts[part].shape].element.span;
     let parts = found.iter().map(|found| (found.part, of_part));
     let others = others.into_iter().map(|other| (other, of_other));
     for (part, what) in parts.take(MAX_RELATED).chain(others.take(MAX_RELATED)) {

@@ -14,6 +14,7 @@ pub(in super::super) use hint::report;
 
 use super::shapes::Shape;
 use super::{Arrangement, FigureContext, Layers};
+use crate::bind::PartId;
 use crate::geometry::{Intervals, Scanlines};
 use crate::threads::GRAIN;
 
@@ -48,12 +49,12 @@ impl Harm {
 /// A part that a given depth hides or lets float.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in super::super) struct Buried {
-    /// Index of the part whose depth is given.
-    given: usize,
-    /// Index of the part that is hidden or floats.
-    part: usize,
-    /// Index of the part that hides it, or on which it is drawn.
-    other: usize,
+    /// The part whose depth is given.
+    given: PartId,
+    /// The part that is hidden or floats.
+    part: PartId,
+    /// The part that hides it, or on which it is drawn.
+    other: PartId,
     harm: Harm,
 }
 
@@ -275,14 +276,14 @@ impl Search<'_> {
     }
 
     /// The part whose numbers say how deep a shape lies by itself.
-    fn gives(&self, shape: usize) -> Option<usize> {
+    fn gives(&self, shape: usize) -> Option<PartId> {
         let bindings = self.arrangement.context.bindings;
         let part = bindings.form(self.arrangement.shapes[shape].part);
         bindings.given_depth(part).map(|_| part)
     }
 
     /// The part whose `Offset` moves a shape away from another one, to this side.
-    fn moves(&self, shape: usize, other: usize, is_forward: bool) -> Option<usize> {
+    fn moves(&self, shape: usize, other: usize, is_forward: bool) -> Option<PartId> {
         let nodes = self.arrangement.nodes;
         let mut next = Some(nodes.of_shape[shape]).filter(|_| !self.arrangement.is_one);
         while let Some(node) = next.filter(|node| !nodes.hangs_on(nodes.of_shape[other], *node)) {
@@ -304,7 +305,7 @@ impl Search<'_> {
             return Vec::new();
         }
         // Per part whose depth is given, and what it hides this shape behind, how much.
-        let mut hidden: Vec<(usize, usize, f64)> = Vec::new();
+        let mut hidden: Vec<(PartId, PartId, f64)> = Vec::new();
         let mut gaps: Vec<(f64, usize)> = Vec::new();
         for point in &points {
             let front = self.front(shape, point.at, &point.below).depth;
@@ -347,7 +348,7 @@ impl Search<'_> {
         let mut found = Vec::new();
         let page = self.arrangement.context.drawing.page.1.max_element();
         let shown = visible / whole * own.area;
-        let mut givens: Vec<usize> = hidden.iter().map(|(given, ..)| *given).collect();
+        let mut givens: Vec<PartId> = hidden.iter().map(|(given, ..)| *given).collect();
         givens.sort_unstable();
         givens.dedup();
         for given in givens {
