@@ -41,7 +41,9 @@ pub mod import {
     pub use crate::import::{ImportError, read_static_model};
 }
 pub mod labels {
-    pub use crate::labels::{Anatomy, Class, Facing, Limb, LimbSegment, Side, Tip, label_clip};
+    pub use crate::labels::{
+        Anatomy, Class, Facing, FigurePartId, Limb, LimbSegment, Side, Tip, label_clip,
+    };
 }
 pub mod lang {
     pub use crate::lang::{Container, parse, reference, settings};

@@ -127,13 +127,8 @@ impl Materials {
             let (factors, textured) = look(index);
             let double_sided = profile.is_open();
             let texture = textured.map(|textured| textured.texture);
-            let slot = shared.slot(
-                owned_by(Owner::Part(index)),
-                &factors,
-                double_sided,
-                texture,
-                &textures,
-            );
+            let owner = owned_by(Owner::Part(index));
+            let slot = shared.slot(owner, &factors, double_sided, texture, &textures);
             of_part.push(Some((slot, textured.map(|textured| textured.map))));
         }
         for region in regions {

@@ -59,9 +59,10 @@ pub(super) fn nodes(
         }
     }
     let is_doubled = |part: PartId| context.bindings.attributes(part).shape().doubled;
-    let has_copies = parts
-        .iter_enumerated()
-        .any(|(index, part)| part.kind == PartKind::Main && is_doubled(index));
+    let mut mains = parts
+        .keys()
+        .filter(|part| parts[*part].kind == PartKind::Main);
+    let has_copies = mains.any(is_doubled);
     let taken = parts.iter().filter(|_| has_copies);
     let mut names: FxHashMap<String, usize> = taken.map(|part| (part.name.clone(), 1)).collect();
     let mut nodes: TiVec<NodeId, FigureNode> = TiVec::with_capacity(parts.len());

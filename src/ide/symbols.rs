@@ -35,11 +35,9 @@ impl Analysis {
         }
         let mut children: TiVec<PartId, Vec<PartId>> = ti_vec![vec![]; bindings.parts.len()];
         let mut roots = vec![];
-        let mut order: Vec<PartId> = bindings
-            .parts
-            .keys()
-            .filter(|part| bindings.parts[*part].kind == PartKind::Main)
-            .collect();
+        let parts = bindings.parts.iter_enumerated();
+        let mains = parts.filter(|(_, part)| part.kind == PartKind::Main);
+        let mut order: Vec<PartId> = mains.map(|(part, _)| part).collect();
         order.sort_by_cached_key(|part| self.span_of_part(*part));
         for part in order {
             match bindings.parts[part].parent {

@@ -1,11 +1,12 @@
 //! Labels parts of a figure whose names say nothing: trunk, head, arms, legs and tail by their shape and place.
 
 use glam::DVec2;
+use typed_index_collections::TiSlice;
 
-use super::Class;
-use super::figure::{PartDraft, is_trunk};
+use super::figure::{Drafts, PartDraft, is_trunk};
 use super::part_tree::PartTree;
 use super::placement::Front;
+use super::{Class, FigurePartId};
 use crate::anatomy::Term;
 
 /// An unnamed arm is at least this share of the figure's height long.
@@ -37,12 +38,12 @@ const LOW: f64 = 0.25;
 
 /// Finds the trunk: roots that have children. If no name tells a trunk, the root with the most descendants is one. So are
 /// parts of it that carry a head, both arms or many limbs.
-pub(super) fn trunk(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
-    let bare = |part: &usize| {
+pub(super) fn trunk(tree: &PartTree<'_>, drafts: &mut Drafts) {
+    let bare = |part: &FigurePartId| {
         let draft = &drafts[*part];
         tree.parents[*part].is_none() && draft.class.is_none() && !draft.detail
     };
-    let roots: Vec<usize> = tree.order.iter().copied().filter(bare).collect();
+    let roots: Vec<FigurePartId> = tree.order.iter().copied().filter(bare).collect();
     let known = drafts.iter().any(|draft| is_trunk(draft.class));
     let most = roots
         .iter()
@@ -82,9 +83,9 @@ pub(super) fn trunk(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
 /// What a part between the trunk and others is by what it carries.
 fn carrier(
     tree: &PartTree<'_>,
-    drafts: &[PartDraft],
-    reaches: &[f64],
-    part: usize,
+    drafts: &Drafts,
+    reaches: &TiSlice<FigurePartId, f64>,
+    part: FigurePartId,
 ) -> Option<(Class, &'static str)> {
     let children = &tree.children[part];
     let of_class = |class: Class| {
@@ -112,7 +113,7 @@ fn carrier(
 }
 
 /// Segments of the trunk that lie on another segment, such as the white belly of a penguin, go along with it.
-pub(super) fn patches(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
+pub(super) fn patches(tree: &PartTree<'_>, drafts: &mut Drafts) {
     for part in tree.order.iter().copied() {
         let Some(above) = tree.parents[part] else {
             continue;
@@ -131,7 +132,7 @@ pub(super) fn patches(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
 }
 
 /// Whether a part's class may be told by its shape: it has none yet, and is attached to the trunk or is a root.
-fn is_open(tree: &PartTree<'_>, drafts: &[PartDraft], part: usize) -> bool {
+fn is_open(tree: &PartTree<'_>, drafts: &Drafts, part: FigurePartId) -> bool {
     let draft = &drafts[part];
     let above = tree.parents[part].map(|parent| drafts[parent].class);
     let on_trunk = above.is_none_or(|class| is_trunk(class) || class == Some(Class::Neck));
@@ -140,15 +141,16 @@ fn is_open(tree: &PartTree<'_>, drafts: &[PartDraft], part: usize) -> bool {
 
 /// Takes the topmost part as the head if no name tells one. It sticks out of the trunk and is not one of a pair. If only
 /// something that heads wear has a name, the head is below it, or it stands for the head.
-pub(super) fn head(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
+pub(super) fn head(tree: &PartTree<'_>, drafts: &mut Drafts) {
     let is_head = |draft: &PartDraft| draft.class == Some(Class::Head);
-    let worn = drafts.iter().position(is_head);
+    let worn = drafts.position(is_head);
     if worn.is_some_and(|part| !drafts[part].says(&[Term::HeadWear])) {
         return;
     }
     let trunk = tree.around(trunk_parts(tree, drafts));
     let axis = trunk[0].midpoint(trunk[1]);
-    let mut heads: Vec<usize> = (0..drafts.len())
+    let mut heads: Vec<FigurePartId> = drafts
+        .keys()
         .filter(|part| is_open(tree, drafts, *part) && !tree.stands(*part))
         .filter(|part| !drafts[*part].says(&[Term::Left, Term::Right]))
         .filter(|part| {
@@ -159,16 +161,16 @@ pub(super) fn head(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
         .collect();
     let size = trunk[1] - trunk[0];
     // Compares centres, because a raised hand may be higher than the top of a head.
-    let rise = |part: usize| {
+    let rise = |part: FigurePartId| {
         let off = tree.middle(part) - axis;
         let ears = size.x > LEVEL * size.y && !tree.children[part].is_empty();
         off.y - off.x.abs() / 2.0 + if ears { EARS * tree.height } else { 0.0 }
     };
     heads.sort_by(|a, b| rise(*b).total_cmp(&rise(*a)).then(a.cmp(b)));
     let near = TWIN * tree.height;
-    let twin = |part: usize| {
+    let twin = |part: FigurePartId| {
         let off = tree.middle(part) - axis;
-        let mirrored = |other: &&usize| {
+        let mirrored = |other: &&FigurePartId| {
             let other = tree.middle(**other) - axis;
             (other.x + off.x).abs() <= near && (other.y - off.y).abs() <= near
         };
@@ -203,22 +205,22 @@ pub(super) fn head(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
 }
 
 /// The part on top of another one if it is larger, as a head on its neck.
-fn larger_on_top(tree: &PartTree<'_>, drafts: &[PartDraft], part: usize) -> Option<usize> {
-    let area = |part: usize| tree.size(part).element_product();
-    let is_free = |child: &usize| drafts[*child].class.is_none() && !drafts[*child].detail;
+fn larger_on_top(tree: &PartTree<'_>, drafts: &Drafts, part: FigurePartId) -> Option<FigurePartId> {
+    let area = |part: FigurePartId| tree.size(part).element_product();
+    let is_free = |child: &FigurePartId| drafts[*child].class.is_none() && !drafts[*child].detail;
     let above = tree.children[part].iter().copied().filter(is_free);
     above
         .filter(|child| tree.middle(*child).y > tree.middle(part).y && area(*child) > area(part))
         .max_by(|a, b| area(*a).total_cmp(&area(*b)).then(b.cmp(a)))
 }
 
-fn trunk_parts(tree: &PartTree<'_>, drafts: &[PartDraft]) -> impl Iterator<Item = usize> {
+fn trunk_parts(tree: &PartTree<'_>, drafts: &Drafts) -> impl Iterator<Item = FigurePartId> {
     let order = tree.order.iter().copied();
     order.filter(|part| is_trunk(drafts[*part].class))
 }
 
 /// Labels what hangs on the trunk, and the next segments of limbs.
-pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
+pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
     let facing = Front::of(tree, drafts);
     let trunk = tree.around(trunk_parts(tree, drafts));
     for part in tree.order.iter().copied() {
@@ -273,12 +275,12 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
 /// Whether a part is drawn on the trunk, like a button or a chest panel, or around it, like a belt.
 fn is_over_trunk(
     tree: &PartTree<'_>,
-    drafts: &[PartDraft],
+    drafts: &Drafts,
     trunk: [DVec2; 2],
-    part: usize,
+    part: FigurePartId,
 ) -> bool {
     let below = tree.parents[part].filter(|above| is_trunk(drafts[*above].class));
-    let drawn = |part: usize| tree.parts[part].drawing_order;
+    let drawn = |part: FigurePartId| tree.parts[part].drawing_order;
     let [low, high] = tree.around(std::iter::once(part));
     let beyond = OUTWARD * tree.height;
     let is_around = low.x <= trunk[0].x - beyond && high.x >= trunk[1].x + beyond;
@@ -287,7 +289,7 @@ fn is_over_trunk(
 }
 
 /// Whether a part hangs from the lower half of the trunk to below it.
-fn is_raised_leg(tree: &PartTree<'_>, [low, high]: [DVec2; 2], part: usize) -> bool {
+fn is_raised_leg(tree: &PartTree<'_>, [low, high]: [DVec2; 2], part: FigurePartId) -> bool {
     let (joint, tip) = (tree.joint(part), tree.tip(part));
     tree.parents[part].is_some()
         && joint.y < f64::midpoint(low.y, high.y)
@@ -299,9 +301,9 @@ fn is_raised_leg(tree: &PartTree<'_>, [low, high]: [DVec2; 2], part: usize) -> b
 fn outward(
     tree: &PartTree<'_>,
     facing: &Front,
-    drafts: &[PartDraft],
+    drafts: &Drafts,
     trunk: [DVec2; 2],
-    part: usize,
+    part: FigurePartId,
 ) -> Option<Class> {
     let body = tree.parents[part].filter(|parent| is_trunk(drafts[*parent].class));
     let around = body.map_or(trunk, |body| tree.around(std::iter::once(body)));
@@ -323,18 +325,18 @@ fn outward(
 
 /// Makes legs of all limbs without a name if there are too many for a figure with arms: insects and spiders are often drawn from
 /// above, where some legs point up.
-fn many_legs(tree: &PartTree<'_>, drafts: &mut [PartDraft], trunk: [DVec2; 2]) {
-    let is_limb = |part: usize| drafts[part].class.is_some_and(Class::is_limb);
-    let is_root = |part: &usize| {
+fn many_legs(tree: &PartTree<'_>, drafts: &mut Drafts, trunk: [DVec2; 2]) {
+    let is_limb = |part: FigurePartId| drafts[part].class.is_some_and(Class::is_limb);
+    let is_root = |part: &FigurePartId| {
         let continues = tree.parents[*part].is_some_and(is_limb);
         is_limb(*part) && !continues && !drafts[*part].named
     };
-    let count = (0..drafts.len()).filter(is_root).count();
+    let count = drafts.keys().filter(is_root).count();
     let lies = trunk[0].y <= tree.above_ground(LOW);
     if count < MANY_LIMBS && (count < LIMBS_AROUND || !lies) {
         return;
     }
-    for (part, draft) in drafts.iter_mut().enumerate() {
+    for (part, draft) in drafts.iter_mut_enumerated() {
         if draft.class == Some(Class::Arm) && !draft.named {
             let why = format!(
                 "`{}` belongs to one of {count} limbs, so it is a leg",
@@ -346,17 +348,18 @@ fn many_legs(tree: &PartTree<'_>, drafts: &mut [PartDraft], trunk: [DVec2; 2]) {
 }
 
 /// A segment of the trunk that carries legs but neither head nor arms is the hips. A skirt or trousers are only if they carry legs.
-pub(super) fn hips(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
-    let carries = |drafts: &[PartDraft], part: usize, classes: &[Class]| {
+pub(super) fn hips(tree: &PartTree<'_>, drafts: &mut Drafts) {
+    let carries = |drafts: &Drafts, part: FigurePartId, classes: &[Class]| {
         let mut carried = tree.children[part]
             .iter()
             .filter_map(|child| drafts[*child].class);
         carried.any(|class| classes.contains(&class))
     };
     let upper = [Class::Head, Class::Neck, Class::Arm];
-    let has_upper = (0..drafts.len())
+    let has_upper = drafts
+        .keys()
         .any(|part| drafts[part].class == Some(Class::Body) && carries(drafts, part, &upper));
-    for part in 0..drafts.len() {
+    for part in drafts.keys() {
         let draft = &drafts[part];
         let unnamed = draft.class == Some(Class::Body) && !draft.named && has_upper;
         let carries_legs = carries(drafts, part, &[Class::Leg]);

@@ -1,12 +1,20 @@
 //! A figure as it is drawn: its parts, without what they look like.
 
 use glam::DVec2;
+use typed_index_collections::TiVec;
+
+use crate::index::index_type;
+
+index_type!(
+    /// A part of a figure.
+    pub FigurePartId
+);
 
 /// A figure: connected parts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Figure {
     /// The parts, in any order.
-    pub parts: Vec<FigurePart>,
+    pub parts: TiVec<FigurePartId, FigurePart>,
 }
 
 /// A part of a figure. Points are in the drawing's plane, x to the drawing's right, y up, in any one unit; the figure faces the
@@ -15,8 +23,8 @@ pub struct Figure {
 pub struct FigurePart {
     /// Its name.
     pub name: String,
-    /// Index of its parent. Several parts may have none.
-    pub parent: Option<usize>,
+    /// Its parent. Several parts may have none.
+    pub parent: Option<FigurePartId>,
     /// Where it turns.
     pub joint: DVec2,
     /// The far end of its axis.

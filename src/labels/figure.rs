@@ -1,10 +1,12 @@
 //! Labels the parts of a figure: by name, and where names say nothing by shape (`by_shape`).
 
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
+
 use super::part_tree::PartTree;
 use super::placement::{self, Front};
 use super::{Class, Facing, Label, LimbSegment, Side, by_shape, segments};
 use crate::anatomy::{self, Term};
-use crate::labels::Figure;
+use crate::labels::{Figure, FigurePartId};
 
 /// What is known of a part so far.
 #[derive(Debug, Clone, Default)]
@@ -23,6 +25,9 @@ pub(super) struct PartDraft {
     pub(super) why: [String; 2],
 }
 
+/// What is known of the parts of a figure so far.
+pub(super) type Drafts = TiSlice<FigurePartId, PartDraft>;
+
 impl PartDraft {
     pub(super) fn says(&self, wanted: &[Term]) -> bool {
         self.terms.iter().any(|term| wanted.contains(term))
@@ -40,7 +45,7 @@ impl PartDraft {
 /// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, since it
 /// faces the viewer. If the head lies more beside the body than above it, the figure is seen in profile, and limbs drawn later
 /// are on its near side.
-pub(crate) fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
+pub(crate) fn label_figure(figure: &Figure) -> TiVec<FigurePartId, Option<Label>> {
     label_drawn(figure).labels
 }
 
@@ -48,10 +53,10 @@ pub(crate) fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
 #[derive(Debug)]
 pub(crate) struct LabeledFigure {
     /// Per part its label; `None` for a part that follows its parent.
-    pub(crate) labels: Vec<Option<Label>>,
+    pub(crate) labels: TiVec<FigurePartId, Option<Label>>,
     /// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
     /// there are three pairs or more, or a foot that is attached to the trunk.
-    pub(crate) splayed: Vec<bool>,
+    pub(crate) splayed: TiVec<FigurePartId, bool>,
     /// The direction that the figure faces.
     pub(crate) facing: Facing,
 }
@@ -91,14 +96,14 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
 }
 
 /// What the names say.
-fn by_names(figure: &Figure) -> Vec<PartDraft> {
+fn by_names(figure: &Figure) -> TiVec<FigurePartId, PartDraft> {
     let parts = &figure.parts;
-    let mut drawn: Vec<usize> = (0..parts.len()).collect();
+    let mut drawn: Vec<FigurePartId> = parts.keys().collect();
     drawn.sort_by_key(|part| parts[*part].drawing_order);
     let names = drawn.iter().map(|part| anatomy::terms(&parts[*part].name));
     let mut names: Vec<Vec<Term>> = names.collect();
     anatomy::dress(&mut names);
-    let mut drafts = vec![PartDraft::default(); parts.len()];
+    let mut drafts = ti_vec![PartDraft::default(); parts.len()];
     for (part, terms) in drawn.into_iter().zip(names) {
         drafts[part] = by_name(&parts[part].name, terms);
     }
@@ -156,8 +161,8 @@ fn by_name(name: &str, terms: Vec<Term>) -> PartDraft {
 }
 
 /// What is worn, or a feature of something else, follows it: a shoe on a foot, a face on a head.
-fn details(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
-    for part in 0..drafts.len() {
+fn details(tree: &PartTree<'_>, drafts: &mut Drafts) {
+    for part in drafts.keys() {
         let Some(parent) = tree.parents[part] else {
             continue;
         };

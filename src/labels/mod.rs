@@ -24,6 +24,7 @@ use typed_index_collections::TiSlice;
 
 use crate::mocap::{JointId, Skeleton, Transform};
 
+pub use drawn_figure::FigurePartId;
 pub(crate) use drawn_figure::{Carry, Figure, FigurePart};
 pub(crate) use figure::label_figure;
 pub(crate) use figure::{LabeledFigure, label_drawn};

@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 use rustc_hash::FxHashSet;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use crate::labels::{Figure, FigurePart};
+use crate::labels::{Figure, FigurePart, FigurePartId};
 
 /// Parts whose lowest point is at most this share of the figure's height above the ground stand on it.
 const GROUND: f64 = 0.12;
@@ -17,40 +18,39 @@ const FEWEST_MIRRORED: usize = 4;
 /// The parts of a figure as a tree.
 #[derive(Debug)]
 pub(super) struct PartTree<'a> {
-    pub(super) parts: &'a [FigurePart],
+    pub(super) parts: &'a TiSlice<FigurePartId, FigurePart>,
     /// Parents; a part that would be its own ancestor has none.
-    pub(super) parents: Vec<Option<usize>>,
-    pub(super) children: Vec<Vec<usize>>,
+    pub(super) parents: TiVec<FigurePartId, Option<FigurePartId>>,
+    pub(super) children: TiVec<FigurePartId, Vec<FigurePartId>>,
     /// All parts, parents before children.
-    pub(super) order: Vec<usize>,
+    pub(super) order: Vec<FigurePartId>,
     /// Per part the number of its descendants.
-    pub(super) descendants: Vec<usize>,
+    pub(super) descendants: TiVec<FigurePartId, usize>,
     /// Per part the lowest point of itself and its descendants.
-    lowest: Vec<f64>,
+    lowest: TiVec<FigurePartId, f64>,
     ground: f64,
     pub(super) height: f64,
 }
 
 impl<'a> PartTree<'a> {
     pub(super) fn new(figure: &'a Figure) -> Self {
-        let parts = figure.parts.as_slice();
+        let parts = figure.parts.as_ref();
         let parents = parents(parts);
-        let mut children = vec![Vec::new(); parts.len()];
-        for (index, parent) in parents.iter().enumerate() {
+        let mut children = ti_vec![Vec::new(); parts.len()];
+        for (index, parent) in parents.iter_enumerated() {
             if let Some(parent) = parent {
                 children[*parent].push(index);
             }
         }
-        let mut order: Vec<usize> = (0..parts.len())
-            .filter(|part| parents[*part].is_none())
-            .collect();
+        let roots = parts.keys().filter(|part| parents[*part].is_none());
+        let mut order: Vec<FigurePartId> = roots.collect();
         let mut next = 0;
         while let Some(part) = order.get(next) {
             order.extend(&children[*part]);
             next += 1;
         }
-        let mut descendants = vec![0; parts.len()];
-        let mut lowest: Vec<f64> = parts.iter().map(|part| corners(part)[0].y).collect();
+        let mut descendants = ti_vec![0; parts.len()];
+        let mut lowest: TiVec<_, f64> = parts.iter().map(|part| corners(part)[0].y).collect();
         for part in order.iter().rev() {
             if let Some(parent) = parents[*part] {
                 descendants[parent] += descendants[*part] + 1;
@@ -78,7 +78,7 @@ impl<'a> PartTree<'a> {
     }
 
     /// Whether a part or one of its descendants stands on the figure's ground.
-    pub(super) fn stands(&self, part: usize) -> bool {
+    pub(super) fn stands(&self, part: FigurePartId) -> bool {
         self.lowest[part] <= self.ground + GROUND * self.height
     }
 
@@ -88,19 +88,19 @@ impl<'a> PartTree<'a> {
     }
 
     /// A part's name.
-    pub(super) fn name(&self, part: usize) -> &'a str {
+    pub(super) fn name(&self, part: FigurePartId) -> &'a str {
         &self.parts[part].name
     }
 
     /// Width and height of a part's bounding box.
-    pub(super) fn size(&self, part: usize) -> DVec2 {
+    pub(super) fn size(&self, part: FigurePartId) -> DVec2 {
         let [low, high] = corners(&self.parts[part]);
         high - low
     }
 
     /// Whether at least this share of a part's bounding box lies within another box. A box without area lies there with its
     /// centre.
-    pub(super) fn is_over(&self, part: usize, [low, high]: [DVec2; 2], share: f64) -> bool {
+    pub(super) fn is_over(&self, part: FigurePartId, [low, high]: [DVec2; 2], share: f64) -> bool {
         let own = corners(&self.parts[part]);
         let shared = (own[1].min(high) - own[0].max(low)).max(DVec2::ZERO);
         let middle = self.middle(part);
@@ -111,16 +111,16 @@ impl<'a> PartTree<'a> {
     }
 
     /// Whether a part can be the head that wears a hat: their boxes touch, and the head is no detail of the hat.
-    pub(super) fn may_wear(&self, part: usize, hat: usize) -> bool {
+    pub(super) fn may_wear(&self, part: FigurePartId, hat: FigurePartId) -> bool {
         let [own, hats] = [part, hat].map(|part| corners(&self.parts[part]));
         let touches = own[0].cmple(hats[1]).all() && hats[0].cmple(own[1]).all();
         touches && self.size(part).element_product() * 2.0 >= self.size(hat).element_product()
     }
 
     /// Per part the length of the longest chain of parts that begins with it.
-    pub(super) fn reaches(&self) -> Vec<f64> {
-        let own = |part: usize| self.joint(part).distance(self.tip(part));
-        let mut reaches: Vec<f64> = (0..self.parts.len()).map(own).collect();
+    pub(super) fn reaches(&self) -> TiVec<FigurePartId, f64> {
+        let own = |part: FigurePartId| self.joint(part).distance(self.tip(part));
+        let mut reaches: TiVec<FigurePartId, f64> = self.parts.keys().map(own).collect();
         for part in self.order.iter().rev() {
             let longest = self.children[*part].iter().map(|child| reaches[*child]);
             reaches[*part] += longest.fold(0.0, f64::max);
@@ -131,17 +131,15 @@ impl<'a> PartTree<'a> {
     /// Whether most parts beside an upright axis have another part as their mirror image.
     pub(super) fn is_symmetric(&self, axis: f64) -> bool {
         let cell = (MIRRORED * self.height).max(f64::MIN_POSITIVE);
-        let cells = |part: usize| {
+        let cells = |part: FigurePartId| {
             let middle = self.middle(part);
             [
                 ((middle.x - axis) / cell).round() as i64,
                 (middle.y / cell).round() as i64,
             ]
         };
-        let beside: Vec<[i64; 2]> = (0..self.parts.len())
-            .map(cells)
-            .filter(|[x, _]| x.unsigned_abs() > 1)
-            .collect();
+        let beside = self.parts.keys().map(cells);
+        let beside: Vec<[i64; 2]> = beside.filter(|[x, _]| x.unsigned_abs() > 1).collect();
         let all: FxHashSet<[i64; 2]> = beside.iter().copied().collect();
         let near = |at: i64| [at.saturating_sub(1), at, at.saturating_add(1)];
         let is_mirrored = |[x, y]: &&[i64; 2]| {
@@ -154,14 +152,14 @@ impl<'a> PartTree<'a> {
     }
 
     /// Whether a part lies on the ground and is wider than high, as a penguin's foot is.
-    pub(super) fn is_foot_on_ground(&self, part: usize) -> bool {
+    pub(super) fn is_foot_on_ground(&self, part: FigurePartId) -> bool {
         let size = self.size(part);
         let top = corners(&self.parts[part])[1].y;
         size.x > size.y && top <= self.above_ground(GROUND)
     }
 
     /// The bounding box of some parts; an empty box at the origin if there are none.
-    pub(super) fn around(&self, parts: impl Iterator<Item = usize>) -> [DVec2; 2] {
+    pub(super) fn around(&self, parts: impl Iterator<Item = FigurePartId>) -> [DVec2; 2] {
         parts
             .map(|part| corners(&self.parts[part]))
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
@@ -169,18 +167,18 @@ impl<'a> PartTree<'a> {
     }
 
     /// The centre of a part's bounding box.
-    pub(super) fn middle(&self, part: usize) -> DVec2 {
+    pub(super) fn middle(&self, part: FigurePartId) -> DVec2 {
         let [low, high] = corners(&self.parts[part]);
         low.midpoint(high)
     }
 
     /// Where a part turns.
-    pub(super) fn joint(&self, part: usize) -> DVec2 {
+    pub(super) fn joint(&self, part: FigurePartId) -> DVec2 {
         finite(self.parts[part].joint)
     }
 
     /// The far end of a part.
-    pub(super) fn tip(&self, part: usize) -> DVec2 {
+    pub(super) fn tip(&self, part: FigurePartId) -> DVec2 {
         finite(self.parts[part].tip)
     }
 }
@@ -203,20 +201,20 @@ fn finite(point: DVec2) -> DVec2 {
     }))
 }
 
-fn parents(parts: &[FigurePart]) -> Vec<Option<usize>> {
-    let mut parents: Vec<Option<usize>> = parts
+fn parents(parts: &TiSlice<FigurePartId, FigurePart>) -> TiVec<FigurePartId, Option<FigurePartId>> {
+    let mut parents: TiVec<FigurePartId, Option<FigurePartId>> = parts
         .iter()
-        .map(|part| part.parent.filter(|parent| *parent < parts.len()))
+        .map(|part| part.parent.filter(|parent| parts.get(*parent).is_some()))
         .collect();
-    // The walk that visited a part last: 0 for none, else the index of its start plus one.
-    let mut seen = vec![0; parts.len()];
-    for start in 0..parts.len() {
+    // Per part the first of the walk that visited it.
+    let mut seen: TiVec<FigurePartId, Option<FigurePartId>> = ti_vec![None; parts.len()];
+    for start in parts.keys() {
         let mut part = start;
-        while seen[part] == 0 {
-            seen[part] = start + 1;
+        while seen[part].is_none() {
+            seen[part] = Some(start);
             match parents[part] {
                 // Back on the same walk: a cycle, cut where it closes.
-                Some(parent) if seen[parent] == start + 1 => parents[part] = None,
+                Some(parent) if seen[parent] == Some(start) => parents[part] = None,
                 Some(parent) => part = parent,
                 None => break,
             }

@@ -1,11 +1,12 @@
 //! Sides and pairs of a figure's limbs, by where they are drawn.
 
 use glam::DVec2;
+use typed_index_collections::ti_vec;
 
-use super::figure::{PartDraft, is_trunk};
+use super::figure::{Drafts, PartDraft, is_trunk};
 use super::part_tree::PartTree;
 use super::segments::Limb;
-use super::{Class, Facing, Side};
+use super::{Class, Facing, FigurePartId, Side};
 use crate::anatomy::Term;
 
 /// A head at most this share of the trunk's width beside its middle is on the figure's upright axis.
@@ -43,7 +44,7 @@ impl Front {
         }
     }
 
-    pub(super) fn of(tree: &PartTree<'_>, drafts: &[PartDraft]) -> Self {
+    pub(super) fn of(tree: &PartTree<'_>, drafts: &Drafts) -> Self {
         let all = |wanted: &dyn Fn(&PartDraft) -> bool| {
             let parts = tree
                 .order
@@ -77,7 +78,7 @@ impl Front {
     }
 
     /// The position of a limb along the way from the figure's hind end to its head.
-    fn place_of(self, tree: &PartTree<'_>, part: usize) -> f64 {
+    fn place_of(self, tree: &PartTree<'_>, part: FigurePartId) -> f64 {
         match self {
             Self::Viewer { up, .. } => tree.joint(part).y * up,
             Self::Beside { toward, .. } => tree.joint(part).x * toward,
@@ -99,11 +100,11 @@ fn rank(draft: &PartDraft) -> u8 {
 fn sorted_from_hind(
     tree: &PartTree<'_>,
     facing: &Front,
-    drafts: &[PartDraft],
-    roots: &mut [usize],
+    drafts: &Drafts,
+    roots: &mut [FigurePartId],
 ) {
     roots.sort_by(|a, b| {
-        let place = |part: usize| facing.place_of(tree, part);
+        let place = |part: FigurePartId| facing.place_of(tree, part);
         rank(&drafts[*a])
             .cmp(&rank(&drafts[*b]))
             .then(place(*a).total_cmp(&place(*b)))
@@ -112,7 +113,7 @@ fn sorted_from_hind(
 }
 
 /// Sets the sides of limbs: by the name of one of their parts, else by place.
-pub(super) fn sides(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts: &mut [PartDraft]) {
+pub(super) fn sides(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts: &mut Drafts) {
     for class in [Class::Arm, Class::Leg] {
         let limbs: Vec<&Limb> = limbs.iter().filter(|limb| limb.class == class).collect();
         let mut open = Vec::new();
@@ -156,7 +157,7 @@ pub(super) fn sides(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts:
     }
 }
 
-fn give(drafts: &mut [PartDraft], limb: &Limb, side: Side, why: &str) {
+fn give(drafts: &mut Drafts, limb: &Limb, side: Side, why: &str) {
     for (part, _) in &limb.parts {
         drafts[*part].side = Some(side);
         drafts[*part].why[1] = why.to_owned();
@@ -164,7 +165,7 @@ fn give(drafts: &mut [PartDraft], limb: &Limb, side: Side, why: &str) {
 }
 
 /// The drawn left is the figure's right. Of two limbs the further left one, wherever the middle of the trunk is.
-fn from_front(tree: &PartTree<'_>, axis: f64, open: &[&Limb], drafts: &mut [PartDraft]) {
+fn from_front(tree: &PartTree<'_>, axis: f64, open: &[&Limb], drafts: &mut Drafts) {
     let place = |limb: &Limb| tree.joint(limb.root()).midpoint(tree.tip(limb.root())).x;
     let axis = match open {
         [a, b] if place(a) != place(b) => f64::midpoint(place(a), place(b)),
@@ -192,7 +193,7 @@ fn from_side(
     facing: &Front,
     [toward, length]: [f64; 2],
     open: &[&Limb],
-    drafts: &mut [PartDraft],
+    drafts: &mut Drafts,
 ) {
     let near = if toward < 0.0 {
         Side::Left
@@ -200,13 +201,13 @@ fn from_side(
         Side::Right
     };
     let way = if toward < 0.0 { "left" } else { "right" };
-    let mut roots: Vec<usize> = open.iter().map(|limb| limb.root()).collect();
+    let mut roots: Vec<FigurePartId> = open.iter().map(|limb| limb.root()).collect();
     sorted_from_hind(tree, facing, drafts, &mut roots);
     let is_one_pair = match roots.as_slice() {
         [a, b] => (tree.joint(*a).x - tree.joint(*b).x).abs() <= SAME_PAIR * length,
         _ => false,
     };
-    let rank = |root: &usize| if is_one_pair { 1 } else { rank(&drafts[*root]) };
+    let rank = |root: &FigurePartId| if is_one_pair { 1 } else { rank(&drafts[*root]) };
     let ranks: Vec<u8> = roots.iter().map(rank).collect();
     let ranked = ranks.iter().any(|rank| *rank != 1);
     let pair = if ranked || roots.len().is_multiple_of(2) {
@@ -214,12 +215,12 @@ fn from_side(
     } else {
         1
     };
-    let mut far = vec![false; drafts.len()];
+    let mut far = ti_vec![false; drafts.len()];
     let mut start = 0;
     for group in ranks.chunk_by(|a, b| a == b) {
         for pair in roots[start..start + group.len()].chunks(pair) {
             if let [a, b] = pair {
-                let later = |part: usize| (tree.parts[part].drawing_order, part);
+                let later = |part: FigurePartId| (tree.parts[part].drawing_order, part);
                 far[if later(*a) < later(*b) { *a } else { *b }] = true;
             }
         }
@@ -241,14 +242,14 @@ fn from_side(
 
 /// Numbers the limbs of each class and side from the hind end, the segments of the trunk from the hips, those of neck and tail
 /// from the trunk.
-pub(super) fn pairs(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts: &mut [PartDraft]) {
-    let mut segments: Vec<usize> = tree.order.clone();
+pub(super) fn pairs(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts: &mut Drafts) {
+    let mut segments: Vec<FigurePartId> = tree.order.clone();
     let height = |draft: &PartDraft| match draft.class {
         Some(Class::Body) if draft.says(&[Term::Belly]) => 0,
         Some(Class::Body) if draft.says(&[Term::Chest]) => 2,
         _ => 1,
     };
-    let middle = |part: usize| match (drafts[part].class, facing) {
+    let middle = |part: FigurePartId| match (drafts[part].class, facing) {
         (Some(Class::Body), Front::Viewer { .. }) => tree.middle(part).y,
         (Some(Class::Body), Front::Beside { toward, .. }) => tree.middle(part).x * toward,
         // What is attached to the trunk is already sorted, parents first.
@@ -262,7 +263,7 @@ pub(super) fn pairs(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts:
         let of_class = segments
             .iter()
             .filter(|part| drafts[**part].class == Some(class));
-        let found: Vec<usize> = of_class.copied().collect();
+        let found: Vec<FigurePartId> = of_class.copied().collect();
         for (place, part) in found.into_iter().enumerate() {
             drafts[part].pair = place;
         }
@@ -278,21 +279,21 @@ fn count_limbs(
     facing: &Front,
     limbs: &[Limb],
     class: Class,
-    drafts: &mut [PartDraft],
+    drafts: &mut Drafts,
 ) {
     let mut sides = Side::BOTH.map(|side| {
         let of_side = |limb: &&Limb| limb.class == class && drafts[limb.root()].side == Some(side);
-        let mut roots: Vec<usize> = limbs.iter().filter(of_side).map(Limb::root).collect();
+        let mut roots: Vec<FigurePartId> = limbs.iter().filter(of_side).map(Limb::root).collect();
         sorted_from_hind(tree, facing, drafts, &mut roots);
         roots
     });
     sides.sort_by_key(|roots| std::cmp::Reverse(roots.len()));
     let [more, fewer] = sides;
-    let mut pair_of = vec![0; drafts.len()];
+    let mut pair_of = ti_vec![0; drafts.len()];
     for (pair, root) in more.iter().enumerate() {
         pair_of[*root] = pair;
     }
-    let place = |root: usize| facing.place_of(tree, root);
+    let place = |root: FigurePartId| facing.place_of(tree, root);
     let mut by_place: Vec<(f64, usize)> = more
         .iter()
         .map(|root| (place(*root), pair_of[*root]))

@@ -1,8 +1,10 @@
 //! The limbs of a figure, and which segment of its limb each part is.
 
-use super::figure::PartDraft;
+use typed_index_collections::{TiVec, ti_vec};
+
+use super::figure::Drafts;
 use super::part_tree::PartTree;
-use super::{Class, LimbSegment};
+use super::{Class, FigurePartId, LimbSegment};
 use crate::anatomy::Term;
 
 /// A limb of a figure.
@@ -10,21 +12,21 @@ use crate::anatomy::Term;
 pub(super) struct Limb {
     pub(super) class: Class,
     /// Its parts, parents before children, each with the number of parts between it and the trunk.
-    pub(super) parts: Vec<(usize, usize)>,
+    pub(super) parts: Vec<(FigurePartId, usize)>,
 }
 
 impl Limb {
     /// The part that is attached to the trunk.
-    pub(super) fn root(&self) -> usize {
+    pub(super) fn root(&self) -> FigurePartId {
         self.parts[0].0
     }
 }
 
 /// The limbs of a figure, in its order. A part continues its parent's limb if it has the same class and no other side.
-pub(super) fn limbs(tree: &PartTree<'_>, drafts: &[PartDraft]) -> Vec<Limb> {
+pub(super) fn limbs(tree: &PartTree<'_>, drafts: &Drafts) -> Vec<Limb> {
     let mut limbs: Vec<Limb> = Vec::new();
     // Per part its limb and its depth in it.
-    let mut places: Vec<Option<(usize, usize)>> = vec![None; drafts.len()];
+    let mut places: TiVec<FigurePartId, Option<(usize, usize)>> = ti_vec![None; drafts.len()];
     for part in tree.order.iter().copied() {
         let Some(class) = drafts[part].class.filter(|class| class.is_limb()) else {
             continue;
@@ -53,10 +55,14 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &[PartDraft]) -> Vec<Limb> {
 
 /// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
 /// there are three pairs or more, or a foot that is attached to the trunk.
-pub(super) fn splayed(tree: &PartTree<'_>, limbs: &[Limb], drafts: &[PartDraft]) -> Vec<bool> {
+pub(super) fn splayed(
+    tree: &PartTree<'_>,
+    limbs: &[Limb],
+    drafts: &Drafts,
+) -> TiVec<FigurePartId, bool> {
     /// The index of the third pair.
     const THIRD: usize = 2;
-    let mut splayed = vec![false; drafts.len()];
+    let mut splayed = ti_vec![false; drafts.len()];
     let mut legs = limbs.iter().filter(|limb| limb.class == Class::Leg);
     let many_legs = legs.any(|leg| drafts[leg.root()].pair >= THIRD);
     for limb in limbs {
@@ -79,7 +85,7 @@ pub(super) fn splayed(tree: &PartTree<'_>, limbs: &[Limb], drafts: &[PartDraft])
 
 /// Sets which segment of its limb each part is. Parts that are hands or feet by name stay so: an arm with a hand is a whole arm
 /// and a hand, not an upper arm and a forearm. A shoulder that carries an arm is the collar bone.
-pub(super) fn name(tree: &PartTree<'_>, limbs: &[Limb], drafts: &mut [PartDraft]) {
+pub(super) fn name(tree: &PartTree<'_>, limbs: &[Limb], drafts: &mut Drafts) {
     for limb in limbs {
         let root = limb.root();
         let arm = [Term::Arm, Term::UpperArm];
@@ -124,7 +130,7 @@ fn segment(depth: usize, deepest: usize, end: Option<usize>) -> LimbSegment {
     }
 }
 
-fn is_end(tree: &PartTree<'_>, drafts: &[PartDraft], part: usize) -> bool {
+fn is_end(tree: &PartTree<'_>, drafts: &Drafts, part: FigurePartId) -> bool {
     let draft = &drafts[part];
     let on_a_leg = || {
         tree.parents[part].is_some_and(|parent| {

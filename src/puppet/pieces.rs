@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
+use typed_index_collections::{TiVec, ti_vec};
 
 use crate::anatomy::{self, Role};
 use crate::bind::{Bindings, PartId, PartKind};
@@ -10,7 +11,7 @@ use crate::geometry::{
     Outline, area, bounds, centroid, distance_squared, intersect, offset, union,
 };
 use crate::lang::value::Origin;
-use crate::rig::{FigureGroup, find_figures};
+use crate::rig::{FigureGroup, FigurePartId, find_figures};
 use crate::svg::{Drawing, ShapeId};
 
 /// A part stays on its parent's piece if at least this share of it is drawn there ...
@@ -90,7 +91,7 @@ impl Cutter<'_> {
     /// Adds the pieces of a figure.
     fn figure(&mut self, figure: &FigureGroup) {
         // The piece that each part of the figure is on.
-        let mut piece_of: Vec<Option<usize>> = vec![None; figure.parts.len()];
+        let mut piece_of: TiVec<FigurePartId, Option<usize>> = ti_vec![None; figure.parts.len()];
         for index in carriers_first(figure) {
             let part = figure.parts[index];
             let parent = figure.parents[index];
@@ -213,11 +214,11 @@ impl Cutter<'_> {
     }
 }
 
-/// The parts of a figure, indices into its parts, each after the one that carries it.
-fn carriers_first(figure: &FigureGroup) -> Vec<usize> {
-    let mut children: Vec<Vec<usize>> = vec![Vec::new(); figure.parts.len()];
+/// The parts of a figure, each after the one that carries it.
+fn carriers_first(figure: &FigureGroup) -> Vec<FigurePartId> {
+    let mut children = ti_vec![Vec::new(); figure.parts.len()];
     let mut order = Vec::new();
-    for (index, parent) in figure.parents.iter().enumerate() {
+    for (index, parent) in figure.parents.iter_enumerated() {
         match parent {
             Some(parent) => children[*parent].push(index),
             None => order.push(index),

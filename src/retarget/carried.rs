@@ -6,6 +6,7 @@ use super::Rig;
 use super::kinematics::ForwardKinematics;
 use super::rotations::Rotations;
 use super::spline::Spline;
+use crate::labels::FigurePartId;
 use crate::mocap::Transform;
 use crate::smoothing::smoothed;
 
@@ -37,8 +38,8 @@ impl Carried {
     /// The part of a rig whose root part's node is at these places. Paths are smoothed by a Gaussian of this deviation, in frames.
     pub(super) fn of(
         rig: &Rig,
-        order: &[usize],
-        part: usize,
+        order: &[FigurePartId],
+        part: FigurePartId,
         path: &[DVec3],
         rotations: &Rotations,
         deviation: f64,

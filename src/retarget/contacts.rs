@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::axes::{Axes, Landmarks};
 use super::planting::{Hold, Planting};
 use super::{PoseBuffer, Rig};
-use crate::labels::Tip;
+use crate::labels::{FigurePartId, Tip};
 use crate::mocap::Clip;
 use crate::mocap::resample::TimeMap;
 use crate::retarget::Drive;
@@ -20,7 +20,7 @@ pub(super) struct Walk {
 /// A foot of the clip, and the parts of the figure that stand on it.
 pub(super) struct Foot {
     drive: Drive,
-    pub(super) parts: Vec<usize>,
+    pub(super) parts: Vec<FigurePartId>,
     /// Per frame its height above its lowest height: that of its heel or of its toes, whichever is lower.
     pub(super) clearance: Vec<f64>,
     /// Per frame how it holds the figure in place on the way from the frame before.
@@ -38,7 +38,7 @@ impl Walk {
         poses: &mut PoseBuffer<'_>,
     ) -> Self {
         let mut feet: Vec<Foot> = Vec::new();
-        for (index, part) in rig.parts.iter().enumerate() {
+        for (index, part) in rig.parts.iter_enumerated() {
             let Some(drive) = part.drive.filter(|_| part.is_leg && part.stands) else {
                 continue;
             };

@@ -1,16 +1,18 @@
 //! Forward kinematics: where a rig's parts are, given their rotations.
 
 use glam::{DQuat, DVec3};
+use typed_index_collections::{TiVec, ti_vec};
 
 use super::Rig;
 use super::rotations::Rotations;
+use crate::labels::FigurePartId;
 use crate::mocap::Transform;
 
 /// The parts' nodes in one pose, with the root part's node at the origin.
 pub(super) struct ForwardKinematics {
-    pub(super) transforms: Vec<Transform>,
+    pub(super) transforms: TiVec<FigurePartId, Transform>,
     /// Per part the position of its joint, in its parent's frame and in its own.
-    joints: Vec<[DVec3; 2]>,
+    joints: TiVec<FigurePartId, [DVec3; 2]>,
 }
 
 impl ForwardKinematics {
@@ -26,12 +28,18 @@ impl ForwardKinematics {
             position: DVec3::ZERO,
         };
         Self {
-            transforms: vec![identity; rig.parts.len()],
+            transforms: ti_vec![identity; rig.parts.len()],
             joints: joints.collect(),
         }
     }
 
-    pub(super) fn pose(&mut self, rig: &Rig, rotations: &Rotations, order: &[usize], frame: usize) {
+    pub(super) fn pose(
+        &mut self,
+        rig: &Rig,
+        rotations: &Rotations,
+        order: &[FigurePartId],
+        frame: usize,
+    ) {
         for part in order.iter().copied() {
             let rotation = rotations.at(part, frame);
             let [above, own] = self.joints[part];
@@ -50,7 +58,7 @@ impl ForwardKinematics {
     pub(super) fn surface<'a>(
         &self,
         rig: &'a Rig,
-        part: usize,
+        part: FigurePartId,
     ) -> impl Iterator<Item = DVec3> + use<'a> {
         let own = &rig.parts[part];
         let placed = self.transforms[part];

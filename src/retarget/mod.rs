@@ -18,9 +18,9 @@ mod swing;
 mod turns;
 
 use glam::{DQuat, DVec3};
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use crate::labels::Facing;
+use crate::labels::{Facing, FigurePartId};
 use crate::mocap::{Clip, JointId, Pose, Transform};
 
 pub use axes::Landmarks;
@@ -32,19 +32,19 @@ pub use turns::Turns;
 /// A figure as motion sees it: its nodes at rest, and the joints that drive them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rig {
-    /// The parts, in any order; parents are indices.
-    pub parts: Vec<RigPart>,
+    /// The parts, in any order.
+    pub parts: TiVec<FigurePartId, RigPart>,
     /// The direction that it faces.
     pub facing: Facing,
 }
 
 impl Rig {
     /// The parts, parents before children; those in cycles are missing.
-    pub(crate) fn order(&self) -> Vec<usize> {
+    pub(crate) fn order(&self) -> Vec<FigurePartId> {
         let count = self.parts.len();
-        let mut children = vec![Vec::new(); count];
-        let mut order: Vec<usize> = Vec::with_capacity(count);
-        for (index, part) in self.parts.iter().enumerate() {
+        let mut children = ti_vec![Vec::new(); count];
+        let mut order: Vec<FigurePartId> = Vec::with_capacity(count);
+        for (index, part) in self.parts.iter_enumerated() {
             match part.parent {
                 Some(parent) => children[parent].push(index),
                 None => order.push(index),
@@ -63,7 +63,7 @@ impl Rig {
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigPart {
     /// Its parent. One part has none: the root, whose travel is the figure's.
-    pub parent: Option<usize>,
+    pub parent: Option<FigurePartId>,
     /// Whether its node is a child of the model's root and not of its parent's node: parts that are connected only because they
     /// touch.
     pub is_rooted: bool,
@@ -90,9 +90,9 @@ pub struct RigPart {
 pub struct RetargetedClip {
     /// Per part the rotation of its node in its parent's frame, of rooted nodes in the drawing's axes; `None` if it does not
     /// change.
-    pub rotations: Vec<Option<Vec<DQuat>>>,
+    pub rotations: TiVec<FigurePartId, Option<Vec<DQuat>>>,
     /// Per part the position of its node; for rooted nodes only.
-    pub translations: Vec<Option<Vec<DVec3>>>,
+    pub translations: TiVec<FigurePartId, Option<Vec<DVec3>>>,
     /// Per frame whether a foot is in contact with the ground, and none takes over from another.
     pub grounded: Vec<bool>,
     /// The rest pose from which the clip's rotations were measured.
@@ -104,9 +104,9 @@ impl RetargetedClip {
     pub(crate) fn node(
         &self,
         rig: &Rig,
-        part: usize,
+        part: FigurePartId,
         frame: usize,
-        placed: &[Transform],
+        placed: &TiSlice<FigurePartId, Transform>,
     ) -> Transform {
         let own = &rig.parts[part];
         let turn = self.rotations[part].as_ref().map(|turns| turns[frame]);

@@ -8,6 +8,7 @@ use super::kinematics::ForwardKinematics;
 use super::planting::{CONTACT_HEIGHT, Hold};
 use super::rotations::Rotations;
 use super::{PoseBuffer, Rig};
+use crate::labels::FigurePartId;
 use crate::mocap::{Clip, JointId};
 use crate::retarget::Drive;
 
@@ -28,7 +29,7 @@ pub(super) struct RootMotion {
 /// The motion of the root of a rig whose parts turn like this. `legs` are the lengths of the clip's legs and of the rig's.
 pub(super) fn root_motion(
     rig: &Rig,
-    order: &[usize],
+    order: &[FigurePartId],
     rotations: &Rotations,
     walk: &Walk,
     legs: [f64; 2],
@@ -163,12 +164,12 @@ fn rolled(before: &[Vec<DVec3>], now: &[Vec<DVec3>], height: f64) -> DVec3 {
 /// The surfaces of the parts that the ground holds up, besides the feet: hands and knees of a figure that crawls.
 struct Surfaces {
     /// Per part how far it may be below the ground, because it is drawn there.
-    parts: Vec<(usize, f64)>,
+    parts: Vec<(FigurePartId, f64)>,
 }
 
 impl Surfaces {
-    fn of(rig: &Rig, order: &[usize], floor: Option<f64>) -> Self {
-        let part = |part: &usize| {
+    fn of(rig: &Rig, order: &[FigurePartId], floor: Option<f64>) -> Self {
+        let part = |part: &FigurePartId| {
             let surface = rig.parts[*part].surface.iter().map(|point| point.y);
             let lowest = surface.reduce(f64::min)?;
             Some((*part, (floor? - lowest).max(0.0)))
@@ -225,11 +226,8 @@ pub(super) fn leg_lengths(
         }),
         _ => [0.0; 2],
     };
-    let stand_on = rig
-        .parts
-        .iter()
-        .enumerate()
-        .filter(|(_, part)| part.is_leg && part.stands);
+    let parts = rig.parts.iter_enumerated();
+    let stand_on = parts.filter(|(_, part)| part.is_leg && part.stands);
     let rig_legs = stand_on
         .map(|(index, _)| leg_length(rig, landmarks, index))
         .collect();
@@ -254,8 +252,8 @@ pub(super) fn leg_lengths(
 }
 
 /// The length of the leg that ends with a part.
-fn leg_length(rig: &Rig, landmarks: &Landmarks, end: usize) -> f64 {
-    let above = |part: &usize| {
+fn leg_length(rig: &Rig, landmarks: &Landmarks, end: FigurePartId) -> f64 {
+    let above = |part: &FigurePartId| {
         let parent = rig.parts[*part].parent?;
         let above = &rig.parts[parent];
         (above.is_leg && above.drive.is_some()).then_some(parent)

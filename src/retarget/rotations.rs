@@ -1,11 +1,12 @@
 //! The rotations of a rig's parts.
 
 use glam::{DQuat, DVec3};
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::axes::{Axes, Landmarks};
 use super::rest_pose::RestPose;
 use super::{PoseBuffer, Rig, RigPart};
+use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
 use crate::mocap::turns::{continuous, damp};
 use crate::mocap::{Clip, JointId, Transform};
@@ -14,14 +15,14 @@ use crate::retarget::{Drive, Follow};
 /// The rotations of parts in the drawing's axes, frame by frame.
 pub(super) struct Rotations {
     /// Per part; `None` if it turns with its parent.
-    own: Vec<Option<Vec<DQuat>>>,
+    own: TiVec<FigurePartId, Option<Vec<DQuat>>>,
     /// Per part the nearest ancestor (or itself) that turns on its own, and the part's rotation in that ancestor's frame.
-    carrier: Vec<(Option<usize>, DQuat)>,
+    carrier: TiVec<FigurePartId, (Option<FigurePartId>, DQuat)>,
 }
 
 impl Rotations {
     /// Whether a part turns on its own, and not only with its parent.
-    pub(super) fn is_own(&self, part: usize) -> bool {
+    pub(super) fn is_own(&self, part: FigurePartId) -> bool {
         self.own[part].is_some()
     }
 
@@ -31,12 +32,18 @@ impl Rotations {
     }
 
     /// Lets a part turn on its own, and what hangs on it with it.
-    pub(super) fn set(&mut self, rig: &Rig, order: &[usize], part: usize, turns: Vec<DQuat>) {
+    pub(super) fn set(
+        &mut self,
+        rig: &Rig,
+        order: &[FigurePartId],
+        part: FigurePartId,
+        turns: Vec<DQuat>,
+    ) {
         self.own[part] = Some(turns);
         self.carry(rig, order);
     }
 
-    fn carry(&mut self, rig: &Rig, order: &[usize]) {
+    fn carry(&mut self, rig: &Rig, order: &[FigurePartId]) {
         for part in order {
             let drawn = rig.parts[*part].node.rotation;
             self.carrier[*part] = match (self.is_own(*part), rig.parts[*part].parent) {
@@ -61,22 +68,27 @@ impl Rotations {
     }
 
     /// The rotation of a part in the frame of its parent.
-    pub(super) fn local(&self, part: usize, parent: usize, frame: usize) -> DQuat {
+    pub(super) fn local(&self, part: FigurePartId, parent: FigurePartId, frame: usize) -> DQuat {
         (self.at(parent, frame).inverse() * self.at(part, frame)).normalize()
     }
 
     /// Damps the rotations of parts in their parents' frames, from those of the first frame on. What hangs on a damped part turns
     /// with it.
-    pub(super) fn damp(&mut self, rig: &Rig, order: &[usize], ratios: &[Option<f64>]) {
-        let ratio = |part: usize| {
+    pub(super) fn damp(
+        &mut self,
+        rig: &Rig,
+        order: &[FigurePartId],
+        ratios: &TiSlice<FigurePartId, Option<f64>>,
+    ) {
+        let ratio = |part: FigurePartId| {
             ratios
                 .get(part)
                 .copied()
                 .flatten()
                 .filter(|ratio| *ratio != 1.0)
         };
-        let mut is_changed = vec![false; rig.parts.len()];
-        let mut changed: Vec<Option<Vec<DQuat>>> = vec![None; rig.parts.len()];
+        let mut is_changed = ti_vec![false; rig.parts.len()];
+        let mut changed: TiVec<FigurePartId, Option<Vec<DQuat>>> = ti_vec![None; rig.parts.len()];
         for part in order {
             let parent = rig.parts[*part].parent;
             let is_above = parent.is_some_and(|parent| is_changed[parent]);
@@ -113,7 +125,7 @@ impl Rotations {
     }
 
     /// The rotation of any part in a frame.
-    pub(super) fn at(&self, part: usize, frame: usize) -> DQuat {
+    pub(super) fn at(&self, part: FigurePartId, frame: usize) -> DQuat {
         let (carrier, inner) = self.carrier[part];
         let outer = carrier.and_then(|carrier| self.own[carrier].as_ref());
         outer.map_or(inner, |rotations| rotations[frame] * inner)
@@ -127,11 +139,11 @@ pub(super) fn rotations(
     axes: &Axes,
     rest: &RestPose,
     poses: &mut PoseBuffer<'_>,
-    order: &[usize],
+    order: &[FigurePartId],
 ) -> Rotations {
     let count = rig.parts.len();
     let means = mean_references(clip, rig, landmarks, axes, poses);
-    let solver = |part: &usize| {
+    let solver = |part: &FigurePartId| {
         let drive = rig.parts[*part].drive?;
         let reference = match means[*part] {
             Some(mean) => mean,
@@ -140,8 +152,8 @@ pub(super) fn rotations(
         let rotation = PartRotation::new(&rig.parts[*part], drive, axes, reference);
         Some((*part, rotation))
     };
-    let solvers: Vec<(usize, PartRotation)> = order.iter().filter_map(solver).collect();
-    let mut own: Vec<Option<Vec<DQuat>>> = vec![None; count];
+    let solvers: Vec<(FigurePartId, PartRotation)> = order.iter().filter_map(solver).collect();
+    let mut own: TiVec<FigurePartId, Option<Vec<DQuat>>> = ti_vec![None; count];
     for (part, _) in &solvers {
         own[*part] = Some(Vec::with_capacity(clip.frames()));
     }
@@ -155,7 +167,7 @@ pub(super) fn rotations(
     }
     let mut rotations = Rotations {
         own,
-        carrier: vec![(None, DQuat::IDENTITY); count],
+        carrier: ti_vec![(None, DQuat::IDENTITY); count],
     };
     rotations.carry(rig, order);
     rotations
@@ -193,21 +205,16 @@ fn mean_references(
     landmarks: &Landmarks,
     axes: &Axes,
     poses: &mut PoseBuffer<'_>,
-) -> Vec<Option<Reference>> {
+) -> TiVec<FigurePartId, Option<Reference>> {
     /// The length of the mean of the directions, below which a limb has no main direction.
     const MAIN: f64 = 0.2;
 
-    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = vec![None; rig.parts.len()];
-    for (part, sum) in rig.parts.iter().zip(&mut sums) {
-        let keeps_pose = |drive: &Drive| drive.follow == Follow::Change && drive.tip.is_some();
-        let none = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
-        *sum = part
-            .drive
-            .filter(keeps_pose)
-            .map(|drive| (drive, none, DVec3::ZERO));
-    }
+    let keeps_pose = |drive: &Drive| drive.follow == Follow::Change && drive.tip.is_some();
+    let none = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+    let sum = |part: &RigPart| Some((part.drive.filter(keeps_pose)?, none, DVec3::ZERO));
+    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = rig.parts.iter().map(sum).collect();
     if sums.iter().all(Option::is_none) {
-        return vec![None; rig.parts.len()];
+        return ti_vec![None; rig.parts.len()];
     }
     for frame in 0..clip.frames() {
         let pose = poses.at(frame);

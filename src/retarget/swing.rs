@@ -8,6 +8,7 @@ use glam::{DQuat, DVec3};
 use super::Rig;
 use super::carried::{Carriage, Carried};
 use super::rotations::{Rotations, arc};
+use crate::labels::FigurePartId;
 use crate::mocap::{Transform, height};
 
 /// Steps of the integration per second, at least; every frame has a whole number of them.
@@ -35,7 +36,7 @@ const CYCLE: f64 = 5.0;
 /// Lets the parts of a rig that swing do so, parents before children. `path` is where the root part's node is.
 pub(super) fn swing(
     rig: &Rig,
-    order: &[usize],
+    order: &[FigurePartId],
     path: &[DVec3],
     frame_time: f64,
     rotations: &mut Rotations,
@@ -98,7 +99,7 @@ struct Obstacle {
 }
 
 impl Obstacle {
-    fn of(rig: &Rig, parent: usize, tip: DVec3) -> Option<Self> {
+    fn of(rig: &Rig, parent: FigurePartId, tip: DVec3) -> Option<Self> {
         let node = &rig.parts[parent].node;
         let mut points = rig.parts[parent].surface.iter().map(|p| node.to_local(*p));
         let first = points.next()?;

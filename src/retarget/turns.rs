@@ -4,6 +4,7 @@
 //! the clip's feet do, and then the travel, so that feet in contact stay in place whatever became of the legs.
 
 use glam::{DQuat, DVec3};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::axes::Axes;
 use super::contacts::Walk;
@@ -12,6 +13,7 @@ use super::{
     Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, kinematics, rest_pose, root_motion,
     swing,
 };
+use crate::labels::FigurePartId;
 use crate::mocap::Clip;
 use crate::mocap::resample::TimeMap;
 use crate::mocap::turns::continuous;
@@ -20,7 +22,7 @@ use crate::mocap::turns::continuous;
 pub struct Turns<'a> {
     rig: &'a Rig,
     /// The parts, parents before children.
-    order: Vec<usize>,
+    order: Vec<FigurePartId>,
     /// `None` if nothing moves.
     moving: Option<Moving>,
     frames: usize,
@@ -82,7 +84,7 @@ impl<'a> Turns<'a> {
     ///
     /// Source: Manya & Matsuda, equation 1, Fᵢ = B + (Fᵢ − B)·R, with slerp for the sum of angles.
     #[must_use]
-    pub fn damped(mut self, ratios: &[Option<f64>]) -> Self {
+    pub fn damped(mut self, ratios: &TiSlice<FigurePartId, Option<f64>>) -> Self {
         if let Some(moving) = &mut self.moving {
             moving.rotations.damp(self.rig, &self.order, ratios);
         }
@@ -94,8 +96,8 @@ impl<'a> Turns<'a> {
         let count = self.rig.parts.len();
         let Some(moving) = self.moving else {
             return RetargetedClip {
-                rotations: vec![None; count],
-                translations: vec![None; count],
+                rotations: ti_vec![None; count],
+                translations: ti_vec![None; count],
                 grounded: vec![false; self.frames],
                 rest: RestSource::default(),
             };
@@ -122,11 +124,11 @@ impl<'a> Turns<'a> {
 /// Per part the rotations of its node in its parent's frame, of rooted nodes in the drawing's axes.
 fn node_rotations(
     rig: &Rig,
-    order: &[usize],
+    order: &[FigurePartId],
     rotations: &Rotations,
     frames: usize,
-) -> Vec<Option<Vec<DQuat>>> {
-    let mut local = vec![None; rig.parts.len()];
+) -> TiVec<FigurePartId, Option<Vec<DQuat>>> {
+    let mut local = ti_vec![None; rig.parts.len()];
     for part in order {
         let own = &rig.parts[*part];
         let turned: Vec<DQuat> = match own.parent.filter(|_| !own.is_rooted) {
@@ -146,13 +148,13 @@ fn node_rotations(
 /// Per part the positions of its node, for the root part and for nodes that are children of the model's root.
 fn node_translations(
     rig: &Rig,
-    order: &[usize],
+    order: &[FigurePartId],
     rotations: &Rotations,
     path: &[DVec3],
-) -> Vec<Option<Vec<DVec3>>> {
-    let mut translations = vec![None; rig.parts.len()];
-    let is_moving = |part: &usize| Some(part) == order.first() || rig.parts[*part].is_rooted;
-    let moving: Vec<usize> = order.iter().copied().filter(is_moving).collect();
+) -> TiVec<FigurePartId, Option<Vec<DVec3>>> {
+    let mut translations = ti_vec![None; rig.parts.len()];
+    let is_moving = |part: &FigurePartId| Some(part) == order.first() || rig.parts[*part].is_rooted;
+    let moving: Vec<FigurePartId> = order.iter().copied().filter(is_moving).collect();
     for part in &moving {
         translations[*part] = Some(Vec::with_capacity(path.len()));
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use typed_index_collections::TiVec;
 
 use super::Context;
 use super::diagnostics::{self, MatchProblems};
@@ -14,7 +15,7 @@ use super::tracks::AnimatedNodes;
 use crate::bind::{ClipLimits, ClipRequest, PartId, PerformanceRequest, SetBy};
 use crate::clips::{BuiltIn, Legs};
 use crate::diagnostic::Diagnostic;
-use crate::labels::{Class, Figure};
+use crate::labels::{Class, Figure, FigurePartId};
 use crate::limited::Measured;
 use crate::limited::{self, Cut, Exposure, Length};
 use crate::mark_tracks::MarkTracks;
@@ -33,7 +34,7 @@ struct RetargetKey {
     motion: Same<PreparedClip>,
     plan: Option<Same<Plan>>,
     /// Per part the ratio of its turns that is left.
-    ratios: Exactly<Vec<Option<f64>>>,
+    ratios: Exactly<TiVec<FigurePartId, Option<f64>>>,
 }
 
 /// A figure's motion, as the key of the cached one in place.
@@ -41,7 +42,7 @@ struct RetargetKey {
 struct InPlaceKey {
     retargeted: Same<RetargetedClip>,
     /// The part whose travel is taken away from all.
-    root: usize,
+    root: FigurePartId,
     motion: Same<PreparedClip>,
 }
 
@@ -115,12 +116,12 @@ impl<'a> ClipBuilder<'a> {
             }
         };
         let mut found = matched(group.clone(), figure);
-        let is_hips = |part: &usize| {
+        let is_hips = |part: &FigurePartId| {
             let label = found.matching.parts[*part].label.as_ref();
             label.is_some_and(|label| label.class == Class::Hips) && group.is_rooted(*part)
         };
         // Unless strings say otherwise, the hips become the root, because their travel is the figure's.
-        let hips = (0..group.parts.len()).find(is_hips);
+        let hips = group.parts.keys().find(is_hips);
         let hips = hips.map(|part| group.parts[part]);
         if let Some(hips) = hips.filter(|hips| *hips != group.root) {
             let group = group.clone().rooted_at(hips);
@@ -274,10 +275,10 @@ impl<'a> ClipBuilder<'a> {
             return retargeted;
         }
         let group = &matched.group;
-        let root = group.parts.iter().position(|part| *part == group.root);
+        let root = group.parts.position(|part| *part == group.root);
         let key = InPlaceKey {
             retargeted: Same(retargeted),
-            root: root.unwrap_or(0),
+            root: root.unwrap_or(FigurePartId::from(0)),
             motion: Same(Arc::clone(motion)),
         };
         self.memo.get(key, |key| {
@@ -339,7 +340,7 @@ fn of_figure<T>(group: &FigureGroup, said: impl Fn(PartId) -> Option<(SetBy, T)>
 }
 
 /// The clip without the travel of the figure's root over the ground.
-fn in_place(clip: &RetargetedClip, root: usize, motion: &PreparedClip) -> RetargetedClip {
+fn in_place(clip: &RetargetedClip, root: FigurePartId, motion: &PreparedClip) -> RetargetedClip {
     let mut clip = clip.clone();
     let fps = 1.0 / motion.clip.frame_time;
     let travel = match clip.translations.get(root) {
@@ -367,10 +368,10 @@ mod tests {
                 .collect()
         };
         let clip = RetargetedClip {
-            translations: vec![Some(path(0.0)), None, Some(path(5.0))],
+            translations: vec![Some(path(0.0)), None, Some(path(5.0))].into(),
             ..RetargetedClip::default()
         };
-        let still = in_place(&clip, 0, &motion);
+        let still = in_place(&clip, 0.into(), &motion);
         for (path, x) in still.translations.iter().flatten().zip([0.0, 5.0]) {
             let place = DVec3::new(x, 1.0, 0.0);
             assert!(path.iter().all(|at| at.distance(place) < 1e-9));

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
+use typed_index_collections::{TiSlice, TiVec};
+
 use crate::bind::PartId;
-use crate::labels::{Label, Tip};
+use crate::labels::{FigurePartId, Label, Tip};
 use crate::limited::{Cut, Exposure};
 use crate::limited::{KeyTimes, Measured};
 use crate::mocap::{JointId, Skeleton};
@@ -41,7 +43,7 @@ pub struct FigureClip {
     /// How the performance is filmed.
     pub filmed: Filmed,
     /// The parts in the order of `retargeted`.
-    pub(super) order: Vec<PartId>,
+    pub(super) order: TiVec<FigurePartId, PartId>,
     pub(super) retargeted: Arc<RetargetedClip>,
     pub(super) measured: Arc<Measured>,
     pub(super) animated: Arc<AnimatedNodes>,
@@ -237,7 +239,7 @@ pub(crate) fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
 
 /// What drives these parts of the drawing, which are those of the matched figure, in the same order; and which of them swing.
 pub(super) fn part_drives(
-    parts: &[PartId],
+    parts: &TiSlice<FigurePartId, PartId>,
     matching: &Matching,
     swings: impl Fn(PartId) -> bool,
 ) -> Vec<PartDrive> {

@@ -1,11 +1,14 @@
 //! Finds the figures of a drawing: groups of parts that are connected, by strings or because they touch.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
-use typed_index_collections::ti_vec;
+use typed_index_collections::{TiVec, ti_vec};
 
 use crate::anatomy::{self, Role};
 use crate::bind::{Bindings, Part, PartId, PartKind};
 use crate::geometry::{self, Body, area, connected};
+use crate::labels::FigurePartId;
 
 /// Roots of one figure may be this far apart, as a share of the larger one's height with all its descendants.
 const GAP: f64 = 0.02;
@@ -14,13 +17,13 @@ const GAP: f64 = 0.02;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FigureGroup {
     /// Its parts.
-    pub parts: Vec<PartId>,
-    /// Per part its parent, an index into `parts`: by its string, or because they touch.
-    pub parents: Vec<Option<usize>>,
+    pub parts: TiVec<FigurePartId, PartId>,
+    /// Per part its parent: by its string, or because they touch.
+    pub parents: TiVec<FigurePartId, Option<FigurePartId>>,
     /// The part that carries the others.
     pub root: PartId,
-    /// The parts without a parent by their strings, each with the parts that it touches; indices into `parts`.
-    touching: Vec<(usize, Vec<usize>)>,
+    /// The parts without a parent by their strings, each with the parts that it touches.
+    touching: Vec<(FigurePartId, Vec<FigurePartId>)>,
 }
 
 impl FigureGroup {
@@ -29,20 +32,20 @@ impl FigureGroup {
         part.is_none_or(|part| self.parts.contains(&part))
     }
 
-    /// Whether a part, an index into `parts`, has no parent by its string.
-    pub(super) fn is_rooted(&self, part: usize) -> bool {
+    /// Whether a part has no parent by its string.
+    pub(super) fn is_rooted(&self, part: FigurePartId) -> bool {
         self.touching.iter().any(|(rooted, _)| *rooted == part)
     }
 
     /// The same figure with another root, which must be a part without a parent by its string.
     pub(super) fn rooted_at(mut self, part: PartId) -> Self {
-        let Some(root) = self.parts.iter().position(|own| *own == part) else {
+        let Some(root) = self.parts.position(|own| *own == part) else {
             return self;
         };
         for (root, _) in &self.touching {
             self.parents[*root] = None;
         }
-        let mut reached = vec![false; self.parts.len()];
+        let mut reached = ti_vec![false; self.parts.len()];
         reached[root] = true;
         let mut order = vec![root];
         let mut next = 0;
@@ -126,12 +129,13 @@ fn group(
     near: &[Vec<usize>],
     members: &[usize],
 ) -> FigureGroup {
-    let parts: Vec<PartId> = members
+    let parts: TiVec<FigurePartId, PartId> = members
         .iter()
         .flat_map(|tree| &trees[*tree].parts)
         .copied()
         .collect();
-    let place: std::collections::BTreeMap<PartId, usize> = parts.iter().copied().zip(0..).collect();
+    let place = parts.iter_enumerated().map(|(place, part)| (*part, place));
+    let place: BTreeMap<PartId, FigurePartId> = place.collect();
     let parents = parts
         .iter()
         .map(|part| bindings.parts[*part].parent.map(|parent| place[&parent]));
@@ -156,7 +160,7 @@ fn group(
     let group = FigureGroup {
         parents: parents.collect(),
         touching: touching.collect(),
-        root: parts[0],
+        root: first(&members[0]),
         parts,
     };
     match largest {

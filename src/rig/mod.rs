@@ -21,6 +21,7 @@ use std::sync::Arc;
 
 use typed_index_collections::{TiSlice, TiVec};
 
+pub(crate) use crate::labels::FigurePartId;
 pub(crate) use crate::mocap::JointId;
 
 use crate::bind::{Bindings, MotionSource, PartId};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use typed_index_collections::TiSlice;
+use typed_index_collections::TiVec;
 
 use super::Context;
 use super::builder::MatchedFigure;
@@ -11,7 +11,7 @@ use super::diagnostics::{self, MarkProblem};
 use super::figures::FigureGroup;
 use crate::bind::{Camerawork, PartId, PartMark, PerformanceRequest};
 use crate::diagnostic::{Diagnostic, nearest_word};
-use crate::labels::{Facing, Tip};
+use crate::labels::{Facing, FigurePartId, Tip};
 use crate::mark_tracks::{Hsv, MarkId, MarkTrack, MarkTracks, hue_difference, same_name};
 use crate::memo::{Memo, Same};
 use crate::mocap::{Clip, JointId, Pose};
@@ -54,13 +54,13 @@ pub struct PerformedParts {
     pub parts: Vec<PartId>,
 }
 
-/// The channels of a performance, in places of a figure's group.
+/// The channels of a performance of a figure.
 #[derive(Debug, Default)]
 pub(super) struct Channels {
     /// Per channel its mark, and the parts that the mark performs.
-    marks: Vec<(MarkId, Vec<usize>)>,
+    marks: Vec<(MarkId, Vec<FigurePartId>)>,
     /// Per channel the parts that are edited along with them.
-    followers: Vec<Vec<usize>>,
+    followers: Vec<Vec<FigurePartId>>,
     /// The channel that the string emphasises.
     emphasized: Option<usize>,
 }
@@ -97,7 +97,7 @@ impl Channels {
             }
         };
         let mut has_mark = false;
-        for (place, part) in group.parts.iter().enumerate() {
+        for (place, part) in group.parts.iter_enumerated() {
             let Some(mark) = bindings.mark(*part) else {
                 continue;
             };
@@ -182,8 +182,8 @@ impl Channels {
         motion: &Arc<PreparedClip>,
         memo: &Memo,
     ) -> Arc<Plan> {
-        let drive = |place: &usize| matched.matching.parts[*place].drive;
-        let channel = |(mark, places): &(MarkId, Vec<usize>)| {
+        let drive = |place: &FigurePartId| matched.matching.parts[*place].drive;
+        let channel = |(mark, places): &(MarkId, Vec<FigurePartId>)| {
             (*mark, places.iter().filter_map(drive).collect())
         };
         let key = PlanKey {
@@ -217,34 +217,34 @@ impl Channels {
         plan: &Plan,
         matched: &MatchedFigure,
         rig: &Rig,
-    ) -> Vec<Option<f64>> {
+    ) -> TiVec<FigurePartId, Option<f64>> {
         let Some(emphasized) = plan.emphasized.filter(|_| plan.is_damping) else {
-            return Vec::new();
+            return TiVec::new();
         };
-        let parents: Vec<Option<usize>> = rig.parts.iter().map(|part| part.parent).collect();
+        let parents: TiVec<_, _> = rig.parts.iter().map(|part| part.parent).collect();
         let class = |part: &MatchedPart| part.label.as_ref().map(|label| label.class);
-        let classes: Vec<_> = matched.matching.parts.iter().map(class).collect();
+        let classes: TiVec<_, _> = matched.matching.parts.iter().map(class).collect();
         let limbs = Limbs {
-            parents: TiSlice::from_ref(&parents),
-            classes: TiSlice::from_ref(&classes),
+            parents: &parents,
+            classes: &classes,
         };
-        let channels: Vec<Vec<usize>> = self
+        let channels: Vec<Vec<FigurePartId>> = self
             .marks
             .iter()
             .map(|(_, places)| places.clone())
             .collect();
         let largest = plan.largest_inputs();
-        ratios(&limbs, &channels, &self.followers, &largest, emphasized).into()
+        ratios(&limbs, &channels, &self.followers, &largest, emphasized)
     }
 
-    /// The part that the camera shows, in places of the group.
-    pub(super) fn filmed(&self, plan: &Plan) -> Option<usize> {
+    /// The part that the camera shows.
+    pub(super) fn filmed(&self, plan: &Plan) -> Option<FigurePartId> {
         self.marks[plan.emphasized?].1.first().copied()
     }
 
     /// The channels in parts of the drawing.
     pub(super) fn parts(&self, group: &FigureGroup) -> Vec<PerformedParts> {
-        let channel = |(mark, places): &(MarkId, Vec<usize>)| PerformedParts {
+        let channel = |(mark, places): &(MarkId, Vec<FigurePartId>)| PerformedParts {
             mark: *mark,
             parts: places.iter().map(|place| group.parts[*place]).collect(),
         };
@@ -311,24 +311,24 @@ fn hue(color: [u8; 3]) -> Option<f64> {
     (color.chroma >= LEAST_CHROMA).then_some(color.hue)
 }
 
-/// The parts that a name in `Follow` means, in places of the group: the part of that name, else all that a joint of that name drives.
+/// The parts that a name in `Follow` means: the part of that name, else all that a joint of that name drives.
 fn followers(
     context: &Context<'_>,
     matched: &MatchedFigure,
     motion: &PreparedClip,
     name: &str,
-) -> Vec<usize> {
-    let parts = matched.group.parts.iter();
-    let own = parts.map(|part| context.bindings.parts[*part].name.as_str());
-    if let Some(place) = own.into_iter().position(|own| own == name) {
+) -> Vec<FigurePartId> {
+    let parts = &matched.group.parts;
+    let is_named = |part: &PartId| context.bindings.parts[*part].name == name;
+    if let Some(place) = parts.position(is_named) {
         return vec![place];
     }
     let joints = joints_named(&motion.clip.skeleton, name);
-    let is_driven = |place: &usize| {
+    let is_driven = |place: &FigurePartId| {
         let drive = matched.matching.parts[*place].drive;
         drive.is_some_and(|drive| joints.contains(&drive.joint))
     };
-    (0..matched.group.parts.len()).filter(is_driven).collect()
+    parts.keys().filter(is_driven).collect()
 }
 
 /// Reports what a plan found, once for each place and kind.

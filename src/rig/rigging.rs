@@ -8,8 +8,7 @@ use super::figures::FigureGroup;
 use super::surface;
 use crate::bind::{self, PartId};
 use crate::geometry::{Frame, y_up};
-use crate::labels::{Carry, Figure, FigurePart};
-use crate::labels::{Class, Facing};
+use crate::labels::{Carry, Class, Facing, Figure, FigurePart, FigurePartId};
 use crate::memo::exact;
 use crate::mocap::Transform;
 use crate::retarget::{Drive, Matching};
@@ -19,7 +18,7 @@ use crate::retarget::{Rig, RigPart};
 pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure {
     let bindings = context.bindings;
     let middle = |part: PartId| y_up(bindings.parts[part].measure.center);
-    let part = |(place, &index): (usize, &PartId)| {
+    let part = |(place, &index): (FigurePartId, &PartId)| {
         let part = &bindings.parts[index];
         let [one, other] = part.measure.ends.map(y_up);
         let nearer = |to: DVec2| {
@@ -67,7 +66,7 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
         }
     };
     Figure {
-        parts: group.parts.iter().enumerate().map(part).collect(),
+        parts: group.parts.iter_enumerated().map(part).collect(),
     }
 }
 
@@ -86,35 +85,35 @@ pub(super) fn rig(
     matching: &Matching,
     nodes: &RestNodes,
 ) -> Rig {
-    let is_leg = |part: usize| {
+    let is_leg = |part: FigurePartId| {
         let matched = &matching.parts[part];
         let is_chain = matched.drive.is_some_and(|drive| drive.tip.is_some());
         let class = matched.label.as_ref().map(|label| label.class);
         is_chain && class == Some(Class::Leg)
     };
-    let mut continues = vec![false; group.parts.len()];
-    for (index, part) in figure.parts.iter().enumerate() {
+    let mut continues = ti_vec![false; group.parts.len()];
+    for (index, part) in figure.parts.iter_enumerated() {
         if let Some(parent) = part.parent.filter(|_| is_leg(index)) {
             continues[parent] = true;
         }
     }
     // What has no drive moves with what it hangs on: a shoe is what its leg stands on.
-    let mut carried: Vec<Vec<usize>> = vec![Vec::new(); group.parts.len()];
-    for index in 0..group.parts.len() {
-        let above = |part: &usize| figure.parts[*part].parent;
+    let mut carried = ti_vec![Vec::new(); group.parts.len()];
+    for index in group.parts.keys() {
+        let above = |part: &FigurePartId| figure.parts[*part].parent;
         let mut ways = std::iter::successors(Some(index), above).take(group.parts.len());
         if let Some(carrier) = ways.find(|part| matching.parts[*part].drive.is_some()) {
             carried[carrier].push(index);
         }
     }
-    let surface_of = |index: usize| {
+    let surface_of = |index: FigurePartId| {
         let nodes = carried[index].iter().map(|part| {
             let part = group.parts[*part];
             (part, nodes.of(part).0.position.z)
         });
         surface::outermost(context, nodes)
     };
-    let part = |(index, part): (usize, &FigurePart)| {
+    let part = |(index, part): (FigurePartId, &FigurePart)| {
         let (node, is_rooted) = nodes.of(group.parts[index]);
         let depth = node.position.z;
         let stands = is_leg(index) && !continues[index];
@@ -141,7 +140,7 @@ pub(super) fn rig(
         }
     };
     Rig {
-        parts: figure.parts.iter().enumerate().map(part).collect(),
+        parts: figure.parts.iter_enumerated().map(part).collect(),
         facing: matching.facing,
     }
 }
@@ -196,4 +195,4 @@ exact! {
     RigPart { parent, is_rooted, node, joint, tip, surface, stands, drive, is_leg, swing }
     Transform { rotation, position }
 }
-exact!(Facing, Drive);
+exact!(Facing, Drive, FigurePartId);

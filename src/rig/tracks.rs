@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 
 use glam::{DQuat, DVec3};
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 use crate::bind::PartId;
+use crate::labels::FigurePartId;
 use crate::limited::KeyTimes;
 use crate::mocap::turns::continuous;
 use crate::retarget::RetargetedClip;
@@ -36,12 +37,13 @@ impl AnimatedNodes {
     pub(super) fn animation(
         &self,
         name: &str,
-        parts: &[PartId],
+        parts: &TiSlice<FigurePartId, PartId>,
         clip: &RetargetedClip,
         keys: &KeyTimes,
         shifts: Option<&Shifts<'_>>,
     ) -> Animation {
-        let index: BTreeMap<PartId, usize> = parts.iter().copied().zip(0..).collect();
+        let index = parts.iter_enumerated().map(|(index, part)| (*part, index));
+        let index: BTreeMap<PartId, FigurePartId> = index.collect();
         let mut tracks = Vec::new();
         for (node, rest) in self.nodes.iter_enumerated() {
             let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames().is_empty()) else {

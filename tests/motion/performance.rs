@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use glam::DQuat;
-use okoshi::internals::labels::Facing;
+use okoshi::internals::labels::{Facing, FigurePartId};
 use okoshi::internals::mocap::resample::TimeMap;
 use okoshi::internals::retarget::{Landmarks, RetargetedClip, Rig, Turns, retarget};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use crate::retarget::clips::{FILES, clip};
 use crate::retarget::rigs::{Limbs, biped, dog, part};
@@ -94,7 +95,7 @@ fn contacts_go_through_the_map() {
             for frame in 0..=last {
                 let heights = [(&whole, frame), (&slow, frame * factor)].map(|(clip, frame)| {
                     let nodes = placed(rig, clip, frame);
-                    nodes[0].position.y
+                    nodes.raw[0].position.y
                 });
                 let size = rig.parts.iter().map(|part| part.tip.y).fold(0.0, f64::max);
                 assert!(
@@ -110,7 +111,7 @@ fn contacts_go_through_the_map() {
 }
 
 /// The rotation of a part relative to its parent, frame by frame.
-fn locals(rig: &Rig, clip: &RetargetedClip, part: usize) -> Vec<DQuat> {
+fn locals(rig: &Rig, clip: &RetargetedClip, part: FigurePartId) -> Vec<DQuat> {
     let frames = 0..clip.grounded.len();
     let local = |frame| {
         let nodes = placed(rig, clip, frame);
@@ -128,17 +129,19 @@ fn ratios_follow_equation_1() {
     let checked = all(|file, rig, clip, landmarks| {
         let count = rig.parts.len();
         let whole = retarget(clip, rig, landmarks);
-        let of = |ratios: &[Option<f64>]| Turns::new(clip, rig, landmarks).damped(ratios).travel();
-        assert_eq!(of(&vec![Some(1.0); count]), whole, "{file}");
-        assert_eq!(of(&vec![None; count]), whole, "{file}");
+        let of = |ratios: &TiSlice<FigurePartId, Option<f64>>| {
+            Turns::new(clip, rig, landmarks).damped(ratios).travel()
+        };
+        assert_eq!(of(&ti_vec![Some(1.0); count]), whole, "{file}");
+        assert_eq!(of(&ti_vec![None; count]), whole, "{file}");
         // The last limb and its parent, and every other part.
-        let last = count - 1;
+        let last = FigurePartId::from(count - 1);
         let chain = [Some(last), rig.parts[last].parent];
         let every_other = (0..count).map(|part| (part > 0 && part % 2 == 0).then_some(0.3));
-        let chain = (0..count).map(|part| chain.contains(&Some(part)).then_some(0.0));
-        for ratios in [chain.collect::<Vec<_>>(), every_other.collect()] {
+        let chain = (rig.parts.keys()).map(|part| chain.contains(&Some(part)).then_some(0.0));
+        for ratios in [chain.collect::<TiVec<_, _>>(), every_other.collect()] {
             let edited = of(&ratios);
-            for (part, ratio) in ratios.iter().enumerate().filter(|(part, _)| *part > 0) {
+            for (part, ratio) in ratios.iter_enumerated().skip(1) {
                 let [before, now] = [&whole, &edited].map(|clip| locals(rig, clip, part));
                 let ratio = ratio.unwrap_or(1.0);
                 damped += usize::from(ratio < 1.0 && whole.rotations[part].is_some());
@@ -149,7 +152,7 @@ fn ratios_follow_equation_1() {
                     skipped += usize::from(is_far);
                     compared += 1;
                     let fits = is_far || (left - full * ratio).abs() < 1e-4;
-                    assert!(fits, "{file}: part {part} in frame {frame}: {full} {left}");
+                    assert!(fits, "{file}: {part:?} in frame {frame}: {full} {left}");
                 }
             }
         }
@@ -168,15 +171,15 @@ fn parts_without_a_drive_go_along() {
     let prepared = clip(FILES[0]);
     let landmarks = Landmarks::of(&prepared.anatomy);
     let mut rig = biped(&prepared.anatomy, Limbs::Bound, 2);
-    let hand = rig.parts.len() - 1;
+    let hand = rig.parts.last_key().expect("a hand");
     let ends = [rig.parts[hand].tip, rig.parts[hand].tip * 1.1];
-    rig.parts.push(part(Some(hand), false, ends));
-    let mut ratios = vec![None; rig.parts.len()];
+    let glove = rig.parts.push_and_get_key(part(Some(hand), false, ends));
+    let mut ratios = ti_vec![None; rig.parts.len()];
     ratios[hand] = Some(0.5);
     let edited = Turns::new(&prepared.clip, &rig, &landmarks)
         .damped(&ratios)
         .travel();
-    let turns: BTreeSet<String> = locals(&rig, &edited, hand + 1)
+    let turns: BTreeSet<String> = locals(&rig, &edited, glove)
         .iter()
         .map(|turn| format!("{:.6}", apart(*turn, DQuat::IDENTITY)))
         .collect();

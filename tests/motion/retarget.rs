@@ -9,10 +9,11 @@ mod swing;
 mod walks;
 
 use glam::{DQuat, DVec3};
-use okoshi::internals::labels::{Facing, Tip};
+use okoshi::internals::labels::{Facing, FigurePartId, Tip};
 use okoshi::internals::mocap::{Clip, JointId, Pose, Transform};
 use okoshi::internals::retarget::{Drive, Follow};
 use okoshi::internals::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use clips::{FILES, clip};
 use rigs::{Limbs, biped, dog, stout};
@@ -109,15 +110,22 @@ fn direction(clip: &Clip, pose: &Pose, drive: &Drive) -> Option<DVec3> {
     (end(clip, pose, drive.tip?) - pose[drive.joint].position).try_normalize()
 }
 
+/// Per part the transform of its node.
+type Placed = TiSlice<FigurePartId, Transform>;
+
 /// The transforms of a rig's nodes in a frame, in the drawing's axes.
-pub(crate) fn placed(rig: &Rig, retargeted: &RetargetedClip, frame: usize) -> Vec<Transform> {
-    let mut done: Vec<Option<Transform>> = vec![None; rig.parts.len()];
+pub(crate) fn placed(
+    rig: &Rig,
+    retargeted: &RetargetedClip,
+    frame: usize,
+) -> TiVec<FigurePartId, Transform> {
+    let mut done: TiVec<FigurePartId, Option<Transform>> = ti_vec![None; rig.parts.len()];
     fn place(
         rig: &Rig,
         retargeted: &RetargetedClip,
         frame: usize,
-        part: usize,
-        done: &mut Vec<Option<Transform>>,
+        part: FigurePartId,
+        done: &mut TiSlice<FigurePartId, Option<Transform>>,
     ) -> Transform {
         if let Some(placed) = done[part] {
             return placed;
@@ -148,13 +156,14 @@ pub(crate) fn placed(rig: &Rig, retargeted: &RetargetedClip, frame: usize) -> Ve
         done[part] = Some(found);
         found
     }
-    (0..rig.parts.len())
+    rig.parts
+        .keys()
         .map(|part| place(rig, retargeted, frame, part, &mut done))
         .collect()
 }
 
 /// The position of a point of the drawing that belongs to a part.
-fn moved_point(rig: &Rig, placed: &[Transform], part: usize, point: DVec3) -> DVec3 {
+fn moved_point(rig: &Rig, placed: &Placed, part: FigurePartId, point: DVec3) -> DVec3 {
     let rest = rig.parts[part].node;
     placed[part].position
         + placed[part].rotation * (rest.rotation.inverse() * (point - rest.position))
@@ -198,7 +207,7 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
     for frame in 0..clip.frames() {
         let pose = clip.pose(frame);
         let placed = placed(rig, &retargeted, frame);
-        for (index, part) in rig.parts.iter().enumerate() {
+        for (index, part) in rig.parts.iter_enumerated() {
             assert!(placed[index].rotation.is_finite() && placed[index].position.is_finite());
             if let Some(parent) = part.parent {
                 let [own, above] =

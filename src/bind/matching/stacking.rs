@@ -114,8 +114,7 @@ impl Stacking {
             })
             .collect();
         let parts: TiVec<PartId, StackedPart> = parts.into();
-        let boxes = parts.iter_enumerated();
-        let boxes = boxes.filter(|(_, part)| part.takes_part);
+        let boxes = parts.iter_enumerated().filter(|(_, part)| part.takes_part);
         let boxes = boxes.map(|(index, part)| indexed_box(part.bounds, index));
         let tree = BoxTree::bulk_load(boxes.collect());
         let nothing = Outline::default();
@@ -133,15 +132,14 @@ impl Stacking {
             facts: ti_vec![],
             ground,
         };
-        let facts: Vec<Facts> = par_keys(&stacking.parts)
+        let facts = par_keys(&stacking.parts)
             .with_min_len(GRAIN)
             .map_init(Scratch::default, |scratch, part| {
                 let takes_part = stacking.parts[part].takes_part;
                 takes_part.then(|| stacking.measure(&[part], scratch))
             })
-            .map(Option::unwrap_or_default)
-            .collect();
-        stacking.facts = facts.into();
+            .map(Option::unwrap_or_default);
+        stacking.facts = facts.collect::<Vec<_>>().into();
         stacking
     }
 

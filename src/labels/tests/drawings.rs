@@ -178,8 +178,8 @@ fn a_spider_faces_the_viewer_on_eight_legs() {
     check(&spider(), &expected);
     let labeled = label_drawn(&figure(&spider()));
     assert_eq!(labeled.facing, Facing::Viewer);
-    assert_eq!(labeled.splayed[..3], [false; 3]);
-    assert!(labeled.splayed[3..].iter().all(|splayed| *splayed));
+    assert_eq!(labeled.splayed.raw[..3], [false; 3]);
+    assert!(labeled.splayed.raw[3..].iter().all(|splayed| *splayed));
 }
 
 #[test]
@@ -245,7 +245,7 @@ fn only_wings_are_splayed_where_there_are_four_legs_or_fewer() {
         ("left leg", "body", [8.0, 20.0], [8.0, 0.0], 2.0),
         ("right leg", "body", [-8.0, 20.0], [-8.0, 0.0], 2.0),
     ]);
-    let splayed = label_drawn(&bird).splayed;
+    let splayed = label_drawn(&bird).splayed.raw;
     assert_eq!(splayed, [false, false, true, true, false, false, false]);
 }
 
@@ -259,6 +259,6 @@ fn a_penguin_has_hanging_wings_and_feet_without_legs() {
         ("right foot", "body", [-6.0, 3.0], [-20.0, 3.0], 3.0),
         ("left foot", "body", [6.0, 3.0], [20.0, 3.0], 3.0),
     ]);
-    let splayed = label_drawn(&penguin).splayed;
+    let splayed = label_drawn(&penguin).splayed.raw;
     assert_eq!(splayed, [false, false, false, false, true, true]);
 }

@@ -1,15 +1,17 @@
 //! Figures as people draw them.
 
 use glam::DVec2;
+use typed_index_collections::TiSlice;
 
 use crate::labels::{Class, Label, LimbSegment, Side, label_figure};
-use crate::labels::{Figure, FigurePart};
+use crate::labels::{Figure, FigurePart, FigurePartId};
 
 /// A part: its name, what it hangs on, its joint, its tip, and half its width.
 pub(super) type Row<'a> = (&'a str, &'a str, [f64; 2], [f64; 2], f64);
 
 /// A figure of rods that were drawn in this order.
 pub(crate) fn figure(rows: &[Row<'_>]) -> Figure {
+    let rows: &TiSlice<FigurePartId, Row<'_>> = TiSlice::from_ref(rows);
     let parts = rows
         .iter()
         .enumerate()
@@ -18,7 +20,7 @@ pub(crate) fn figure(rows: &[Row<'_>]) -> Figure {
             let across = (tip - joint).perp().normalize_or_zero().abs() * *half;
             FigurePart {
                 name: (*name).to_owned(),
-                parent: rows.iter().position(|row| row.0 == *parent),
+                parent: rows.position(|row| row.0 == *parent),
                 joint,
                 tip,
                 bounds: [joint.min(tip) - across, joint.max(tip) + across],
@@ -377,7 +379,8 @@ fn names_of_sides() {
             ("Body", "", [50.0, 0.0], [50.0, 100.0], 10.0),
             ("Head", "Body", [50.0, 100.0], [50.0, 120.0], 10.0),
             (name, "Body", [60.0, 80.0], far, 2.0),
-        ]))[2];
+        ]))
+        .raw[2];
         let label = label.as_ref().unwrap();
         assert_eq!((label.class, label.side), (Class::Arm, side), "{name}");
     }
@@ -402,7 +405,8 @@ fn words_inside_other_words_mean_nothing() {
             ("Body", "", [50.0, 0.0], [50.0, 100.0], 10.0),
             ("Head", "Body", [50.0, 100.0], [50.0, 120.0], 10.0),
             (name, "Body", [48.0, 60.0], [52.0, 60.0], 2.0),
-        ]))[2];
+        ]))
+        .raw[2];
         assert_eq!(label, &None, "{name}");
     }
 }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use crate::labels::skeleton::label_skeleton;
 use crate::labels::{Anatomy, label_figure};
-use crate::labels::{Figure, FigurePart};
+use crate::labels::{Figure, FigurePart, FigurePartId};
 use crate::law;
 use crate::mocap::{Joint, Skeleton};
 use crate::patience::finish;
@@ -83,7 +83,7 @@ fn figure() -> impl Strategy<Value = Figure> {
         let parts = parts.into_iter().enumerate().map(
             |(drawn, (name, parent, joint, tip, bounds, bones))| FigurePart {
                 name,
-                parent,
+                parent: parent.map(FigurePartId::from),
                 joint,
                 tip,
                 bounds,
@@ -194,9 +194,9 @@ fn many_joints_in_any_shape() {
 
 #[test]
 fn cycles_and_parents_out_of_range() {
-    let part = |name: &str, parent| FigurePart {
+    let part = |name: &str, parent: usize| FigurePart {
         name: name.to_owned(),
-        parent: Some(parent),
+        parent: Some(parent.into()),
         tip: DVec2::Y,
         ..FigurePart::default()
     };
@@ -208,11 +208,12 @@ fn cycles_and_parents_out_of_range() {
             part("c", 3),
             part("d", 99),
             part("e", 0),
-        ],
+        ]
+        .into(),
     };
     assert_eq!(label_figure(&figure).len(), 6);
     // A root with children is a trunk.
-    assert!(label_figure(&figure)[1].is_some());
+    assert!(label_figure(&figure).raw[1].is_some());
 }
 
 #[test]

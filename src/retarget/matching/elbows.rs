@@ -1,7 +1,7 @@
 //! Arms of one segment on motions that live from the elbow.
 
 use super::{Follow, Matching, Problem};
-use crate::labels::{Anatomy, Class, Limb, LimbSegment};
+use crate::labels::{Anatomy, Class, FigurePartId, Limb, LimbSegment};
 use crate::mocap::{Clip, Pose};
 
 /// How many frames of a clip are looked at.
@@ -12,7 +12,7 @@ const MAX_ERROR: f64 = 0.25;
 /// The arms of one segment whose ends would be far from the actor's hands: the drawn arm is always stretched, the actor's elbow is
 /// bent. `anatomy` belongs to the clip's skeleton.
 pub(crate) fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> Vec<Problem> {
-    let is_stretched = |part: &usize| {
+    let is_stretched = |part: &FigurePartId| {
         let part = &matching.parts[*part];
         let follow = part.drive.map(|drive| drive.follow);
         let label = part.label.as_ref();
@@ -21,7 +21,7 @@ pub(crate) fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> 
                 (label.class, label.segment) == (Class::Arm, LimbSegment::Whole)
             })
     };
-    let arms: Vec<usize> = (0..matching.parts.len()).filter(is_stretched).collect();
+    let arms: Vec<FigurePartId> = matching.parts.keys().filter(is_stretched).collect();
     if arms.is_empty() || clip.frames() == 0 {
         return Vec::new();
     }

@@ -8,11 +8,11 @@ mod tests;
 use std::collections::BTreeSet;
 
 use glam::DVec3;
-use typed_index_collections::TiSlice;
+use typed_index_collections::{TiSlice, TiVec};
 
-use crate::labels::Figure;
 use crate::labels::{
-    Anatomy, Carry, Class, Facing, Label, LabeledFigure, Limb, LimbSegment, Side, Tip, label_drawn,
+    Anatomy, Carry, Class, Facing, Figure, FigurePartId, Label, LabeledFigure, Limb, LimbSegment,
+    Side, Tip, label_drawn,
 };
 use crate::mocap::{JointId, Skeleton, Transform};
 pub(crate) use elbows::bent_arms;
@@ -22,7 +22,7 @@ use names::Names;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Matching {
     /// The parts, in the figure's order.
-    pub parts: Vec<MatchedPart>,
+    pub parts: TiVec<FigurePartId, MatchedPart>,
     /// The direction that the figure faces.
     pub facing: Facing,
     /// What was wrong or missing.
@@ -98,7 +98,7 @@ pub(crate) enum Problem {
     /// A part's string names a joint that the skeleton does not have. The part is matched as if it named none.
     UnknownBone {
         /// The part.
-        part: usize,
+        part: FigurePartId,
         /// The name as written.
         name: String,
         /// Joint names with a similar spelling, the most similar first.
@@ -107,7 +107,7 @@ pub(crate) enum Problem {
     /// A part's string names a joint, and several joints have that name. The first one is used.
     AmbiguousBone {
         /// The part.
-        part: usize,
+        part: FigurePartId,
         /// The name as written.
         name: String,
         /// The joints that have it.
@@ -117,7 +117,7 @@ pub(crate) enum Problem {
     /// none.
     NotAChain {
         /// The part.
-        part: usize,
+        part: FigurePartId,
         /// The first joint.
         from: JointId,
         /// The second joint.
@@ -126,7 +126,7 @@ pub(crate) enum Problem {
     /// A part's string names more than two joints. Those after the second are ignored.
     TooManyBones {
         /// The part.
-        part: usize,
+        part: FigurePartId,
     },
     /// The figure has a limb that the skeleton does not have.
     NoSuchLimb {
@@ -135,12 +135,12 @@ pub(crate) enum Problem {
         /// The side of the skeleton that lacks it.
         side: Side,
         /// The parts that it would drive.
-        parts: Vec<usize>,
+        parts: Vec<FigurePartId>,
     },
     /// An arm is drawn in one segment, and the motion bends its elbow so much that the arm's end is far from where it should be.
     BentArm {
         /// The part.
-        part: usize,
+        part: FigurePartId,
         /// How far, in the median, as a share of the arm's length.
         error: f64,
     },
@@ -165,10 +165,10 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
     } = label_drawn(figure);
     let mut problems = Vec::new();
     let names = Names::new(skeleton);
-    let mut parts = Vec::with_capacity(labels.len());
+    let mut parts = TiVec::with_capacity(labels.len());
     let mut lacking = Vec::new();
     let matcher = Matcher::new(skeleton, anatomy, &labels);
-    for ((part, label), splayed) in labels.into_iter().enumerate().zip(splayed) {
+    for ((part, label), splayed) in labels.into_iter_enumerated().zip(splayed) {
         let bones = &figure.parts[part].bones;
         let class = label.as_ref().map(|label| label.class);
         let by_bone = names.bones(part, bones, class, anatomy, &mut problems);
@@ -247,7 +247,11 @@ struct Matcher<'a> {
 }
 
 impl<'a> Matcher<'a> {
-    fn new(skeleton: &'a Skeleton, anatomy: &'a Anatomy, labels: &[Option<Label>]) -> Self {
+    fn new(
+        skeleton: &'a Skeleton,
+        anatomy: &'a Anatomy,
+        labels: &TiSlice<FigurePartId, Option<Label>>,
+    ) -> Self {
         let count = |class| {
             labels
                 .iter()
@@ -270,7 +274,7 @@ impl<'a> Matcher<'a> {
 
     fn drive(
         &self,
-        part: usize,
+        part: FigurePartId,
         label: &Label,
         lacking: &mut Vec<Problem>,
     ) -> Result<(Drive, String), String> {
@@ -305,7 +309,7 @@ impl<'a> Matcher<'a> {
 
     fn limb(
         &self,
-        part: usize,
+        part: FigurePartId,
         label: &Label,
         lacking: &mut Vec<Problem>,
     ) -> Result<(Drive, String), String> {
@@ -402,7 +406,7 @@ fn bone(limb: &Limb, segment: LimbSegment) -> Option<(JointId, Option<Tip>)> {
     }
 }
 
-fn lacks(problems: &mut Vec<Problem>, lacking: Class, at: Side, part: usize) {
+fn lacks(problems: &mut Vec<Problem>, lacking: Class, at: Side, part: FigurePartId) {
     for problem in problems.iter_mut() {
         if let Problem::NoSuchLimb { class, side, parts } = problem
             && (*class, *side) == (lacking, at)

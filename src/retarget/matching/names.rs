@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
 use super::{Drive, Follow, Problem, bone};
-use crate::labels::{Anatomy, Class, JointTree, LimbSegment, Tip, plain_names};
+use crate::labels::{Anatomy, Class, FigurePartId, JointTree, LimbSegment, Tip, plain_names};
 use crate::mocap::{JointId, Skeleton};
 
 /// How many names are suggested for an unknown one.
@@ -57,7 +57,7 @@ impl<'a> Names<'a> {
     /// The drive that a part's string names; `None` if it names none that is usable.
     pub(super) fn bones(
         &self,
-        part: usize,
+        part: FigurePartId,
         bones: &[String],
         class: Option<Class>,
         anatomy: &Anatomy,
@@ -127,7 +127,7 @@ impl<'a> Names<'a> {
             .map_or_else(|| self.tree.bone_end(joint), |(_, tip)| tip)
     }
 
-    fn unknown(&self, part: usize, name: &str, before: usize) -> Problem {
+    fn unknown(&self, part: FigurePartId, name: &str, before: usize) -> Problem {
         let lower: String = name.to_lowercase();
         let letters = lower.chars().count();
         let allowed = (letters / 3).max(1);

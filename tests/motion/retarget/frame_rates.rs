@@ -7,6 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use okoshi::internals::clips::{BuiltIn, Legs};
+use okoshi::internals::labels::FigurePartId;
 use okoshi::internals::mocap::bvh;
 use okoshi::internals::prepare::{Options, PreparedClip, built_in, prepare};
 use okoshi::internals::retarget::retarget;
@@ -73,7 +74,7 @@ fn compare(clip: impl Fn(f64) -> PreparedClip, feet: Feet) -> Compared {
         let turns = [0, 1].map(|rate| {
             let (rig, clip, hanging) = &played[rate];
             let now = placed(rig, clip, moment * RATES[rate].1);
-            let turn = |part: &usize| {
+            let turn = |part: &FigurePartId| {
                 let parent = rig.parts[*part].parent.expect("it hangs");
                 now[parent].rotation.inverse() * now[*part].rotation
             };

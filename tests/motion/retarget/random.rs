@@ -122,7 +122,7 @@ fn rig(clip: &Clip, (parts, facing): (Vec<PartSpec>, Facing)) -> Rig {
             }
         });
         RigPart {
-            parent: (index > 0).then(|| parent.index(index)),
+            parent: (index > 0).then(|| parent.index(index).into()),
             is_rooted: index == 0 || is_rooted,
             node: Transform {
                 rotation: DQuat::from_rotation_z(turn),
@@ -154,7 +154,7 @@ fn random_rigs_and_motions_give_finite_results() {
             let landmarks = Landmarks::of(&label_clip(&clip));
             let retargeted = retarget(&clip, &rig, &landmarks);
             prop_assert_eq!(retargeted.grounded.len(), clip.frames());
-            for part in 0..rig.parts.len() {
+            for part in rig.parts.keys() {
                 if let Some(turns) = &retargeted.rotations[part] {
                     prop_assert_eq!(turns.len(), clip.frames());
                     prop_assert!(turns.iter().all(|turn| (turn.length() - 1.0).abs() < 1e-9));

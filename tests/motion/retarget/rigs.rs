@@ -1,7 +1,7 @@
 //! Rigs to retarget motions to: drawn at an angle, so that nothing points in the direction of the clip's rest pose.
 
 use glam::{DQuat, DVec3, dvec3};
-use okoshi::internals::labels::{Anatomy, Class, Facing, Limb, Side, Tip};
+use okoshi::internals::labels::{Anatomy, Class, Facing, FigurePartId, Limb, Side, Tip};
 use okoshi::internals::mocap::{JointId, Transform};
 use okoshi::internals::retarget::{Drive, Follow};
 use okoshi::internals::retarget::{Rig, RigPart};
@@ -37,7 +37,11 @@ fn bones(limb: &Limb, pieces: usize) -> Vec<(JointId, Option<Tip>)> {
 }
 
 /// A part from a joint to a tip that nothing drives; +Y of its node points along it.
-pub(crate) fn part(parent: Option<usize>, is_rooted: bool, [joint, tip]: [DVec3; 2]) -> RigPart {
+pub(crate) fn part(
+    parent: Option<FigurePartId>,
+    is_rooted: bool,
+    [joint, tip]: [DVec3; 2],
+) -> RigPart {
     let way = tip - joint;
     RigPart {
         parent,
@@ -66,12 +70,22 @@ struct Builder {
 }
 
 impl Builder {
-    fn add(&mut self, parent: Option<usize>, is_rooted: bool, [joint, tip]: [DVec3; 2]) -> usize {
-        self.rig.parts.push(part(parent, is_rooted, [joint, tip]));
-        self.rig.parts.len() - 1
+    fn add(
+        &mut self,
+        parent: Option<FigurePartId>,
+        is_rooted: bool,
+        [joint, tip]: [DVec3; 2],
+    ) -> FigurePartId {
+        let part = part(parent, is_rooted, [joint, tip]);
+        self.rig.parts.push_and_get_key(part)
     }
 
-    fn trunk(&mut self, parent: Option<usize>, ends: [DVec3; 2], joint: Option<JointId>) -> usize {
+    fn trunk(
+        &mut self,
+        parent: Option<FigurePartId>,
+        ends: [DVec3; 2],
+        joint: Option<JointId>,
+    ) -> FigurePartId {
         let part = self.add(parent, parent.is_none() || self.limbs == Limbs::Loose, ends);
         self.rig.parts[part].drive = joint.map(|joint| Drive {
             joint,
@@ -82,7 +96,7 @@ impl Builder {
     }
 
     /// A limb along these points; the last piece of a leg has a sole.
-    fn limb(&mut self, parent: usize, points: &[DVec3], limb: &Limb, pieces: usize) {
+    fn limb(&mut self, parent: FigurePartId, points: &[DVec3], limb: &Limb, pieces: usize) {
         let is_leg = limb.class == Class::Leg;
         let mut parent = parent;
         let bones = bones(limb, pieces);

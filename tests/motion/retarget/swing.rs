@@ -3,18 +3,18 @@
 use std::sync::Arc;
 
 use glam::{DVec3, dvec3};
-use okoshi::internals::labels::Anatomy;
-use okoshi::internals::mocap::{Axis, Channel, Clip, Joint, Skeleton, Transform};
+use okoshi::internals::labels::{Anatomy, FigurePartId};
+use okoshi::internals::mocap::{Axis, Channel, Clip, Joint, Skeleton};
 use okoshi::internals::retarget::{Drive, Follow};
 use okoshi::internals::retarget::{Landmarks, Rig, RigPart, retarget};
 use typed_index_collections::ti_vec;
 
 use super::clips::{FILES, clip};
 use super::rigs::{Limbs, biped, part};
-use super::{angle, apart, placed};
+use super::{Placed, angle, apart, placed};
 
 /// A part from a joint to a tip that hangs on another and swings.
-fn hanging(parent: usize, joint: DVec3, tip: DVec3, swing: Option<f64>) -> RigPart {
+fn hanging(parent: FigurePartId, joint: DVec3, tip: DVec3, swing: Option<f64>) -> RigPart {
     RigPart {
         swing,
         ..part(Some(parent), false, [joint, tip])
@@ -22,10 +22,10 @@ fn hanging(parent: usize, joint: DVec3, tip: DVec3, swing: Option<f64>) -> RigPa
 }
 
 /// A figure with a pony tail of two strands, a tail and a cape; and the indices of these.
-pub(super) fn hairy(anatomy: &Anatomy, stiffness: Option<f64>) -> (Rig, Vec<usize>) {
+pub(super) fn hairy(anatomy: &Anatomy, stiffness: Option<f64>) -> (Rig, Vec<FigurePartId>) {
     let mut rig = biped(anatomy, Limbs::Bound, 2);
-    let (hips, chest, head) = (0, 2, 3);
-    let first = rig.parts.len();
+    let [hips, chest, head] = [0, 2, 3].map(FigurePartId::from);
+    let first = rig.parts.next_key();
     let at = |x: f64, y: f64| dvec3(x, y, 0.0);
     rig.parts
         .push(hanging(head, at(-4.0, 188.0), at(-14.0, 170.0), stiffness));
@@ -46,12 +46,12 @@ pub(super) fn hairy(anatomy: &Anatomy, stiffness: Option<f64>) -> (Rig, Vec<usiz
     };
     rig.parts[head].surface = ball(at(0.0, 178.0), dvec3(12.0, 14.0, 12.0));
     rig.parts[chest].surface = ball(at(0.0, 145.0), dvec3(16.0, 18.0, 9.0));
-    let hanging = (first..rig.parts.len()).collect();
+    let hanging = rig.parts.keys().skip(first.into()).collect();
     (rig, hanging)
 }
 
 /// The largest angle between a part and where it would be without swinging, in a frame.
-fn deviation(rig: &Rig, still: &[Transform], now: &[Transform], part: usize) -> f64 {
+fn deviation(rig: &Rig, still: &Placed, now: &Placed, part: FigurePartId) -> f64 {
     let parent = rig.parts[part].parent.expect("it hangs");
     // What it hangs on may swing itself.
     let carried = now[parent].rotation * still[parent].rotation.inverse() * still[part].rotation;
@@ -78,7 +78,7 @@ fn nothing_swings_farther_than_sixty_degrees() {
                 for part in &hanging {
                     own = own.max(deviation(&rig, &still, &now, *part));
                 }
-                for part in 0..hanging[0] {
+                for part in rig.parts.keys().take(hanging[0].into()) {
                     assert!(apart(still[part].rotation, now[part].rotation) < 1e-9);
                     assert!(still[part].position.distance(now[part].position) < 1e-9);
                 }
@@ -114,11 +114,11 @@ fn turning(degrees: &[f64]) -> (Clip, Rig) {
             tip: None,
             follow: Follow::Change,
         }),
-        ..hanging(0, DVec3::ZERO, DVec3::Y, None)
+        ..hanging(0.into(), DVec3::ZERO, DVec3::Y, None)
     };
-    let tail = hanging(0, DVec3::ZERO, dvec3(0.0, -30.0, 0.0), Some(1.0));
+    let tail = hanging(0.into(), DVec3::ZERO, dvec3(0.0, -30.0, 0.0), Some(1.0));
     let rig = Rig {
-        parts: vec![body, tail],
+        parts: ti_vec![body, tail],
         ..Rig::default()
     };
     (clip, rig)
@@ -128,7 +128,7 @@ fn turning(degrees: &[f64]) -> (Clip, Rig) {
 fn tail_angles(degrees: &[f64]) -> Vec<f64> {
     let (clip, rig) = turning(degrees);
     let played = retarget(&clip, &rig, &Landmarks::default());
-    let down = |frame: usize| placed(&rig, &played, frame)[1].rotation * DVec3::Y;
+    let down = |frame: usize| placed(&rig, &played, frame).raw[1].rotation * DVec3::Y;
     (0..clip.frames())
         .map(|frame| angle(DVec3::NEG_Y, down(frame)).copysign(down(frame).x))
         .collect()

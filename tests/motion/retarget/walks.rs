@@ -1,13 +1,13 @@
 //! Walking legs: the direction that they face, and feet that do not slide.
 
 use glam::{DVec3, dvec3};
-use okoshi::internals::labels::Facing;
-use okoshi::internals::mocap::{Clip, JointId, Pose, Transform};
+use okoshi::internals::labels::{Facing, FigurePartId};
+use okoshi::internals::mocap::{Clip, JointId, Pose};
 use okoshi::internals::retarget::{Landmarks, RetargetedClip, Rig, retarget};
 
 use super::clips::{FILES, clip};
 use super::rigs::{Limbs, biped, dog};
-use super::{Body, angle, direction, end, moved_point, placed};
+use super::{Body, Placed, angle, direction, end, moved_point, placed};
 
 /// The figure's leg is about this long, drawing units.
 const LEG: f64 = 97.0;
@@ -34,7 +34,7 @@ fn thighs_face_forward_in_walks() {
                 let [_, front] = body.left_and_front(&pose);
                 let front = body.drawn(&first, front);
                 let placed = placed(&rig, &retargeted, frame);
-                for (index, part) in rig.parts.iter().enumerate() {
+                for (index, part) in rig.parts.iter_enumerated() {
                     let drive = part.drive.filter(|_| part.is_leg);
                     let thighs = landmarks.thighs.expect("legs");
                     let Some(drive) = drive.filter(|drive| thighs.contains(&drive.joint)) else {
@@ -65,9 +65,9 @@ fn thighs_face_forward_in_walks() {
 }
 
 /// The feet of a rig: per foot of the clip the parts that stand on it.
-fn feet(rig: &Rig) -> Vec<Vec<usize>> {
-    let mut feet: Vec<(JointId, Vec<usize>)> = Vec::new();
-    for (index, part) in rig.parts.iter().enumerate() {
+fn feet(rig: &Rig) -> Vec<Vec<FigurePartId>> {
+    let mut feet: Vec<(JointId, Vec<FigurePartId>)> = Vec::new();
+    for (index, part) in rig.parts.iter_enumerated() {
         let Some(drive) = part.drive.filter(|_| part.stands) else {
             continue;
         };
@@ -80,7 +80,7 @@ fn feet(rig: &Rig) -> Vec<Vec<usize>> {
 }
 
 /// Where the points of a foot are.
-fn soles(rig: &Rig, placed: &[Transform], foot: &[usize]) -> Vec<DVec3> {
+fn soles(rig: &Rig, placed: &Placed, foot: &[FigurePartId]) -> Vec<DVec3> {
     let points = foot.iter().flat_map(|part| {
         let surface = rig.parts[*part].surface.iter();
         surface.map(move |point| moved_point(rig, placed, *part, *point))
@@ -208,7 +208,7 @@ fn walks_travel() {
     let landmarks = Landmarks::of(&prepared.anatomy);
     let rig = biped(&prepared.anatomy, Limbs::Bound, 2);
     let retargeted = retarget(&prepared.clip, &rig, &landmarks);
-    let places = retargeted.translations[0].as_ref().expect("it goes");
+    let places = retargeted.translations.raw[0].as_ref().expect("it goes");
     let way = places[places.len() - 1] - places[0];
     let pose = |frame: usize| prepared.clip.pose(frame)[landmarks.hips].position;
     let body = Body::of(&prepared.clip, &landmarks, Facing::Viewer);
