@@ -46,9 +46,11 @@ pub(crate) use symbols::Outline;
 pub(crate) use tokens::{SemanticToken, TokenClass};
 pub(crate) use uses::{Symbol, Use};
 
+pub(crate) use crate::bind::PartId;
+
 use std::sync::Arc;
 
-use crate::bind::{Bindings, PartId, PartKind};
+use crate::bind::{Bindings, PartKind};
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
 use crate::svg::Drawing;

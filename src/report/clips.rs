@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::bind::PartId;
 use crate::compile::Compiled;
+use crate::ide::PartId;
 use crate::rig::{FigureClip, PartDrive, Performance};
 
 /// The most speeds in a report: more cannot be told apart on a screen.

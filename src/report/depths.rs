@@ -1,8 +1,8 @@
 //! How far in front of others parts lie, and why, for people.
 
-use crate::bind::PartId;
 use crate::compile::Compiled;
 use crate::figure::Reason;
+use crate::ide::PartId;
 
 /// Differences that are smaller are none, drawing units.
 const NONE: f64 = 5e-3;

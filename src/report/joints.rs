@@ -2,8 +2,8 @@
 
 use typed_index_collections::{TiVec, ti_vec};
 
-use crate::bind::PartId;
 use crate::compile::Compiled;
+use crate::ide::PartId;
 
 /// The joint that drives a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
