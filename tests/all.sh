@@ -21,6 +21,8 @@ target=${CARGO_TARGET_DIR:-target}
 okoshi=$target/debug/okoshi
 models=$target/examples
 export CARGO_TERM_PROGRESS_WHEN=never
+# What only a next build would need takes time and a third of the disk. Where somebody works with it, it stays.
+[ -d "$target/debug/incremental" ] || export CARGO_INCREMENTAL=${CARGO_INCREMENTAL:-0}
 # Laws try the same random cases in every run of this script, so that a change is judged by what it changes; `cargo test` by itself tries
 # others each time.
 export PROPTEST_RNG_SEED=${PROPTEST_RNG_SEED:-1}

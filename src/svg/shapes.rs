@@ -16,10 +16,8 @@ use super::prepare::Prepared;
 use super::style::Styles;
 use super::tangles::Tangles;
 use super::unsolid::Who;
-use super::walk::{Leaf, Task, Walk};
-use super::{
-    Drawing, Element, GroupId, Paint, PaintKey, PictureSource, Shape, ShapeId, growth, unseen,
-};
+use super::walk::{Leaf, Task, Walk, group_kind};
+use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, ShapeId, growth, unseen};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{FillRule, Outline, resolve_crossings, resolve_overlaps};
 use crate::resolver::Resolver;
@@ -144,14 +142,20 @@ pub(super) fn read(
         unseen,
         pixel_groups: None,
     };
-    let last_group = drawing.groups.last_key().unwrap_or(GroupId::ROOT);
+    // A shape that is left out is neither, and has its own report.
     let who = |node: NodeId| match shape_of_node.get(&node) {
-        Some(shape) => Who::Shape(*shape),
-        None => Who::Group(group_of[node.get_usize()].unwrap_or(last_group)),
+        Some(shape) => Some(Who::Shape(*shape)),
+        None => {
+            let is_group = document.get_node(node).and_then(group_kind).is_some();
+            let group = group_of[node.get_usize()].filter(|_| is_group);
+            group.map(Who::Group)
+        }
     };
     for (feature, nodes) in unsolid {
-        let users: Vec<Who> = nodes.into_iter().map(who).collect();
-        diagnostics.push(feature.report(&drawing, &users));
+        let users: Vec<Who> = nodes.into_iter().filter_map(who).collect();
+        if !users.is_empty() {
+            diagnostics.push(feature.report(&drawing, &users));
+        }
     }
     Ok(drawing)
 }

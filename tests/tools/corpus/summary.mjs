@@ -67,30 +67,46 @@ function builds(records) {
   return ['| | |', '|---|---|', ...rows.map(([name, value]) => `| ${name} | ${value} |`)].join('\n')
 }
 
-/** The silhouettes as a whole, and the worst of them. */
-function silhouettes(compared) {
+/** Silhouettes as a whole. */
+function overall(compared) {
   const measured = compared.filter(({ overlap }) => typeof overlap === 'number').sort((a, b) => a.overlap - b.overlap)
   const overlaps = measured.map(({ overlap }) => overlap)
-  const low = overlaps.filter((overlap) => overlap < 0.9).length
+  const silent = measured.find(({ codes }) => Object.keys(codes).length === 0)
+  return {
+    measured,
+    median: quantile(overlaps, 0.5)?.toFixed(3),
+    low: count(overlaps.filter((overlap) => overlap < 0.9).length),
+    left: compared.length > measured.length ? ` ${count(compared.length - measured.length)} more could not be compared.` : '',
+    silent,
+  }
+}
+
+/** The silhouettes of both halves, and the worst of that which is looked at. */
+function silhouettes(listed, heldBack) {
+  const { measured, median, low, left, silent } = overall(listed)
   const rows = measured
     .slice(0, 10)
     .map((record) => `| ${record.overlap.toFixed(3)} | ${ofDrawing(record)} | ${Object.keys(record.codes).map(link).join(', ') || 'none'} |`)
-  const silent = measured.find(({ codes }) => Object.keys(codes).length === 0)
   const least = silent ? ` The lowest about which okoshi says nothing is ${silent.overlap.toFixed(3)}: ${ofDrawing(silent)}.` : ''
-  const failed = compared.length - measured.length
-  const left = failed ? ` ${count(failed)} more could not be compared.` : ''
+  const others = overall(heldBack)
+  const unseen = others.measured.length
+    ? `
+
+The worst of these were looked at, and okoshi was improved by what they showed. Of ${count(others.measured.length)} others, which were held back and at which nobody
+looked, the median overlap is **${others.median}**, with ${others.low} below 0.9, and the lowest about which okoshi says nothing is ${others.silent?.overlap.toFixed(3) ?? 'none'}.${others.left}`
+    : ''
   return `For ${count(measured.length)} of them, evenly spread over the packages, the silhouette of the model as drawn was compared with the picture
 of the drawing by resvg, without texts.${left} The median overlap (intersection over union, with pixels counted as far as they are opaque) is
-**${quantile(overlaps, 0.5).toFixed(3)}**, with ${count(low)} below 0.9.${least} The worst:
+**${median}**, with ${low} below 0.9.${least} The worst:
 
 | overlap | drawing | findings |
 |--:|---|---|
-${rows.join('\n')}`
+${rows.join('\n')}${unseen}`
 }
 
 /** The summary of a run. */
-export function summary({ sources, records, compared }) {
-  return `${packages(sources, records)}\n\n${builds(records)}\n\n${silhouettes(compared)}\n`
+export function summary({ sources, records, listed, heldBack }) {
+  return `${packages(sources, records)}\n\n${builds(records)}\n\n${silhouettes(listed, heldBack)}\n`
 }
 
 /** A page with the text between its markers replaced. */
