@@ -32,8 +32,8 @@ pub(in crate::bind) struct Stacking {
     parts: TiVec<PartId, StackedPart>,
     tree: BoxTree<PartId>,
     facts: TiVec<PartId, Facts>,
-    /// How many of the back-most parts are ground.
-    ground: usize,
+    /// The first part that is no ground.
+    ground: PartId,
 }
 
 #[derive(Debug)]
@@ -130,7 +130,7 @@ impl Stacking {
             parts,
             tree,
             facts: ti_vec![],
-            ground,
+            ground: ground.into(),
         };
         let facts = par_keys(&stacking.parts)
             .with_min_len(GRAIN)
@@ -155,7 +155,7 @@ impl Stacking {
 
     /// Whether a part is ground: one of the back-most parts, which fill the page.
     pub(in crate::bind) fn is_ground(&self, part: PartId) -> bool {
-        usize::from(part) < self.ground
+        part < self.ground
     }
 
     /// Whether a part takes part: others cover nothing, and nothing is known about them.
