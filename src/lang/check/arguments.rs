@@ -3,6 +3,7 @@
 use super::Checker;
 use crate::diagnostic::{Code, Diagnostic, has_one_near_word, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Name};
+use crate::lang::did_you_mean;
 use crate::lang::evaluate::{EvaluationError, Lookup, evaluate};
 use crate::lang::keyword::colors::{self, COLORS};
 use crate::lang::keyword::kinds::Kind;
@@ -210,14 +211,9 @@ impl Checker<'_> {
         } else {
             format!("a number from -{MAX_NUMBER} to {MAX_NUMBER}")
         };
-        self.diagnostics.push(
-            Diagnostic::new(
-                Code::OutOfRange,
-                self.text.span(argument.range.clone()),
-                message,
-            )
-            .label(format!("expected {expected}")),
-        );
+        let diagnostic = self.diagnostic(Code::OutOfRange, &argument.range, message);
+        self.diagnostics
+            .push(diagnostic.label(format!("expected {expected}")));
         Err(ArgumentError::Invalid)
     }
 
@@ -256,21 +252,17 @@ impl Checker<'_> {
         word: &str,
         names: impl Iterator<Item = &'w str> + Clone,
     ) {
-        let span = self.text.span(argument.range.clone());
         let what = match callee.keyword {
             Keyword::Shape => "not a kind of `Shape`".to_owned(),
             Keyword::Color | Keyword::Mark => "not a colour".to_owned(),
             _ => format!("not a value for `{}`", callee.name),
         };
-        let diagnostic = Diagnostic::new(Code::UnknownWord, span, format!("`{word}` is {what}"));
+        let message = format!("`{word}` is {what}");
+        let diagnostic = self.diagnostic(Code::UnknownWord, &argument.range, message);
         let all: Vec<_> = names.clone().map(|name| format!("`{name}`")).collect();
         let diagnostic = match nearest_word(word, names.clone()) {
             Some(near) => {
-                let diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
-                    format!("Write `{near}`"),
-                    span,
-                    self.text.escape_at(argument.range.start, near),
-                );
+                let diagnostic = did_you_mean(diagnostic, self.text, &argument.range, near);
                 if has_one_near_word(word, names) {
                     diagnostic.safe()
                 } else {
@@ -322,18 +314,14 @@ impl Checker<'_> {
             return true;
         }
         let message = format!("`{}` has too many arguments", callee.name);
-        self.diagnostics.push(
-            Diagnostic::new(
-                Code::ArgumentCount,
-                self.text.span(first.range.start..last.range.end),
-                message,
-            )
-            .label(match excess.len() {
-                1 => "one too many".to_owned(),
-                count => format!("{count} too many"),
-            })
-            .help(format!("write `{}`", callee.usage())),
-        );
+        let range = first.range.start..last.range.end;
+        let diagnostic = self.diagnostic(Code::ArgumentCount, &range, message);
+        let diagnostic = diagnostic.label(match excess.len() {
+            1 => "one too many".to_owned(),
+            count => format!("{count} too many"),
+        });
+        self.diagnostics
+            .push(diagnostic.help(format!("write `{}`", callee.usage())));
         false
     }
 
@@ -366,12 +354,9 @@ impl Checker<'_> {
             .last()
             .map_or(callee.range.end, |last| last.range.end);
         let message = format!("`{}` has too few arguments", callee.name);
-        let diagnostic = Diagnostic::new(
-            Code::ArgumentCount,
-            self.text.span(callee.range.start..end),
-            message,
-        )
-        .help(format!("write `{}`", callee.usage()));
+        let range = callee.range.start..end;
+        let diagnostic = self.diagnostic(Code::ArgumentCount, &range, message);
+        let diagnostic = diagnostic.help(format!("write `{}`", callee.usage()));
         self.diagnostics.push(match missing {
             Some(missing) => diagnostic.label(format!("`{}` is missing", missing.print())),
             None => diagnostic,
@@ -384,11 +369,8 @@ impl Checker<'_> {
         parameter: &Parameter,
         argument: &Argument,
     ) {
-        let written = self
-            .text
-            .as_str()
-            .get(argument.range.clone())
-            .unwrap_or_default();
+        let text = self.text.as_str();
+        let written = text.get(argument.range.clone()).unwrap_or_default();
         let shown: String = written.chars().take(40).collect();
         let span = self.text.span(argument.range.clone());
         let message = format!("`{shown}` is not what `{}` needs here", callee.name);
@@ -414,14 +396,11 @@ impl Checker<'_> {
     fn bad_hex(&mut self, argument: &Argument, digits: &str) {
         let shown: String = digits.chars().take(20).collect();
         let message = format!("`#{shown}` is not a colour");
+        let diagnostic = self.diagnostic(Code::ArgumentType, &argument.range, message);
         self.diagnostics.push(
-            Diagnostic::new(
-                Code::ArgumentType,
-                self.text.span(argument.range.clone()),
-                message,
-            )
-            .label("expected 3, 4, 6 or 8 digits from 0 to f")
-            .help("write a colour as `#rrggbb`, for example `#ff8800`"),
+            diagnostic
+                .label("expected 3, 4, 6 or 8 digits from 0 to f")
+                .help("write a colour as `#rrggbb`, for example `#ff8800`"),
         );
     }
 }

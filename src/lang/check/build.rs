@@ -5,6 +5,7 @@ use super::arguments::{ArgumentValue, Callee};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::{Argument, ArgumentKind, Attribute};
 use crate::lang::evaluate::Lookup;
+use crate::lang::fixed_by_writing;
 use crate::lang::keyword::kinds::{Kind, Rule};
 use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, kinds};
@@ -17,16 +18,12 @@ use crate::lang::value::{
 impl Checker<'_> {
     /// The value of an attribute, and its arguments as text.
     pub(super) fn value(&mut self, attribute: &Attribute) -> Option<(Value, Vec<String>)> {
+        let forms = attribute.keyword.row().forms;
         let callee = Callee {
             name: attribute.keyword.name(),
             kind: None,
             range: &attribute.keyword_range,
-            parameters: attribute
-                .keyword
-                .row()
-                .forms
-                .first()
-                .map_or(0, |form| form.parameters.len()),
+            parameters: forms.first().map_or(0, |form| form.parameters.len()),
             keyword: attribute.keyword,
         };
         if attribute.keyword == Keyword::Shape {
@@ -100,22 +97,13 @@ impl Checker<'_> {
         if bytes.iter().all(|value| *value <= 1.) {
             return false;
         }
-        let digits: String = bytes
-            .iter()
-            .map(|value| format!("{value:02x}", value = *value as u8))
-            .collect();
+        let digits = bytes.iter().map(|value| format!("{:02x}", *value as u8));
+        let color = format!("#{}", digits.collect::<String>());
         let range = first.range.start..last.range.end;
-        let span = self.text.span(range.clone());
         let message = "red, green and blue go from 0 to 1, not from 0 to 255";
-        self.diagnostics.push(
-            Diagnostic::new(Code::OutOfRange, span, message)
-                .fix(
-                    format!("Write `#{digits}`"),
-                    span,
-                    self.text.escape_at(range.start, &format!("#{digits}")),
-                )
-                .safe(),
-        );
+        let diagnostic = self.diagnostic(Code::OutOfRange, &range, message);
+        self.diagnostics
+            .push(fixed_by_writing(diagnostic, self.text, &range, &color).safe());
         true
     }
 
@@ -125,14 +113,9 @@ impl Checker<'_> {
             return self.check_handedness(axes, attribute);
         }
         let message = "`Axes` uses one axis twice";
-        self.diagnostics.push(
-            Diagnostic::new(
-                Code::OutOfRange,
-                self.text.span(attribute.range.clone()),
-                message,
-            )
-            .help("use each of x, y and z once: `%Axes +x +y +z`"),
-        );
+        let diagnostic = self.diagnostic(Code::OutOfRange, &attribute.range, message);
+        self.diagnostics
+            .push(diagnostic.help("use each of x, y and z once: `%Axes +x +y +z`"));
         None
     }
 
@@ -144,23 +127,16 @@ impl Checker<'_> {
             return Some(());
         }
         let message = "these `Axes` would mirror the model";
-        let mut diagnostic = Diagnostic::new(
-            Code::OutOfRange,
-            self.text.span(attribute.range.clone()),
-            message,
-        )
-        .help("reverse one of the three directions, for example from `+z` to `-z`");
+        let diagnostic = self.diagnostic(Code::OutOfRange, &attribute.range, message);
+        let mut diagnostic =
+            diagnostic.help("reverse one of the three directions, for example from `+z` to `-z`");
         if let Some(front) = attribute.arguments.last() {
             let written = &self.text.as_str()[front.range.clone()];
             let reversed = match written.strip_prefix('-') {
                 Some(axis) => format!("+{axis}"),
                 None => format!("-{}", written.trim_start_matches('+')),
             };
-            diagnostic = diagnostic.fix(
-                format!("Write `{reversed}`"),
-                self.text.span(front.range.clone()),
-                reversed,
-            );
+            diagnostic = fixed_by_writing(diagnostic, self.text, &front.range, &reversed);
         }
         self.diagnostics.push(diagnostic);
         None
