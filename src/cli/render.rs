@@ -21,7 +21,7 @@ use crate::resolver::Recorder;
 mod cameras;
 mod clips;
 pub(super) mod movie;
-mod video;
+pub(super) mod video;
 
 /// The side in pixels of the thumbnails that the colours of a GIF are chosen from.
 const THUMBNAIL_SIZE: u32 = 128;
