@@ -133,13 +133,13 @@ fn read(arguments: &Motion, name: &str) -> Result<Reading, Outcome> {
         Ok(reading) => return Ok(reading),
         Err(error) => error,
     };
-    let rescued = error.partial.take().filter(|clip| clip.frames() > 0);
+    let rescued = error.partial.take().filter(|clip| clip.frames > 0);
     let outcome = fail(format!("{name}: {error}"));
     eprintln!("  help: {}", error.help);
     let Some(clip) = rescued else {
         return Err(outcome);
     };
-    let before = counted(clip.frames(), "frame");
+    let before = counted(clip.frames, "frame");
     if !arguments.keep_going {
         eprintln!("  help: --keep-going continues with the {before} before it");
         return Err(outcome);
@@ -216,7 +216,7 @@ fn describe(clip: &Clip) -> String {
     format!(
         "{}, {} at {} a second",
         counted(clip.skeleton.joints.len(), "joint"),
-        counted(clip.frames(), "frame"),
+        counted(clip.frames, "frame"),
         round(rate(clip.frame_time)),
     )
 }
@@ -229,7 +229,7 @@ fn round(number: f64) -> f64 {
 /// Reports what was omitted and held, and the error against the source.
 fn report(edited: &EditedClip, arguments: &Motion) -> String {
     let mut out = String::new();
-    let frames = counted(edited.clip.frames(), "frame");
+    let frames = counted(edited.clip.frames, "frame");
     let fps = round(rate(edited.clip.frame_time));
     let _ = writeln!(out, "  {frames} at {fps} a second");
     let Some(exposure) = &edited.exposure else {

@@ -309,7 +309,7 @@ fn draw(
     what: (Form, Subject),
 ) -> Result<String, Failure> {
     let options = options(arguments, what.0);
-    let picture = describe_picture(options.size, posed.triangles());
+    let picture = describe_picture(options.size, posed.triangles);
     let name = output.path.display();
     match what {
         (Form::Png, Subject::Turntable(frames)) => {
@@ -379,7 +379,7 @@ fn draw_page(
     let target = output.single()?;
     let image = spinning("drawing", || posed.picture_of(&options, &sheet))?;
     target.write(|out| write_png(&image, out))?;
-    let picture = describe_picture(size, posed.triangles());
+    let picture = describe_picture(size, posed.triangles);
     Ok(format!("{}: {picture}", output.path.display()))
 }
 

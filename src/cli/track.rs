@@ -46,9 +46,9 @@ enum Annotated {
 /// Follows marks through a clip.
 
 pub(super) fn run(arguments: &Track, common: Common) -> Result<Outcome, Failure> {
-    let names = arguments.marks.iter().map(|mark| mark.name());
+    let names = arguments.marks.iter().map(|mark| mark.name.as_str());
     if let Some(index) = repeated_name(names) {
-        let name = arguments.marks[index].name();
+        let name = &arguments.marks[index].name;
         return Err(format!(
             "there are two marks `{name}`: name them, as in `--mark left={name} --mark right={name}`, \
              and give them colours that differ"
@@ -164,7 +164,7 @@ fn not_found(arguments: &Track, error: &LearnError) -> String {
     };
     format!(
         "the mark `{}` is not in `{}`: it would be {}, and {hues}; choose one of these, the largest area comes first",
-        arguments.marks[error.mark].name(),
+        arguments.marks[error.mark].name,
         arguments.clips[0].display(),
         hue_name(error.hue),
     )

@@ -12,7 +12,7 @@ const FAR: f64 = 1e280;
 /// All segments that one drawing may be held for, with their cost: Σ ‖p(t) − p(drawing)‖² over the frames of the segment, for
 /// its best drawing.
 pub(super) struct Segments {
-    frames: usize,
+    pub(super) frames: usize,
     max_hold: usize,
     /// `frames × max_hold`: the cost of each segment, by its first frame and its length − 1.
     costs: Vec<f64>,
@@ -119,10 +119,6 @@ impl Segments {
             }
             start = end;
         }
-    }
-
-    pub(super) fn frames(&self) -> usize {
-        self.frames
     }
 
     /// The segments that begin at a frame, as end and cost.

@@ -28,8 +28,8 @@ pub type Image = RgbaImage;
 pub struct PosedModel<'a> {
     model: &'a Model,
     pose: Pose,
-    normalization: Normalization,
-    triangles: usize,
+    pub(super) normalization: Normalization,
+    pub triangles: usize,
     /// The geometry for every view; `None` if it depends on the view.
     view_independent: Option<Tracer<'a>>,
     /// The points that must be in every picture, unless they depend on the view.
@@ -58,16 +58,6 @@ impl<'a> PosedModel<'a> {
             })
         };
         on_pool(build)
-    }
-
-    /// The number of triangles.
-    pub fn triangles(&self) -> usize {
-        self.triangles
-    }
-
-    /// From the world into normalised space.
-    pub(super) fn normalization(&self) -> Normalization {
-        self.normalization
     }
 
     /// The surface of a view-dependent model for a viewer; see [`Options::viewer`].

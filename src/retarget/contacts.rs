@@ -48,7 +48,7 @@ impl Walk {
                 None => feet.push(Foot {
                     drive,
                     parts: vec![index],
-                    clearance: vec![f64::INFINITY; clip.frames()],
+                    clearance: vec![f64::INFINITY; clip.frames],
                     holds: Vec::new(),
                 }),
             }
@@ -58,12 +58,12 @@ impl Walk {
             .map(|foot| ground_points(landmarks, &foot.drive))
             .collect();
         let to_drawing = axes.first.inverse();
-        let mut hips = Vec::with_capacity(clip.frames());
+        let mut hips = Vec::with_capacity(clip.frames);
         let mut paths: Vec<Vec<Vec<DVec3>>> = ends
             .iter()
-            .map(|ends| vec![Vec::with_capacity(clip.frames()); ends.len()])
+            .map(|ends| vec![Vec::with_capacity(clip.frames); ends.len()])
             .collect();
-        for frame in 0..clip.frames() {
+        for frame in 0..clip.frames {
             let pose = poses.at(frame);
             hips.push(to_drawing * pose[landmarks.hips].position);
             for (ends, paths) in ends.iter().zip(&mut paths) {
@@ -78,7 +78,7 @@ impl Walk {
                 foot.measure(path, *lowest);
             }
         }
-        let frames: Vec<f64> = (0..clip.frames()).map(|frame| frame as f64).collect();
+        let frames: Vec<f64> = (0..clip.frames).map(|frame| frame as f64).collect();
         Self {
             hips,
             feet,
@@ -100,7 +100,7 @@ impl Walk {
     /// they are now.
     #[must_use]
     pub(super) fn timed(&self, map: &TimeMap) -> Self {
-        let places = map.places().iter();
+        let places = map.places.iter();
         let places: Vec<f64> = places.map(|mix| mix.from as f64 + mix.t).collect();
         let between = |a: f64, b: f64, t: f64| a + (b - a) * t;
         let foot = |foot: &Foot| Foot {

@@ -43,7 +43,7 @@ pub(super) fn choose(
     let offsets = clip.skeleton.offset_pose();
     // The skeleton may have been made in other axes than the motion.
     let up = ground::upright(&offsets, landmarks);
-    if clip.frames() == 0 || stands(&offsets, landmarks, up) {
+    if clip.frames == 0 || stands(&offsets, landmarks, up) {
         return RestPose {
             source: RestSource::Offsets,
             axes: axes.at_upright(landmarks, &offsets, up),
@@ -94,7 +94,7 @@ fn nearest(
     poses: &mut PoseBuffer<'_>,
 ) -> usize {
     let mut best = (0, f64::INFINITY);
-    for frame in 0..clip.frames() {
+    for frame in 0..clip.frames {
         let pose = poses.at(frame);
         let to_drawing = axes.at(landmarks, pose).inverse();
         let mut sum = 0.0;

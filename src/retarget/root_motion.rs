@@ -209,7 +209,7 @@ pub(super) fn leg_lengths(
     landmarks: &Landmarks,
     poses: &mut PoseBuffer<'_>,
 ) -> [f64; 2] {
-    let pose = match clip.frames() {
+    let pose = match clip.frames {
         0 => clip.skeleton.offset_pose(),
         _ => poses.at(0).to_vec(),
     };

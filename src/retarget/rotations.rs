@@ -143,9 +143,9 @@ pub(super) fn rotations(
     let solvers: Vec<(usize, PartRotation)> = order.iter().filter_map(solver).collect();
     let mut own: Vec<Option<Vec<DQuat>>> = vec![None; count];
     for (part, _) in &solvers {
-        own[*part] = Some(Vec::with_capacity(clip.frames()));
+        own[*part] = Some(Vec::with_capacity(clip.frames));
     }
-    for frame in 0..clip.frames() {
+    for frame in 0..clip.frames {
         let pose = poses.at(frame);
         for (part, solver) in &solvers {
             if let Some(rotations) = &mut own[*part] {
@@ -209,7 +209,7 @@ fn mean_references(
     if sums.iter().all(Option::is_none) {
         return vec![None; rig.parts.len()];
     }
-    for frame in 0..clip.frames() {
+    for frame in 0..clip.frames {
         let pose = poses.at(frame);
         let body = axes.at(landmarks, pose);
         for (drive, turns, directions) in sums.iter_mut().flatten() {
@@ -220,7 +220,7 @@ fn mean_references(
         }
     }
     let mean = |(_, turns, directions): (Drive, DQuat, DVec3)| {
-        let frames = clip.frames() as f64;
+        let frames = clip.frames as f64;
         let is_clear = turns.length() > MAIN * frames && directions.length() > MAIN * frames;
         is_clear.then(|| Reference {
             turn: turns.normalize(),

@@ -60,7 +60,7 @@ impl<'a> Turns<'a> {
             rig,
             order,
             moving,
-            frames: clip.frames(),
+            frames: clip.frames,
             frame_time: clip.frame_time,
         }
     }

@@ -119,7 +119,7 @@ pub(super) fn strip(
     })
     .map_err(|error| of_drawing(arguments, &error))?;
     target.write(|out| write_png(&image, out))?;
-    let picture = describe_picture(options.size, film.triangles());
+    let picture = describe_picture(options.size, film.triangles);
     let name = output.path.display();
     Ok(format!("{name}: {cells} moments, {picture} each"))
 }
@@ -153,7 +153,7 @@ pub(super) fn numbered(
             Ok::<(), Failure>(())
         })
     })?;
-    let picture = describe_picture(options.size, film.triangles());
+    let picture = describe_picture(options.size, film.triangles);
     Ok(format!("{}: {picture} each", output.range(frames)))
 }
 
@@ -223,7 +223,7 @@ pub(super) fn movie(
         })?)
     })?;
     let seconds = rounded(pictures.iter().map(|picture| picture.seconds).sum());
-    let picture = describe_picture(options.size, film.triangles());
+    let picture = describe_picture(options.size, film.triangles);
     let name = output.path.display();
     Ok(format!(
         "{name}: {count} pictures in {seconds} seconds, {picture} each"

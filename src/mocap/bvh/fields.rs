@@ -38,7 +38,7 @@ impl HierarchyParser {
                 .filter(|word| !matches!(word.text, b"{" | b"}"))
             else {
                 let message = format!("OFFSET has {axis} numbers, but it takes 3");
-                return Err(line.error(tokens.at(), message, "write OFFSET with x, y and z"));
+                return Err(line.error(tokens.at, message, "write OFFSET with x, y and z"));
             };
             tokens.next();
             offset[axis] = parse_word(word.text).ok_or_else(|| {
@@ -81,7 +81,7 @@ impl HierarchyParser {
         let stated =
             count.and_then(|word| std::str::from_utf8(word.text).ok()?.parse::<usize>().ok());
         let Some(stated) = stated else {
-            let at = count.map_or(tokens.at(), |word| word.at);
+            let at = count.map_or(tokens.at, |word| word.at);
             let help = "CHANNELS is followed by their number and their names";
             return Err(line.error(at, "CHANNELS has no count".to_owned(), help));
         };

@@ -116,7 +116,7 @@ impl HierarchyParser {
                 self.channels(line, word, &mut tokens, notes)?;
             } else if word.is("motion") {
                 self.end(line, word)?;
-                return Ok(Some(tokens.at()));
+                return Ok(Some(tokens.at));
             } else {
                 return Err(unexpected(line, word));
             }

@@ -83,14 +83,14 @@ pub fn read(input: impl Read) -> Result<Reading, Error> {
     let clip = Clip::new(Arc::new(skeleton), header.seconds(), reader.values);
     match read {
         Ok(()) => {
-            if clip.frames() == 0 {
+            if clip.frames == 0 {
                 notes.add(last[0], "the clip has no frames");
             }
             let notes = notes.done();
             Ok(Reading { clip, notes })
         }
         Err(error) => Err(Error {
-            partial: (clip.frames() > 0).then(|| Box::new(clip)),
+            partial: (clip.frames > 0).then(|| Box::new(clip)),
             ..error
         }),
     }

@@ -25,7 +25,7 @@ impl Token<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct Tokens<'a> {
     line: &'a [u8],
-    at: usize,
+    pub(super) at: usize,
     alone: &'static [u8],
     skipped: &'static [u8],
 }
@@ -49,11 +49,6 @@ impl<'a> Tokens<'a> {
             alone: b"",
             skipped: b":",
         }
-    }
-
-    /// Where the search for the next token begins.
-    pub(super) fn at(&self) -> usize {
-        self.at
     }
 
     fn skip(&mut self) {

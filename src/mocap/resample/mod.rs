@@ -119,10 +119,10 @@ pub fn resample(clip: Clip, fps: f64) -> Result<Clip, Error> {
     let own = rate(clip.frame_time);
     let stays = (own / fps - 1.0).abs() <= RATE_TOLERANCE
         || (1.0 / clip.frame_time / fps - 1.0).abs() <= RATE_TOLERANCE;
-    if clip.frames() < 2 || !own.is_finite() || own <= 0.0 || stays {
+    if clip.frames < 2 || !own.is_finite() || own <= 0.0 || stays {
         return Ok(clip);
     }
-    let last = clip.frames() - 1;
+    let last = clip.frames - 1;
     let width = clip.skeleton.channel_count();
     let most = MAX_NUMBERS / width.max(1);
     let wanted = (last as f64 * fps / own + 1e-9).floor() + 1.0;
@@ -174,7 +174,7 @@ pub(crate) fn mixed(clip: &Clip, mixes: &[Mix]) -> Clip {
 /// A clip played along a map of time, at the same rate. Poses are interpolated as by [`resample`]; where a frame of the result is one of
 /// the clip, its angles are the very same but for whole turns.
 pub(crate) fn along(clip: &Clip, map: &TimeMap) -> Clip {
-    mixed(clip, map.places())
+    mixed(clip, &map.places)
 }
 
 /// The channels of a joint, and their numbers in some of the new frames.

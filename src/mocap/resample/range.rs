@@ -50,7 +50,7 @@ pub(crate) fn parse_range(text: &str) -> Result<Range, Error> {
 /// # Errors
 /// [`Error::NoFrame`] for a frame after the clip's last, and for frame 0; [`Error::Backwards`].
 pub(crate) fn range(clip: &Clip, range: Range) -> Result<Clip, Error> {
-    let frames = clip.frames();
+    let frames = clip.frames;
     let last = range.last.unwrap_or(frames.max(range.first));
     for frame in [range.first, last] {
         if !(1..=frames).contains(&frame) {
