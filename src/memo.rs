@@ -49,6 +49,7 @@ pub struct Memo {
     tables: Option<RwLock<Tables>>,
     generation: u32,
     misses: AtomicUsize,
+    /// How many results were computed, rather than found, in the last generation: for statistics and tests.
     pub last_misses: usize,
 }
 

@@ -3,6 +3,7 @@
 /// An exposure sheet: for each shown frame the source frame whose drawing it shows.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Exposure {
+    /// The source frame of each shown frame.
     pub sources: Vec<u32>,
 }
 

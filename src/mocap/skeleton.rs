@@ -157,6 +157,7 @@ pub struct Clip {
     pub frame_time: f64,
     /// All frames, one after the other, each with a number per channel in the order of the file.
     values: Vec<f64>,
+    /// The number of frames.
     pub frames: usize,
 }
 

@@ -37,6 +37,7 @@ pub struct Film<'a> {
     pub(super) normalization: Normalization,
     /// The height of the ground in normalised space: below all poses.
     pub(super) ground: f32,
+    /// The largest number of triangles of any sampled pose.
     pub triangles: usize,
     /// The camera of the file that films it.
     pub(super) camera: Option<&'a ModelCamera>,

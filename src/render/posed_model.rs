@@ -28,7 +28,9 @@ pub type Image = RgbaImage;
 pub struct PosedModel<'a> {
     model: &'a Model,
     pose: Pose,
+    /// From the world into normalised space.
     pub(super) normalization: Normalization,
+    /// The number of triangles.
     pub triangles: usize,
     /// The geometry for every view; `None` if it depends on the view.
     view_independent: Option<Tracer<'a>>,

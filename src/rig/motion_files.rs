@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::bind::{ClipRequest, SignedAxis};
 use crate::diagnostic::Diagnostic;
 use crate::memo::Memo;
-use crate::mocap::{Axis, Clip};
+use crate::mocap::Axis;
 use crate::mocap::{UpAxis, bvh};
 use crate::prepare::{self, PreparedClip, prepare};
 use crate::resolver::{LinkError, Resolver};

@@ -3,6 +3,7 @@
 /// A picture: rows from the top, three bytes a pixel, sRGB.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<'a> {
+    /// Width and height in pixels.
     pub size: [u32; 2],
     pixels: &'a [u8],
 }

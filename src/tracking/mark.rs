@@ -14,8 +14,11 @@ const LEAST_CHROMA: f64 = 0.1;
 /// A mark: its name, and about which colour it has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
+    /// Its name.
     pub name: String,
+    /// About its colour, sRGB.
     pub color: [u8; 3],
+    /// Its hue in degrees.
     pub hue: f64,
 }
 

@@ -8,6 +8,7 @@ use crate::disk::{Stamp, stamp};
 /// last is read. Modification times of the two are not compared with each other, as their file systems may have different clocks.
 #[derive(Debug)]
 pub(super) struct Source {
+    /// The drawing's own file.
     pub(super) saved: PathBuf,
     unsaved: Option<PathBuf>,
     /// The state of both files when the drawing was last read.

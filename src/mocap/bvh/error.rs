@@ -23,11 +23,26 @@ pub struct Error {
 
 impl Error {
     /// An error at a byte of a line.
-    pub(super) fn at(line: usize, text: &[u8], byte: usize, message: String, help: &str) -> Self {
+    pub(super) fn at(
+        line: usize,
+        text: &[u8],
+        byte: usize,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Self {
+        Self::behind([line, column(text, byte)], message, help)
+    }
+
+    /// An error at a line and column.
+    pub(super) fn behind(
+        [line, column]: [usize; 2],
+        message: impl Into<String>,
+        help: &str,
+    ) -> Self {
         Self {
             line,
-            column: column(text, byte),
-            message,
+            column,
+            message: message.into(),
             help: help.to_owned(),
             partial: None,
         }
@@ -36,11 +51,13 @@ impl Error {
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "line {}, column {}: {}",
-            self.line, self.column, self.message
-        )
+        let Self {
+            line,
+            column,
+            message,
+            ..
+        } = self;
+        write!(f, "line {line}, column {column}: {message}")
     }
 }
 

@@ -5,6 +5,7 @@ use super::Mix;
 /// A map from the frames of a result to places between the frames of a source: monotone and piecewise linear.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TimeMap {
+    /// Per frame of the result what it shows.
     pub places: Vec<Mix>,
 }
 

@@ -56,6 +56,7 @@ pub(super) struct Delaunay {
     edges: Vec<HalfEdge>,
     /// Per triangle, whether it lies in the outline; all of them until that is found out.
     is_inside: Vec<bool>,
+    /// Whether separate parts of the border meet in a point.
     pub(super) has_pinches: bool,
     /// Half-edges whose neighbours may have to be flipped.
     open: Vec<u32>,
