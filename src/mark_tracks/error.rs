@@ -35,12 +35,29 @@ impl Error {
         Self::new(ErrorLocation::File, message, help)
     }
 
-    /// An error at a location.
-    pub(super) fn new(
-        location: ErrorLocation,
+    /// An error of a field of JSON.
+    pub(super) fn field(
+        field: impl Into<String>,
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Self {
+        Self::new(ErrorLocation::Field(field.into()), message, help)
+    }
+
+    /// This error, at a line and a column.
+    pub(super) fn at(self, line: usize, column: usize) -> Self {
+        let location = ErrorLocation::Position { line, column };
+        Self { location, ..self }
+    }
+
+    /// This error, of a field of JSON.
+    pub(super) fn of(self, field: String) -> Self {
+        let location = ErrorLocation::Field(field);
+        Self { location, ..self }
+    }
+
+    /// An error at a location.
+    fn new(location: ErrorLocation, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             location,
             message: message.into(),

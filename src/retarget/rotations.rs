@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec3};
 use typed_index_collections::TiSlice;
 
-use super::axes::{Axes, Landmarks};
+use super::axes::Axes;
 use super::rest_pose::RestPose;
-use super::{PoseBuffer, Rig, RigPart};
+use super::{Rig, RigPart, Source};
 use crate::mocap::resample::TimeMap;
 use crate::mocap::turns::{continuous, damp};
 use crate::mocap::{Clip, JointId, Transform};
@@ -120,36 +120,28 @@ impl Rotations {
     }
 }
 
-pub(super) fn rotations(
-    clip: &Clip,
-    rig: &Rig,
-    landmarks: &Landmarks,
-    axes: &Axes,
-    rest: &RestPose,
-    poses: &mut PoseBuffer<'_>,
-    order: &[usize],
-) -> Rotations {
-    let count = rig.parts.len();
-    let means = mean_references(clip, rig, landmarks, axes, poses);
+pub(super) fn rotations(source: &mut Source<'_>, rest: &RestPose, order: &[usize]) -> Rotations {
+    let count = source.rig.parts.len();
+    let means = mean_references(source);
     let solver = |part: &usize| {
-        let drive = rig.parts[*part].drive?;
+        let drive = source.rig.parts[*part].drive?;
         let reference = match means[*part] {
             Some(mean) => mean,
-            None => Reference::at_rest(clip, &drive, rest),
+            None => Reference::at_rest(source.clip, &drive, rest),
         };
-        let rotation = PartRotation::new(&rig.parts[*part], drive, axes, reference);
+        let rotation = PartRotation::new(&source.rig.parts[*part], drive, &source.axes, reference);
         Some((*part, rotation))
     };
     let solvers: Vec<(usize, PartRotation)> = order.iter().filter_map(solver).collect();
     let mut own: Vec<Option<Vec<DQuat>>> = vec![None; count];
     for (part, _) in &solvers {
-        own[*part] = Some(Vec::with_capacity(clip.frames));
+        own[*part] = Some(Vec::with_capacity(source.clip.frames));
     }
-    for frame in 0..clip.frames {
-        let pose = poses.at(frame);
+    for frame in 0..source.clip.frames {
+        let pose = source.poses.at(frame);
         for (part, solver) in &solvers {
             if let Some(rotations) = &mut own[*part] {
-                rotations.push(solver.at(clip, pose));
+                rotations.push(solver.at(source.clip, pose));
             }
         }
     }
@@ -157,7 +149,7 @@ pub(super) fn rotations(
         own,
         carrier: vec![(None, DQuat::IDENTITY); count],
     };
-    rotations.carry(rig, order);
+    rotations.carry(source.rig, order);
     rotations
 }
 
@@ -187,18 +179,12 @@ impl Reference {
 
 /// Per part the mean over all frames, for limbs that keep their drawn pose: wings are drawn as they are on average, not as the arms
 /// of a T-pose. `None` for all others, and for limbs that point everywhere.
-fn mean_references(
-    clip: &Clip,
-    rig: &Rig,
-    landmarks: &Landmarks,
-    axes: &Axes,
-    poses: &mut PoseBuffer<'_>,
-) -> Vec<Option<Reference>> {
+fn mean_references(source: &mut Source<'_>) -> Vec<Option<Reference>> {
     /// The length of the mean of the directions, below which a limb has no main direction.
     const MAIN: f64 = 0.2;
 
-    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = vec![None; rig.parts.len()];
-    for (part, sum) in rig.parts.iter().zip(&mut sums) {
+    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = vec![None; source.rig.parts.len()];
+    for (part, sum) in source.rig.parts.iter().zip(&mut sums) {
         let keeps_pose = |drive: &Drive| drive.follow == Follow::Change && drive.tip.is_some();
         let none = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
         *sum = part
@@ -207,20 +193,20 @@ fn mean_references(
             .map(|drive| (drive, none, DVec3::ZERO));
     }
     if sums.iter().all(Option::is_none) {
-        return vec![None; rig.parts.len()];
+        return vec![None; source.rig.parts.len()];
     }
-    for frame in 0..clip.frames {
-        let pose = poses.at(frame);
-        let body = axes.at(landmarks, pose);
+    for frame in 0..source.clip.frames {
+        let pose = source.poses.at(frame);
+        let body = source.axes.at(source.landmarks, pose);
         for (drive, turns, directions) in sums.iter_mut().flatten() {
-            let own = Reference::of(clip, drive, body, pose);
+            let own = Reference::of(source.clip, drive, body, pose);
             let is_opposite = turns.dot(own.turn) < 0.0;
             *turns += if is_opposite { -own.turn } else { own.turn };
             *directions += own.direction.unwrap_or_default();
         }
     }
     let mean = |(_, turns, directions): (Drive, DQuat, DVec3)| {
-        let frames = clip.frames as f64;
+        let frames = source.clip.frames as f64;
         let is_clear = turns.length() > MAIN * frames && directions.length() > MAIN * frames;
         is_clear.then(|| Reference {
             turn: turns.normalize(),
