@@ -44,7 +44,6 @@ enum Annotated {
 }
 
 /// Follows marks through a clip.
-
 pub(super) fn run(arguments: &Track, common: Common) -> Result<Outcome, Failure> {
     let names = arguments.marks.iter().map(|mark| mark.name.as_str());
     if let Some(index) = repeated_name(names) {

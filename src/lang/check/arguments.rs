@@ -87,7 +87,17 @@ impl Checker<'_> {
                 Ok(value) => values.push(value),
                 Err(ArgumentError::Invalid) => {
                     if matches!(parameter.takes, Takes::Names) {
-                        return self.not_a_name(callee, parameter, &arguments[..=index], values);
+                        // In `Follow Rarm Colr 1 0 0` the number shows that the name before it was meant to be a keyword.
+                        if let [.., name, _] = &arguments[..=index]
+                            && let ArgumentKind::Word(word) = &name.kind
+                            && suggestions::is_misspelled_keyword(word, true)
+                        {
+                            values.pop();
+                            self.unknown_keyword(name, word);
+                            return (!values.is_empty()).then_some(values);
+                        }
+                        self.wrong_type(callee, parameter, argument);
+                        return None;
                     }
                     valid = false;
                     values.push(ArgumentValue::Number(0.));
@@ -119,8 +129,7 @@ impl Checker<'_> {
                 None
             }
             (Takes::Choice(choices), ArgumentKind::Word(word)) => {
-                let names = choices.iter().map(|choice| choice.name);
-                return self.word(callee, argument, word, names);
+                return self.word(callee, argument, word, choices.iter().map(|own| own.name));
             }
             (Takes::SignedAxis, ArgumentKind::Word(word)) => {
                 let names = vocabulary::AXES.iter().map(|axis| axis.name);
@@ -128,16 +137,13 @@ impl Checker<'_> {
             }
             (Takes::ColorName, ArgumentKind::Word(word)) => match colors::color(word) {
                 Some(color) => Some(ArgumentValue::Color(color, word.to_ascii_lowercase())),
-                None => {
-                    let names = COLORS.iter().copied();
-                    return self.word(callee, argument, word, names);
-                }
+                None => return self.word(callee, argument, word, COLORS.iter().copied()),
             },
             (Takes::Hex, ArgumentKind::Hex(digits)) => match hex(digits) {
-                Some(color) => Some(ArgumentValue::Color(
-                    color,
-                    format!("#{}", digits.to_ascii_lowercase()),
-                )),
+                Some(color) => {
+                    let written = format!("#{}", digits.to_ascii_lowercase());
+                    Some(ArgumentValue::Color(color, written))
+                }
                 None => {
                     self.bad_hex(argument, digits);
                     return Err(ArgumentError::Invalid);
@@ -277,28 +283,9 @@ impl Checker<'_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Reports that the last of `arguments` is not a name. In `Follow Rarm Colr 1 0 0` the number shows that
-    /// the name before it was meant to be a keyword.
-    fn not_a_name(
-        &mut self,
-        callee: Callee<'_>,
-        parameter: &Parameter,
-        arguments: &[Argument],
-        mut values: Vec<ArgumentValue>,
-    ) -> Option<Vec<ArgumentValue>> {
-        if let [.., name, _] = arguments
-            && let ArgumentKind::Word(word) = &name.kind
-            && suggestions::is_misspelled_keyword(word, true)
-        {
-            values.pop();
-            let diagnostic = suggestions::unknown_keyword(self.text, name.range.clone(), word);
-            self.diagnostics.push(diagnostic);
-            return (!values.is_empty()).then_some(values);
-        }
-        if let Some(last) = arguments.last() {
-            self.wrong_type(callee, parameter, last);
-        }
-        None
+    fn unknown_keyword(&mut self, argument: &Argument, word: &str) {
+        let diagnostic = suggestions::unknown_keyword(self.text, argument.range.clone(), word);
+        self.diagnostics.push(diagnostic);
     }
 
     /// Reports too many arguments. Returns whether the attribute is complete without them.
@@ -341,9 +328,7 @@ impl Checker<'_> {
             };
             if is_keyword {
                 lower_case = Some(word.starts_with(char::is_lowercase));
-                let diagnostic =
-                    suggestions::unknown_keyword(self.text, argument.range.clone(), word);
-                self.diagnostics.push(diagnostic);
+                self.unknown_keyword(argument, word);
             }
         }
     }

@@ -166,7 +166,22 @@ impl Checker<'_> {
         if let KindArguments::Numbers(numbers) = &arguments {
             self.check_angles(kind, numbers, parameters)?;
             let parameters = &parameters[..values.len().min(parameters.len())];
-            self.check_thickness(kind, numbers, attribute, parameters);
+            let thin = kind.rules.iter().any(|rule| match rule {
+                Rule::Ascending => false,
+                Rule::Distinct => matches!(numbers[..], [z0, z1, ..] if z0 == z1),
+                Rule::NonZero(index) => numbers.get(*index) == Some(&0.),
+            });
+            if thin {
+                let range = match (parameters.first(), parameters.last()) {
+                    (Some(first), Some(last)) => first.range.start..last.range.end,
+                    _ => attribute.range.clone(),
+                };
+                let message = format!("this `{}` has no thickness", kind.name);
+                let help =
+                    "write `Shape flat` for a thin sheet, or `Shape none` for no solid at all";
+                let diagnostic = self.diagnostic(Code::ZeroThickness, &range, message);
+                self.diagnostics.push(diagnostic.help(help));
+            }
         }
         let has = |letter: char| has_flag(attribute, letter);
         let shape = Shape {
@@ -183,13 +198,8 @@ impl Checker<'_> {
     }
 
     /// The first angle of a rounding must be smaller than the second.
-    fn check_angles(
-        &mut self,
-        kind: &Kind,
-        numbers: &[f64],
-        parameters: &[Argument],
-    ) -> Option<()> {
-        let ([a0, a1, ..], [first, second, ..]) = (numbers, parameters) else {
+    fn check_angles(&mut self, kind: &Kind, numbers: &[f64], of: &[Argument]) -> Option<()> {
+        let ([a0, a1, ..], [first, second, ..]) = (numbers, of) else {
             return Some(());
         };
         if a0 < a1 || !kind.rules.contains(&Rule::Ascending) {
@@ -213,33 +223,6 @@ impl Checker<'_> {
         }
         self.diagnostics.push(diagnostic);
         None
-    }
-
-    /// Warns about a solid without thickness.
-    fn check_thickness(
-        &mut self,
-        kind: &Kind,
-        numbers: &[f64],
-        attribute: &Attribute,
-        parameters: &[Argument],
-    ) {
-        let thin = kind.rules.iter().any(|rule| match rule {
-            Rule::Ascending => false,
-            Rule::Distinct => matches!(numbers, [z0, z1, ..] if z0 == z1),
-            Rule::NonZero(index) => numbers.get(*index) == Some(&0.),
-        });
-        if !thin {
-            return;
-        }
-        let range = match (parameters.first(), parameters.last()) {
-            (Some(first), Some(last)) => first.range.start..last.range.end,
-            _ => attribute.range.clone(),
-        };
-        let message = format!("this `{}` has no thickness", kind.name);
-        self.diagnostics.push(
-            Diagnostic::new(Code::ZeroThickness, self.text.span(range), message)
-                .help("write `Shape flat` for a thin sheet, or `Shape none` for no solid at all"),
-        );
     }
 }
 

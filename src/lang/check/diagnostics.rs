@@ -25,13 +25,11 @@ impl Checker<'_> {
             AttributeString::Legend => "in a legend",
             AttributeString::Defaults => "in a `%` string",
         };
-        let span = self.text.span(attribute.keyword_range.clone());
         let places = attribute.keyword.row().allowed.places();
         let message = format!("`{name}` is not allowed {here}");
-        self.diagnostics.push(
-            Diagnostic::new(Code::NotAllowedHere, span, message)
-                .help(format!("`{name}` is allowed {places}")),
-        );
+        let diagnostic = self.diagnostic(Code::NotAllowedHere, &attribute.keyword_range, message);
+        let help = format!("`{name}` is allowed {places}");
+        self.diagnostics.push(diagnostic.help(help));
     }
 
     pub(super) fn given_twice(&mut self, later: &Attribute, earlier: &Attribute) {
@@ -81,10 +79,9 @@ impl Checker<'_> {
                 diagnostic = fixed_by_writing(diagnostic, self.text, &all, &format!("(-{word})"));
             }
         } else {
-            let known: Vec<_> = flags
-                .iter()
-                .map(|flag| format!("`-{}` {}", flag.letter, flag.summary))
-                .collect();
+            let known = flags.iter();
+            let known = known.map(|flag| format!("`-{}` {}", flag.letter, flag.summary));
+            let known: Vec<_> = known.collect();
             diagnostic = diagnostic.help(format!("its flags are: {}", known.join("; ")));
         }
         self.diagnostics.push(diagnostic);
