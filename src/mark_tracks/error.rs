@@ -19,7 +19,8 @@ pub enum ErrorLocation {
 }
 
 /// Why a file is no track, and where.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{location}{message}")]
 pub struct Error {
     /// Where it is.
     pub location: ErrorLocation,
@@ -66,17 +67,12 @@ impl Error {
     }
 }
 
-impl fmt::Display for Error {
+impl fmt::Display for ErrorLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.location {
-            ErrorLocation::File => {}
-            ErrorLocation::Position { line, column } => {
-                write!(f, "line {line}, column {column}: ")?
-            }
-            ErrorLocation::Field(field) => write!(f, "`{field}`: ")?,
+        match self {
+            Self::File => Ok(()),
+            Self::Position { line, column } => write!(f, "line {line}, column {column}: "),
+            Self::Field(field) => write!(f, "`{field}`: "),
         }
-        f.write_str(&self.message)
     }
 }
-
-impl std::error::Error for Error {}

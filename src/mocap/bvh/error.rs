@@ -7,7 +7,8 @@ use crate::mocap::Clip;
 use super::MAX_NOTES;
 
 /// Why a file cannot be read, and where.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("line {line}, column {column}: {message}")]
 pub struct Error {
     /// The line, counted from 1.
     pub line: usize,
@@ -48,20 +49,6 @@ impl Error {
         }
     }
 }
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            line,
-            column,
-            message,
-            ..
-        } = self;
-        write!(f, "line {line}, column {column}: {message}")
-    }
-}
-
-impl std::error::Error for Error {}
 
 /// A problem that was corrected while reading.
 #[derive(Debug, Clone, PartialEq, Eq)]
