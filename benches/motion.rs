@@ -190,10 +190,7 @@ fn measure(frames: usize) {
         )
         .shown;
     });
-    let equal = limit(Poses::new(&positions, JOINTS), &few)
-        .exposure
-        .sources()
-        == shown;
+    let equal = limit(Poses::new(&positions, JOINTS), &few).exposure.sources == shown;
     assert!(equal, "{frames} frames: not what the plain algorithm makes");
     println!(
         "{frames} frames: {fast:.3} ms for {} steps; plain {slow:.1} ms for {}{}: {:.0} × as long",

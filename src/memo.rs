@@ -49,7 +49,8 @@ pub struct Memo {
     tables: Option<RwLock<Tables>>,
     generation: u32,
     misses: AtomicUsize,
-    last_misses: usize,
+    /// How many results were computed, rather than found, in the last generation: for statistics and tests.
+    pub last_misses: usize,
 }
 
 type Tables = FxHashMap<TypeId, Box<dyn AnyTable>>;
@@ -128,11 +129,6 @@ impl Memo {
             unused.for_each(|table| table.drop_unused(generation));
         }
         self.generation = self.generation.wrapping_add(1);
-    }
-
-    /// How many results were computed, rather than found, in the last generation: for statistics and tests.
-    pub fn last_misses(&self) -> usize {
-        self.last_misses
     }
 
     /// The result of `compute` for `key`: found or computed.
@@ -408,7 +404,7 @@ mod tests {
             let squares: Vec<i32> = numbers.iter().map(|number| number * number).collect();
             assert_eq!(get(&memo, &numbers), squares);
             memo.next_generation();
-            assert_eq!(memo.last_misses(), misses, "{numbers:?}");
+            assert_eq!(memo.last_misses, misses, "{numbers:?}");
         }
     }
 

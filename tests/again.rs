@@ -535,7 +535,7 @@ fn only_solids_that_changed_are_made_again() {
         let compiled = compiler.compile(text, &Options::default(), &files);
         let incremental = written(&compiled, &mut surfaces);
         assert!(incremental == common::glb(&compile(text, &Options::default(), &files)));
-        surfaces.last_misses()
+        surfaces.last_misses
     };
     assert_eq!(made(&text), 300);
     assert_eq!(made(&text), 0);

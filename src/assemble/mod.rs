@@ -98,14 +98,16 @@ pub(crate) fn assemble(
         thicknesses: &figures.thicknesses,
     };
     let mut materials = RegionMaterials::new(&of_part, false);
-    billboard::add(
-        &characters,
-        drawing,
-        bindings,
-        &world,
-        &mut materials,
-        &mut scene,
-    );
+    for character in &characters {
+        billboard::add(
+            character,
+            drawing,
+            bindings,
+            &world,
+            &mut materials,
+            &mut scene,
+        );
+    }
     let clips = rig::add_clips(&context, nodes, resolver, memo, &mut scene, diagnostics);
     Assembled {
         scene,
@@ -140,14 +142,10 @@ pub(crate) fn assemble_apart(
         &mut Vec::new(),
     );
     let mut materials = RegionMaterials::new(&built.of_part, true);
-    billboard::add(
-        characters,
-        drawing,
-        bindings,
-        &built.world,
-        &mut materials,
-        &mut built.scene,
-    );
+    let (world, scene) = (&built.world, &mut built.scene);
+    for character in characters {
+        billboard::add(character, drawing, bindings, world, &mut materials, scene);
+    }
     let mut owners: TiVec<MaterialId, _> = ti_vec![None; built.scene.materials.len()];
     // Each material has one owner: their order does not matter.
     let flat = materials.flat.iter();

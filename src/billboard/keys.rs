@@ -124,7 +124,7 @@ mod tests {
                 morph(&outlines, &features.raw).points
             );
             memo.next_generation();
-            memo.last_misses()
+            memo.last_misses
         };
         assert_eq!(misses(&views), 2);
         assert_eq!(misses(&views), 0);

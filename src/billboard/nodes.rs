@@ -64,21 +64,8 @@ impl<'a> RegionMaterials<'a> {
     }
 }
 
-/// Adds the nodes of characters and of their regions to a scene, and the clips that turn them.
+/// Adds the nodes of a character and of its regions to a scene, and the clip that turns it.
 pub(crate) fn add(
-    characters: &[Character],
-    drawing: &Drawing,
-    bindings: &Bindings,
-    world: &WorldTransform,
-    materials: &mut RegionMaterials<'_>,
-    scene: &mut Scene,
-) {
-    for character in characters {
-        add_one(character, drawing, bindings, world, materials, scene);
-    }
-}
-
-fn add_one(
     character: &Character,
     drawing: &Drawing,
     bindings: &Bindings,
@@ -87,7 +74,8 @@ fn add_one(
     scene: &mut Scene,
 ) {
     let middle = character.frames[ViewId::FIRST].center;
-    let first = character.layers[ViewId::FIRST];
+    let layer = &bindings.layers[character.layers[ViewId::FIRST]];
+    let string = bindings.strings[layer.string].text.as_str();
     let root = scene.add(NewNode {
         node: Node {
             name: character.name.clone(),
@@ -95,16 +83,8 @@ fn add_one(
             rotation: world.rotation,
             view_dependent: Some(ViewDependent::Turn(character.turn.clone())),
             provenance: Some(Provenance {
-                element: drawing.groups[bindings.layers[first].group]
-                    .element
-                    .id
-                    .clone(),
-                string: Some(
-                    bindings.strings[bindings.layers[first].string]
-                        .text
-                        .as_str()
-                        .to_owned(),
-                ),
+                element: drawing.groups[layer.group].element.id.clone(),
+                string: Some(string.to_owned()),
             }),
             ..Node::default()
         },
@@ -114,11 +94,8 @@ fn add_one(
     let scale = character.frames[ViewId::FIRST].height * world.scale;
     let at_first = character.turn.weights(character.turn.views[ViewId::FIRST]);
     let node_of = |region: &RegionModel| {
-        let places: TiVec<ViewId, DVec3> = region
-            .positions
-            .iter()
-            .map(|place| *place * scale)
-            .collect();
+        let places = region.positions.iter().map(|place| *place * scale);
+        let places: TiVec<ViewId, DVec3> = places.collect();
         let translation = character.turn.position(&at_first, &places);
         let string = region
             .part
@@ -143,8 +120,7 @@ fn add_one(
         })
     };
     let nodes: Vec<NodeId> = character.regions.iter().map(node_of).collect();
-    let clip = clip(character, &nodes, scale);
-    scene.animations.push(clip);
+    scene.animations.push(clip(character, &nodes, scale));
 }
 
 /// The mesh of a region, with a morph target for each view but the first.

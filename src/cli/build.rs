@@ -6,20 +6,17 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::args::{Build, Common};
-use super::loading::{Loaded, load, resolver};
+use super::loading::{Loaded, load, made_from, resolver};
 use super::parallel::each;
 use super::progress::spinning;
-use super::{Outcome, counted, fail};
+use super::{Failure, Outcome, counted};
 use crate::disk::{Inputs, Naming, is_drawing, is_standard_stream};
 use crate::export::{self, Exporter, GLB, Written};
 use crate::report::part_count;
 
 /// Builds every drawing, several in parallel, and reports in the order given.
-pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
-    let outputs = match outputs(arguments).and_then(distinct) {
-        Ok(outputs) => outputs,
-        Err(message) => return fail(&message),
-    };
+pub(super) fn run(arguments: &Build, common: Common) -> Result<Outcome, Failure> {
+    let outputs = distinct(outputs(arguments)?)?;
     let tasks: Vec<(&PathBuf, &PathBuf)> = arguments.drawings.iter().zip(&outputs).collect();
     let built = spinning("building", || {
         each(&tasks, |(drawing, output)| {
@@ -31,47 +28,31 @@ pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
         eprint!("{text}");
         worst = worst.max(outcome);
     }
-    worst
+    Ok(worst)
 }
 
 /// The output file of each drawing.
-fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
-    let beside = |drawing: &Path| drawing.with_extension(GLB.extension());
+fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, Failure> {
     let several = arguments.drawings.len() > 1;
     if several && arguments.depfile.is_some() {
-        return Err("--depfile goes with one drawing; build the drawings one by one".to_owned());
+        return Err("--depfile goes with one drawing; build the drawings one by one".into());
     }
-    let folder = arguments.output.as_ref().filter(|output| output.is_dir());
-    match (&arguments.output, folder) {
-        (Some(_), Some(folder)) => {
-            let name = |drawing: &PathBuf| match drawing.file_name() {
-                Some(name) if drawing.as_os_str() != "-" => {
-                    Ok(folder.join(beside(Path::new(name))))
-                }
-                _ => {
-                    Err("a drawing from stdin has no name: name the output file with -o".to_owned())
-                }
-            };
-            arguments.drawings.iter().map(name).collect()
-        }
-        (Some(_), None) if several => {
-            Err("with several drawings, -o must name an existing folder".to_owned())
-        }
-        (Some(output), None) => {
+    let folder = match &arguments.output {
+        Some(output) if !output.is_dir() => {
+            if several {
+                return Err("with several drawings, -o must name an existing folder".into());
+            }
             exporter(output)?;
-            Ok(vec![output.clone()])
+            return Ok(vec![output.clone()]);
         }
-        (None, _) => {
-            let output = |drawing: &PathBuf| {
-                if drawing.as_os_str() == "-" {
-                    Err("a drawing from stdin is in no folder: name the output with -o".to_owned())
-                } else {
-                    Ok(beside(drawing))
-                }
-            };
-            arguments.drawings.iter().map(output).collect()
-        }
-    }
+        folder => folder.as_deref(),
+    };
+    let output = |drawing: &PathBuf| made_from(drawing, folder, GLB.extension());
+    Ok(arguments
+        .drawings
+        .iter()
+        .map(output)
+        .collect::<Result<_, _>>()?)
 }
 
 /// Refuses two drawings that would be written to one file.
@@ -111,16 +92,25 @@ pub(super) fn overwrites_drawing(output: &Path) -> String {
 }
 
 fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (Outcome, String) {
+    let mut text = String::new();
+    match built(drawing, output, arguments, common, &mut text) {
+        Ok(outcome) | Err(Failure::Reported(outcome)) => (outcome, text),
+        Err(Failure::Message(message)) => (Outcome::Failed, format!("{text}error: {message}\n")),
+    }
+}
+
+fn built(
+    drawing: &Path,
+    output: &Path,
+    arguments: &Build,
+    common: Common,
+    text: &mut String,
+) -> Result<Outcome, Failure> {
     let start = Instant::now();
-    let mut loaded = match load(drawing, &arguments.reading) {
-        Ok(loaded) => loaded,
-        Err(outcome) => return (outcome, String::new()),
-    };
+    let mut loaded = load(drawing, &arguments.reading)?;
     let compiled = start.elapsed();
-    let mut text = loaded.findings_aside(common);
-    // An old model is worth more than the empty one that an unreadable drawing gives.
-    let empty = loaded.compiled.scene.nodes.is_empty();
-    if loaded.compiled.has_errors() && (empty || !arguments.keep_going) {
+    text.push_str(&loaded.findings_aside(common));
+    if !loaded.can_be_written(arguments.keep_going) {
         if !common.quiet {
             let unchanged = if output.exists() {
                 format!("; `{}` is unchanged", output.display())
@@ -129,45 +119,25 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
             };
             let _ = writeln!(text, "nothing was written{unchanged}");
         }
-        return (Outcome::Errors, text);
+        return Ok(Outcome::Errors);
     }
     if arguments.skin {
-        match std::mem::take(&mut loaded.compiled.scene).skinned() {
-            Ok(scene) => loaded.compiled.scene = scene,
-            Err(error) => {
-                let _ = writeln!(text, "error: {error}");
-                return (Outcome::Failed, text);
-            }
-        }
+        loaded.compiled.scene = std::mem::take(&mut loaded.compiled.scene).skinned()?;
     }
-    let written = match write(drawing, output, &loaded, arguments) {
-        Ok(written) => written,
-        Err(message) => {
-            let _ = writeln!(text, "error: {message}");
-            return (Outcome::Failed, text);
-        }
-    };
+    let written = write(drawing, output, &loaded, arguments)?;
     if arguments.stats {
-        text.push_str(&stats(
-            &loaded,
-            output,
-            written,
-            [compiled, start.elapsed() - compiled],
-        ));
+        let times = [compiled, start.elapsed() - compiled];
+        text.push_str(&stats(&loaded, output, written, times));
     } else if !common.quiet {
-        let _ = writeln!(
-            text,
-            "wrote {}: {}",
-            output.display(),
-            summary(&loaded, written)
-        );
+        let summary = summary(&loaded, written);
+        let _ = writeln!(text, "wrote {}: {summary}", output.display());
     }
     let outcome = loaded.outcome();
     if arguments.drawings.len() == 1 {
         // The program ends here, and the system frees its memory faster at once.
         std::mem::forget(loaded);
     }
-    (outcome, text)
+    Ok(outcome)
 }
 
 /// Writes the model and the depfile, if one is wanted.
@@ -176,33 +146,21 @@ fn write(
     output: &Path,
     loaded: &Loaded,
     arguments: &Build,
-) -> Result<Written, String> {
+) -> Result<Written, Failure> {
     let exporter = exporter(output)?;
     let linked = loaded.linked(&resolver(drawing, &arguments.reading));
     let inputs = Inputs::of(drawing).linking(linked.clone());
-    let naming = match &arguments.output {
-        Some(named) if named == output => Naming::Given,
-        _ => Naming::Derived,
-    };
-    let target = inputs
-        .target(output, naming)
-        .map_err(|error| error.to_string())?;
+    let naming = Naming::of(arguments.output.as_deref(), output);
+    let target = inputs.target(output, naming)?;
     let depfile = match &arguments.depfile {
-        Some(depfile) => {
-            // Written after the model, which it must not replace either.
-            let inputs = inputs.writing(output);
-            let target = inputs.target(depfile, Naming::Given);
-            Some(target.map_err(|error| error.to_string())?)
-        }
+        // Written after the model, which it must not replace either.
+        Some(depfile) => Some(inputs.writing(output).target(depfile, Naming::Given)?),
         None => None,
     };
-    let written = target
-        .write(|out| export::write(exporter, &loaded.compiled.scene, out, None))
-        .map_err(|error| error.to_string())?;
+    let written = target.write(|out| export::write(exporter, &loaded.compiled.scene, out, None))?;
     if let Some(depfile) = depfile {
         let rule = rule(drawing, output, &linked);
-        let written = depfile.write(|out| out.write_all(rule.as_bytes()));
-        written.map_err(|error| error.to_string())?;
+        depfile.write(|out| out.write_all(rule.as_bytes()))?;
     }
     Ok(written)
 }

@@ -70,7 +70,7 @@ pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
 fn look_at(path: &Path, loaded: &mut Loaded, arguments: &Check) -> Result<(), Outcome> {
     let resolver = resolver(path, &arguments.reading);
     let found = look::compare(&loaded.compiled, &loaded.text, &resolver, LOOK_SIDE);
-    let found = found.map_err(|error| fail(&format!("`{}` {error}", loaded.path)))?;
+    let found = found.map_err(|error| fail(format!("`{}` {error}", loaded.path)))?;
     let mut hints = look::hints(&loaded.compiled, &found);
     bind::locate(&loaded.compiled.drawing, &mut hints);
     loaded.compiled.diagnostics.append(&mut hints);

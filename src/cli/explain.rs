@@ -2,23 +2,20 @@
 
 use super::args::Common;
 use super::report::Style;
-use super::{Outcome, fail, print_out, style};
+use super::{Failure, Outcome, print_out, style};
 use crate::diagnostic::nearest_word;
 use crate::lang::explain;
 
 /// Prints a page of the manual, or the overview.
-pub(super) fn run(topic: Option<&str>, common: Common) -> Outcome {
+pub(super) fn run(topic: Option<&str>, common: Common) -> Result<Outcome, Failure> {
     let page = match topic {
         None => explain::overview(),
-        Some(topic) => match explain::page(topic) {
-            Some(page) => page,
-            None => return fail(&unknown(topic)),
-        },
+        Some(topic) => explain::page(topic).ok_or_else(|| unknown(topic))?,
     };
-    match style(common, &std::io::stdout()) {
+    Ok(match style(common, &std::io::stdout()) {
         Style::Plain => print_out(&page),
         Style::Colored => print_out(&colored(&page)),
-    }
+    })
 }
 
 fn unknown(topic: &str) -> String {

@@ -43,21 +43,21 @@ pub(super) fn fix(path: &Path, loaded: &mut Loaded, arguments: &Check) -> Result
         return Ok(0);
     }
     if !to_stdout {
-        let on_disk = read_file(path).map_err(|error| fail(&error.to_string()))?;
+        let on_disk = read_file(path).map_err(fail)?;
         if on_disk != original.as_bytes() {
-            return Err(fail(&format!(
+            return Err(fail(format!(
                 "`{}` was changed meanwhile; nothing was written",
                 path.display()
             )));
         }
         if is_packed(path) {
-            return Err(fail(&format!(
+            return Err(fail(format!(
                 "`{}` is compressed: save it as plain SVG, then its {} can be fixed",
                 path.display(),
                 counted(fixed, "finding")
             )));
         }
     }
-    rewrite(path, loaded.text.as_bytes()).map_err(|error| fail(&error.to_string()))?;
+    rewrite(path, loaded.text.as_bytes()).map_err(fail)?;
     Ok(fixed)
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 use super::args::{Common, Inspect};
 use super::loading::{Loaded, load};
 use super::progress::spinning;
-use super::{Outcome, counted, fail, print_out};
+use super::{Failure, Outcome, counted, print_out};
 use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{NamedBy, PartId, SetBy};
 use crate::disk::is_standard_stream;
@@ -19,29 +19,19 @@ use crate::report::{depth_reason, describe_character, inspection_json};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
-pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
-    let picture = match arguments
-        .matches
-        .as_deref()
-        .map(|path| checked(path, arguments))
-    {
-        Some(Err(message)) => return fail(&message),
-        Some(Ok(path)) => Some(path),
-        None => None,
-    };
-    let loaded = match spinning("inspecting", || {
+pub(super) fn run(arguments: &Inspect, common: Common) -> Result<Outcome, Failure> {
+    let picture = arguments.matches.as_deref();
+    let picture = picture.map(|path| checked(path, arguments)).transpose()?;
+    let loaded = spinning("inspecting", || {
         load(&arguments.drawing, &arguments.reading)
-    }) {
-        Ok(loaded) => loaded,
-        Err(outcome) => return outcome,
-    };
+    })?;
     eprint!("{}", loaded.findings_aside(common));
     let drawn = match picture {
         Some(path) => matches::draw(&loaded, path, arguments, common),
         None => Outcome::Done,
     };
     if picture.is_some_and(is_standard_stream) || drawn == Outcome::Failed {
-        return loaded.outcome().max(drawn);
+        return Ok(loaded.outcome().max(drawn));
     }
     let text = if arguments.json {
         inspection_json(&loaded.path, &loaded.compiled, &loaded.text)
@@ -52,7 +42,7 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
         };
         tree(&loaded, numbers)
     };
-    loaded.outcome().max(drawn).max(print_out(&text))
+    Ok(loaded.outcome().max(drawn).max(print_out(&text)))
 }
 
 /// The path of the picture, unless the command cannot write it whatever is in the drawing.

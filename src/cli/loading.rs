@@ -1,14 +1,13 @@
 //! Reads and compiles drawings for the commands.
 
-use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::args::{Common, Reading};
 use super::report::{self, Style};
-use super::{Outcome, fail, style};
+use super::{Outcome, counted, fail, style};
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Diagnostic, Severity};
-use crate::disk::{FolderResolver, decode, read_drawing};
+use crate::disk::{FolderResolver, decode, is_standard_stream, read_drawing};
 use crate::look::Look;
 use crate::report::{Findings, Likeness};
 
@@ -52,6 +51,12 @@ impl Loaded {
         links.filter_map(|link| resolver.place(link).ok()).collect()
     }
 
+    /// Whether there is a model to write: the empty one that an unreadable drawing gives is worth less than an old one.
+    pub(super) fn can_be_written(&self, keep_going: bool) -> bool {
+        let is_empty = self.compiled.scene.nodes.is_empty();
+        !self.compiled.has_errors() || (keep_going && !is_empty)
+    }
+
     pub(super) fn outcome(&self) -> Outcome {
         if self.compiled.has_errors() {
             Outcome::Errors
@@ -61,28 +66,40 @@ impl Loaded {
     }
 }
 
+/// Where the file goes that is made from a drawing: beside it, or into a folder.
+pub(super) fn made_from(
+    drawing: &Path,
+    folder: Option<&Path>,
+    extension: &str,
+) -> Result<PathBuf, &'static str> {
+    match (folder, drawing.file_name()) {
+        (None, _) if is_standard_stream(drawing) => {
+            Err("a drawing from stdin is in no folder: name the output with -o")
+        }
+        (None, _) => Ok(drawing.with_extension(extension)),
+        (Some(folder), Some(name)) if !is_standard_stream(drawing) => {
+            Ok(folder.join(name).with_extension(extension))
+        }
+        _ => Err("a drawing from stdin has no name: name the output file with -o"),
+    }
+}
+
 /// Reads and compiles a drawing.
 pub(super) fn load(path: &Path, reading: &Reading) -> Result<Loaded, Outcome> {
-    let name = if path.as_os_str() == "-" {
+    let name = if is_standard_stream(path) {
         "<stdin>".to_owned()
     } else {
         path.display().to_string()
     };
-    let bytes = read_drawing(path).map_err(|error| fail(&error.to_string()))?;
+    let bytes = read_drawing(path).map_err(fail)?;
     let lossy = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 12)]).into_owned();
-    let text = match decode(bytes) {
-        Ok(text) => text,
-        Err(error) => {
-            let compiled = Compiled::undecoded(&error.to_string());
-            return Ok(Loaded {
-                path: name,
-                text: lossy,
-                compiled,
-                look: None,
-            });
+    let (text, compiled) = match decode(bytes) {
+        Ok(text) => {
+            let compiled = compiled(&text, path, reading);
+            (text, compiled)
         }
+        Err(error) => (lossy, Compiled::undecoded(&error.to_string())),
     };
-    let compiled = compiled(&text, path, reading);
     Ok(Loaded {
         path: name,
         text,
@@ -177,11 +194,11 @@ pub(super) fn describe(
 /// `2 errors, 1 warning`
 pub(super) fn count(counts: [usize; 3]) -> String {
     let words = ["error", "warning", "hint"];
-    let parts: Vec<Cow<'_, str>> = counts
+    let parts: Vec<String> = counts
         .into_iter()
         .zip(words)
         .filter(|(count, _)| *count > 0)
-        .map(|(count, word)| format!("{count} {word}{}", if count == 1 { "" } else { "s" }).into())
+        .map(|(count, word)| counted(count, word))
         .collect();
     parts.join(", ")
 }

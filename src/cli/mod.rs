@@ -28,6 +28,7 @@ mod track;
 mod watch;
 
 use std::ffi::OsString;
+use std::fmt::Display;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -38,6 +39,12 @@ use clap::{CommandFactory, Parser};
 use crate::{crash, disk};
 use args::{Cli, Color, Command, Common};
 use report::Style;
+
+/// The letters behind the last dot of a file's name, in lower case; none if there is no dot.
+fn ending(path: &Path) -> String {
+    let ending = path.extension().unwrap_or_default();
+    ending.to_string_lossy().to_lowercase()
+}
 
 /// `1 part`, `2 parts`
 fn counted(count: usize, what: &str) -> String {
@@ -52,6 +59,26 @@ enum Outcome {
     Errors,
     /// Wrong usage, or a file that cannot be read or written.
     Failed,
+}
+
+/// Why a command ends early.
+enum Failure {
+    /// What is to be said about it.
+    Message(String),
+    /// It was said already.
+    Reported(Outcome),
+}
+
+impl<E: Display> From<E> for Failure {
+    fn from(error: E) -> Self {
+        Self::Message(error.to_string())
+    }
+}
+
+impl From<Outcome> for Failure {
+    fn from(outcome: Outcome) -> Self {
+        Self::Reported(outcome)
+    }
 }
 
 /// Runs the command with its arguments, the program's name first.
@@ -72,7 +99,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::New(arguments) => new::run(arguments, cli.common),
         Command::Build(arguments) => build::run(arguments, cli.common),
         Command::Render(arguments) => render::run(arguments, cli.common),
-        Command::Check(arguments) => check::run(arguments, cli.common),
+        Command::Check(arguments) => Ok(check::run(arguments, cli.common)),
         Command::Inspect(arguments) => inspect::run(arguments, cli.common),
         Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),
         Command::Motion(arguments) => motion::run(arguments, cli.common),
@@ -84,9 +111,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "okoshi", &mut script);
-            print_out(&String::from_utf8_lossy(&script))
+            Ok(print_out(&String::from_utf8_lossy(&script)))
         }
     };
+    let outcome = outcome.unwrap_or_else(|failure| match failure {
+        Failure::Message(message) => fail(message),
+        Failure::Reported(outcome) => outcome,
+    });
     ExitCode::from(match outcome {
         Outcome::Done => 0,
         Outcome::Errors => 1,
@@ -120,11 +151,11 @@ fn drawing_as_command(error: &clap::Error) -> Option<String> {
 }
 
 /// Serves an editor. The protocol makes it a failure if the editor disconnects without the `exit` notification.
-fn lsp() -> Outcome {
+fn lsp() -> Result<Outcome, Failure> {
     match crate::lsp::serve() {
-        Ok(true) => Outcome::Done,
-        Ok(false) => Outcome::Errors,
-        Err(error) => fail(&format!("the language server cannot start: {error}")),
+        Ok(true) => Ok(Outcome::Done),
+        Ok(false) => Ok(Outcome::Errors),
+        Err(error) => Err(format!("the language server cannot start: {error}").into()),
     }
 }
 
@@ -133,14 +164,14 @@ fn print_out(text: &str) -> Outcome {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-            fail(&format!("stdout cannot be written: {error}"))
+            fail(format!("stdout cannot be written: {error}"))
         }
         _ => Outcome::Done,
     }
 }
 
 /// Reports why a command failed.
-fn fail(message: &str) -> Outcome {
+fn fail(message: impl Display) -> Outcome {
     eprintln!("error: {message}");
     Outcome::Failed
 }

@@ -7,9 +7,9 @@ use typed_index_collections::TiVec;
 
 use super::args::{Common, Motion};
 use super::progress::spinning;
-use super::{Outcome, fail, print_out};
+use super::{Failure, Outcome, counted, ending, fail, print_out};
 use crate::clips::BuiltIn;
-use crate::disk::{Inputs, Naming, Target, WriteError, open_stream};
+use crate::disk::{Inputs, Naming, Target, WriteError, is_standard_stream, open_stream};
 use crate::export::{self, Exporter};
 use crate::labels::{Anatomy, Label};
 use crate::limited::frame_ranges;
@@ -32,21 +32,15 @@ enum Kind {
 }
 
 /// Edits a motion file, or lists its joints.
-pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
-    let kind = match arguments.output.as_deref().map(kind).transpose() {
-        Ok(kind) => kind,
-        Err(message) => return fail(&message),
-    };
+pub(super) fn run(arguments: &Motion, common: Common) -> Result<Outcome, Failure> {
+    let kind = arguments.output.as_deref().map(kind).transpose()?;
     let plot = arguments.plot.as_ref().map(|plot| (plot, Kind::Chart));
     let outputs = arguments.output.as_ref().zip(kind).into_iter().chain(plot);
     let track = arguments.performing.perform.clone();
     let mut inputs = Inputs::of(&arguments.motion).linking(track);
     let mut targets = Vec::new();
     for (output, kind) in outputs {
-        match inputs.target(output, Naming::Given) {
-            Ok(target) => targets.push((output, target, kind)),
-            Err(error) => return fail(&error.to_string()),
-        }
+        targets.push((output, inputs.target(output, Naming::Given)?, kind));
         // The chart must not replace the motion that was written before.
         inputs = inputs.writing(output);
     }
@@ -69,26 +63,18 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
             let clip = prepare::built_in(which, arguments.legs);
             (describe(&clip.clip), clip.change(&options))
         }
-        None => match read(arguments, &name) {
-            Ok(reading) => {
-                for note in &reading.notes {
-                    let _ = writeln!(messages, "  {note}");
-                }
-                let opening = describe(&reading.clip);
-                let prepared = spinning("cutting", || prepare::prepare(reading.clip, &options));
-                (opening, prepared)
+        None => {
+            let reading = read(arguments, &name)?;
+            for note in &reading.notes {
+                let _ = writeln!(messages, "  {note}");
             }
-            Err(outcome) => return outcome,
-        },
+            let opening = describe(&reading.clip);
+            let prepared = spinning("cutting", || prepare::prepare(reading.clip, &options));
+            (opening, prepared)
+        }
     };
-    let prepared = match prepared {
-        Ok(prepared) => prepared,
-        Err(error) => return fail(&format!("`{name}`: {error}")),
-    };
-    let performed = match performance::perform(&arguments.performing, prepared) {
-        Ok(performed) => performed,
-        Err(outcome) => return outcome,
-    };
+    let prepared = prepared.map_err(|error| format!("`{name}`: {error}"))?;
+    let performed = performance::perform(&arguments.performing, prepared)?;
     messages.push_str(&performed.messages);
     let options = edit::Options {
         method: exposure_method(arguments),
@@ -111,31 +97,28 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         messages.push_str("  warning: the root of the motion has no position: it is not moved\n");
     }
     let mut wrote = String::new();
-    let mut count = 0;
-    for (output, target, kind) in targets {
-        if let Err(error) = spinning("writing", || write(&edited, &target, kind, arguments)) {
-            return fail(&error.to_string());
-        }
-        if output.as_os_str() != "-" {
+    for (output, target, kind) in &targets {
+        spinning("writing", || write(&edited, target, *kind, arguments))?;
+        if !is_standard_stream(output) {
             let _ = writeln!(wrote, "wrote {}", output.display());
         }
-        count += 1;
     }
     let cuts = arguments.compare
         || arguments.omit.is_some()
         || arguments.hold.is_some()
         || arguments.every.is_some()
         || arguments.drawings.is_some();
-    if !common.quiet && (count > 0 || cuts) {
+    if !common.quiet && (!targets.is_empty() || cuts) {
         messages.push_str(&report);
     }
     if !common.quiet {
         eprint!("{name}: {opening}\n{messages}{wrote}");
     }
-    match count {
-        0 => print_out(&joints(&edited.clip, &edited.anatomy)),
-        _ => Outcome::Done,
-    }
+    Ok(if targets.is_empty() {
+        print_out(&joints(&edited.clip, &edited.anatomy))
+    } else {
+        Outcome::Done
+    })
 }
 
 /// The clip that comes along that the argument names; a file of that name is `./walk`.
@@ -145,18 +128,18 @@ fn built_in(arguments: &Motion) -> Option<BuiltIn> {
 
 /// Reads the motion file; failures are reported.
 fn read(arguments: &Motion, name: &str) -> Result<Reading, Outcome> {
-    let stream = open_stream(&arguments.motion).map_err(|error| fail(&error.to_string()))?;
+    let stream = open_stream(&arguments.motion).map_err(fail)?;
     let mut error = match spinning("reading", || bvh::read(stream)) {
         Ok(reading) => return Ok(reading),
         Err(error) => error,
     };
-    let rescued = error.partial.take().filter(|clip| clip.frames() > 0);
-    let outcome = fail(&format!("{name}: {error}"));
+    let rescued = error.partial.take().filter(|clip| clip.frames > 0);
+    let outcome = fail(format!("{name}: {error}"));
     eprintln!("  help: {}", error.help);
     let Some(clip) = rescued else {
         return Err(outcome);
     };
-    let before = frames(clip.frames());
+    let before = counted(clip.frames, "frame");
     if !arguments.keep_going {
         eprintln!("  help: --keep-going continues with the {before} before it");
         return Err(outcome);
@@ -170,13 +153,10 @@ fn read(arguments: &Motion, name: &str) -> Result<Reading, Outcome> {
 
 /// What to write, by the ending of the output's name.
 fn kind(output: &Path) -> Result<Kind, String> {
-    let ending = output
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_lowercase());
-    match ending.as_deref() {
-        _ if output.as_os_str() == "-" => Ok(Kind::Bvh),
-        Some("bvh") => Ok(Kind::Bvh),
-        Some("svg") => Ok(Kind::Chart),
+    match ending(output).as_str() {
+        _ if is_standard_stream(output) => Ok(Kind::Bvh),
+        "bvh" => Ok(Kind::Bvh),
+        "svg" => Ok(Kind::Chart),
         _ => match export::by_extension(output).filter(|exporter| exporter.is_animated()) {
             Some(exporter) => Ok(Kind::Model(exporter)),
             None => Err(format!(
@@ -233,20 +213,12 @@ fn write(
 
 /// Describes a clip in one line.
 fn describe(clip: &Clip) -> String {
-    let joints = clip.skeleton.joints.len();
     format!(
-        "{joints} joint{}, {} at {} a second",
-        if joints == 1 { "" } else { "s" },
-        frames(clip.frames()),
+        "{}, {} at {} a second",
+        counted(clip.skeleton.joints.len(), "joint"),
+        counted(clip.frames, "frame"),
         round(rate(clip.frame_time)),
     )
-}
-
-fn frames(count: usize) -> String {
-    match count {
-        1 => "1 frame".to_owned(),
-        count => format!("{count} frames"),
-    }
 }
 
 /// Rounds to two decimals.
@@ -257,9 +229,9 @@ fn round(number: f64) -> f64 {
 /// Reports what was omitted and held, and the error against the source.
 fn report(edited: &EditedClip, arguments: &Motion) -> String {
     let mut out = String::new();
-    let count = edited.clip.frames();
+    let frames = counted(edited.clip.frames, "frame");
     let fps = round(rate(edited.clip.frame_time));
-    let _ = writeln!(out, "  {} at {fps} a second", frames(count));
+    let _ = writeln!(out, "  {frames} at {fps} a second");
     let Some(exposure) = &edited.exposure else {
         return out;
     };
@@ -315,12 +287,11 @@ fn report(edited: &EditedClip, arguments: &Motion) -> String {
             limited::MAX_HOLD
         );
     }
-    let shown = exposure.len();
+    let shown = counted(exposure.len(), "frame");
     let _ = writeln!(
         out,
-        "  {} drawings for {}",
-        exposure.drawings().count(),
-        frames(shown)
+        "  {} drawings for {shown}",
+        exposure.drawings().count()
     );
     let compares = arguments.compare || arguments.every.is_some() || arguments.drawings.is_some();
     let methods = if compares { edited.compared() } else { None };
@@ -373,11 +344,8 @@ fn joints(clip: &Clip, anatomy: &Anatomy) -> String {
             .map(Label::describe);
         rows.push([format!("{indent}{}", joint.name), what.unwrap_or_default()]);
     }
-    let width = rows
-        .iter()
-        .map(|[name, _]| name.chars().count())
-        .max()
-        .unwrap_or(0);
+    let widths = rows.iter().map(|[name, _]| name.chars().count());
+    let width = widths.max().unwrap_or(0);
     rows.iter().fold(String::new(), |mut out, [name, what]| {
         let line = format!("{name:width$}  {what}");
         let _ = writeln!(out, "{}", line.trim_end());

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{Common, New, Template};
-use super::{Outcome, fail, print_out};
-use crate::disk::{WriteError, write_new};
+use super::{Failure, Outcome, print_out};
+use crate::disk::{WriteError, is_standard_stream, write_new};
 
 impl Template {
     /// The drawing, as Inkscape saved it.
@@ -19,22 +19,17 @@ impl Template {
 }
 
 /// Writes a starter drawing, and suggests the next commands.
-pub(super) fn run(arguments: &New, common: Common) -> Outcome {
+pub(super) fn run(arguments: &New, common: Common) -> Result<Outcome, Failure> {
     let drawing = arguments.template.drawing();
-    if arguments.name.as_os_str() == "-" {
-        return print_out(drawing);
+    if is_standard_stream(&arguments.name) {
+        return Ok(print_out(drawing));
     }
-    let path = match named(&arguments.name) {
-        Ok(path) => path,
-        Err(message) => return fail(&message),
-    };
-    if let Err(error) = write_new(&path, drawing.as_bytes()) {
-        return fail(&explained(&error));
-    }
+    let path = named(&arguments.name)?;
+    write_new(&path, drawing.as_bytes()).map_err(|error| explained(&error))?;
     if !common.quiet {
         eprint!("{}", next_steps(&path));
     }
-    Outcome::Done
+    Ok(Outcome::Done)
 }
 
 /// The file of the drawing: the name, with `.svg` appended unless it has that extension.

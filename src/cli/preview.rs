@@ -5,40 +5,32 @@ use std::sync::Arc;
 
 use super::args::{Common, Preview};
 use super::watch::{describe_event, describe_shown, follow, options};
-use super::{Outcome, fail};
+use super::{Failure, Outcome};
 use crate::disk::ReadError;
 use crate::preview::{Hub, Shown, bind, serve};
 use crate::watch::{Build, Event, Options};
 
 /// Shows drawings on a live page until it is interrupted.
-pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
+pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failure> {
     let path = &arguments.path;
     if !path.exists() {
-        return fail(&ReadError::missing(path).to_string());
+        return Err(ReadError::missing(path).into());
     }
     if arguments.unsaved.is_some() && path.is_dir() {
-        return fail("--unsaved names the copy of one drawing, and this is a folder");
+        return Err("--unsaved names the copy of one drawing, and this is a folder".into());
     }
-    let bound = match bind(arguments.port) {
-        Ok(bound) => bound,
-        Err(error) => {
-            let port = arguments.port.unwrap_or_default();
-            return fail(&format!(
-                "port {port} is not available ({error}); choose another with --port, or leave --port out"
-            ));
-        }
-    };
+    let bound = bind(arguments.port).map_err(|error| {
+        let port = arguments.port.unwrap_or_default();
+        format!("port {port} is not available ({error}); choose another with --port, or leave --port out")
+    })?;
     let url = bound.url();
     let hub = Hub::new(|_, _| ());
     let server = hub.clone();
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
         .enable_all()
-        .build();
-    let runtime = match runtime {
-        Ok(runtime) => runtime,
-        Err(error) => return fail(&format!("the page cannot be served: {error}")),
-    };
+        .build()
+        .map_err(|error| format!("the page cannot be served: {error}"))?;
     runtime.spawn(serve(bound, server));
     println!("{url}");
     if arguments.open

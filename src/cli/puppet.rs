@@ -5,39 +5,29 @@ use std::path::{Path, PathBuf};
 use super::args::{Common, Puppet};
 use super::loading::{Loaded, load, resolver};
 use super::progress::spinning;
-use super::{Outcome, counted, fail};
+use super::{Failure, Outcome, counted, ending};
 use crate::disk::{Inputs, Naming, is_standard_stream};
 use crate::puppet::{self, MarkOrigin, Options, Sheet};
 
 /// Writes the sheet of a drawing's figures.
-pub(super) fn run(arguments: &Puppet, common: Common) -> Outcome {
-    let (output, naming) = match output(arguments) {
-        Ok(output) => output,
-        Err(message) => return fail(&message),
-    };
-    let loaded = match load(&arguments.drawing, &arguments.reading) {
-        Ok(loaded) => loaded,
-        Err(outcome) => return outcome,
-    };
+pub(super) fn run(arguments: &Puppet, common: Common) -> Result<Outcome, Failure> {
+    let (output, naming) = output(arguments)?;
+    let loaded = load(&arguments.drawing, &arguments.reading)?;
     eprint!("{}", loaded.findings_aside(common));
     if loaded.compiled.has_errors() {
         if !common.quiet {
             eprintln!("`{}` was not written", output.display());
         }
-        return Outcome::Errors;
+        return Ok(Outcome::Errors);
     }
-    match write(&loaded, &output, naming, arguments) {
-        Ok(sheet) => {
-            if !common.quiet {
-                eprintln!("wrote {}: {}", output.display(), summary(&loaded, &sheet));
-                if sheet.pages > 1 {
-                    eprintln!("print it with Inkscape: other programs show only its first page");
-                }
-            }
-            loaded.outcome()
+    let sheet = write(&loaded, &output, naming, arguments)?;
+    if !common.quiet {
+        eprintln!("wrote {}: {}", output.display(), summary(&loaded, &sheet));
+        if sheet.pages > 1 {
+            eprintln!("print it with Inkscape: other programs show only its first page");
         }
-        Err(message) => fail(&message),
     }
+    Ok(loaded.outcome())
 }
 
 fn write(
@@ -45,12 +35,10 @@ fn write(
     output: &Path,
     naming: Naming,
     arguments: &Puppet,
-) -> Result<Sheet, String> {
+) -> Result<Sheet, Failure> {
     let resolver = resolver(&arguments.drawing, &arguments.reading);
     let inputs = Inputs::of(&arguments.drawing).linking(loaded.linked(&resolver));
-    let target = inputs
-        .target(output, naming)
-        .map_err(|error| error.to_string())?;
+    let target = inputs.target(output, naming)?;
     let title = if is_standard_stream(&arguments.drawing) {
         "puppet".into()
     } else {
@@ -67,8 +55,7 @@ fn write(
     let make = || puppet::sheet(&loaded.compiled, &loaded.text, &title, &resolver, &options);
     let sheet = spinning("laying out", make);
     let sheet = sheet.map_err(|error| format!("`{}` {error}", loaded.path))?;
-    let written = target.write(|out| out.write_all(sheet.svg.as_bytes()));
-    written.map_err(|error| error.to_string())?;
+    target.write(|out| out.write_all(sheet.svg.as_bytes()))?;
     Ok(sheet)
 }
 
@@ -90,7 +77,7 @@ fn output(arguments: &Puppet) -> Result<(PathBuf, Naming), String> {
             Ok((folder.join(name), Naming::Derived))
         }
         Some(output) => {
-            if is_svg(output) || is_standard_stream(output) {
+            if ending(output) == "svg" || is_standard_stream(output) {
                 Ok((output.clone(), Naming::Given))
             } else {
                 Err(format!(
@@ -104,11 +91,6 @@ fn output(arguments: &Puppet) -> Result<(PathBuf, Naming), String> {
             Ok((drawing.with_file_name(name), Naming::Derived))
         }
     }
-}
-
-fn is_svg(path: &Path) -> bool {
-    let ending = path.extension().unwrap_or_default();
-    ending.eq_ignore_ascii_case("svg")
 }
 
 /// `12 pieces on 2 pages, 24 cm tall (--scale 0.8); marks: red on Rhand, blue on Lhand (suggested)`

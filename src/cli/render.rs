@@ -1,14 +1,15 @@
 //! `okoshi render`
 
+use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use self::movie::{Movie, MovieForm};
 use super::args::{Background, Bend, Common, Projection, Render, Shading};
-use super::loading::{load, resolver};
+use super::loading::{load, made_from, resolver};
 use super::progress::{counting, spinning};
-use super::{Outcome, fail};
-use crate::disk::{Inputs, Naming, Target, WriteError, read_file};
+use super::{Failure, Outcome, ending, fail};
+use crate::disk::{Inputs, Naming, Target, WriteError, is_standard_stream, read_file};
 use crate::export::{self, GLB};
 use crate::look::{DrawnView, LookError};
 use crate::render::{
@@ -20,7 +21,7 @@ use crate::resolver::Recorder;
 mod cameras;
 mod clips;
 pub(super) mod movie;
-mod video;
+pub(super) mod video;
 
 /// The side in pixels of the thumbnails that the colours of a GIF are chosen from.
 const THUMBNAIL_SIZE: u32 = 128;
@@ -52,57 +53,35 @@ enum Subject {
 }
 
 /// Renders the model of a drawing, or a model.
-pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
-    let asked = output(arguments).and_then(|output| {
-        cameras::check(arguments)?;
-        let subject = subject(arguments)?;
-        Ok((form(&output, subject, arguments)?, subject, output))
-    });
-    let (form, subject, output) = match asked {
-        Ok(asked) => asked,
-        Err(message) => return fail(&message),
-    };
+pub(super) fn run(arguments: &Render, common: Common) -> Result<Outcome, Failure> {
+    let path = output(arguments)?;
+    cameras::check(arguments)?;
+    let subject = subject(arguments)?;
+    let form = form(&path, subject, arguments)?;
     let Source {
         bytes,
         page,
         linked,
         outcome,
-    } = match model(arguments, common) {
-        Ok(found) => found,
-        Err(outcome) => return outcome,
-    };
-    let name = arguments.drawing.display();
+    } = model(arguments, common)?;
     let resolver = resolver(&arguments.drawing, &arguments.reading);
     let recorder = Recorder::new(&resolver);
-    let model = match render::read(&bytes, &recorder) {
-        Ok(model) => model,
-        Err(error) => return fail(&format!("`{name}` {error}")),
-    };
+    let model = render::read(&bytes, &recorder).map_err(|error| of_drawing(arguments, &error))?;
     drop(bytes);
     let read = recorder.into_dependencies().into_iter();
     let read = read.filter_map(|file| resolver.place(&file.link).ok());
     let output = Destination {
         inputs: Inputs::of(&arguments.drawing).linking(linked.into_iter().chain(read)),
-        naming: match &arguments.output {
-            Some(named) if *named == output => Naming::Given,
-            _ => Naming::Derived,
-        },
-        path: output,
+        naming: Naming::of(arguments.output.as_deref(), &path),
+        path,
     };
-    let clip = match clip(&model, arguments) {
-        Ok(clip) => clip,
-        Err(message) => return fail(&format!("`{name}` {message}")),
-    };
-    let camera = match cameras::chosen(&model, clip.map(|(clip, _)| clip), arguments) {
-        Ok(camera) => camera,
-        Err(message) => return fail(&format!("`{name}` {message}")),
-    };
+    let clip = clip(&model, arguments).map_err(|error| of_drawing(arguments, &error))?;
+    let camera = cameras::chosen(&model, clip.map(|(clip, _)| clip), arguments)
+        .map_err(|error| of_drawing(arguments, &error))?;
     let written = match (subject, clip) {
         (Subject::Clip | Subject::Strip(_), Some((clip, _))) => {
-            let film = match clips::film(&model, clip, camera, arguments) {
-                Ok(film) => film,
-                Err(message) => return fail(&format!("`{name}` {message}")),
-            };
+            let film = clips::film(&model, clip, camera, arguments)
+                .map_err(|error| of_drawing(arguments, &error))?;
             match subject {
                 Subject::Strip(cells) => clips::strip(&film, arguments, cells, &output),
                 _ => match form {
@@ -116,29 +95,28 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
                 Some((clip, time)) => model.pose_at(clip, time),
                 None => model.rest(),
             };
-            let posed = match spinning("posing", || PosedModel::new(&model, &pose)) {
-                Ok(posed) => posed,
-                // An error of the drawing, not of how the command was called.
-                Err(error) => {
-                    fail(&format!("`{name}` {error}"));
-                    return Outcome::Errors;
-                }
-            };
+            let posed = spinning("posing", || PosedModel::new(&model, &pose));
+            // An error of the drawing, not of how the command was called.
+            let posed = posed.map_err(|error| {
+                fail(of_drawing(arguments, &error));
+                Outcome::Errors
+            })?;
             match page {
                 Some(page) => draw_page(&posed, arguments, &output, page),
                 None => draw(&posed, camera, arguments, &output, (form, subject)),
             }
         }
     };
-    match written {
-        Ok(written) => {
-            if !common.quiet {
-                eprintln!("wrote {written}");
-            }
-            outcome
-        }
-        Err(Failure(message)) => fail(&message),
+    let written = written?;
+    if !common.quiet {
+        eprintln!("wrote {written}");
     }
+    Ok(outcome)
+}
+
+/// A message about the drawing or model.
+fn of_drawing(arguments: &Render, message: &impl Display) -> String {
+    format!("`{}` {message}", arguments.drawing.display())
 }
 
 /// Where pictures are written.
@@ -191,20 +169,10 @@ fn clip<'a>(model: &'a Model, arguments: &Render) -> Result<Option<(&'a Clip, f6
     Ok(Some((clip, time)))
 }
 
-fn output(arguments: &Render) -> Result<PathBuf, String> {
-    let drawing = &arguments.drawing;
-    let stdin = drawing.as_os_str() == "-";
-    let beside = |drawing: &Path| drawing.with_extension("png");
+fn output(arguments: &Render) -> Result<PathBuf, &'static str> {
     match &arguments.output {
-        Some(folder) if folder.is_dir() => match drawing.file_name() {
-            Some(name) if !stdin => Ok(folder.join(beside(Path::new(name)))),
-            _ => Err("a drawing from stdin has no name: name the output file with -o".to_owned()),
-        },
-        Some(output) => Ok(output.clone()),
-        None if stdin => {
-            Err("a drawing from stdin is in no folder: name the output with -o".to_owned())
-        }
-        None => Ok(beside(drawing)),
+        Some(output) if !output.is_dir() => Ok(output.clone()),
+        folder => made_from(&arguments.drawing, folder.as_deref(), "png"),
     }
 }
 
@@ -223,24 +191,18 @@ fn subject(arguments: &Render) -> Result<Subject, String> {
 
 /// The format for the extension of the output.
 fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, String> {
-    let ending = output
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_lowercase());
     let one = matches!(subject, Subject::Still | Subject::Strip(_));
-    let form = match ending.as_deref() {
+    let form = match ending(output).as_str() {
         // Standard output is a single file, so all frames go into one.
-        _ if output.as_os_str() == "-" && !one => Form::Movie(MovieForm::Apng),
-        _ if output.as_os_str() == "-" => Form::Png,
-        Some("png") => Form::Png,
-        ending => match ending.and_then(MovieForm::of) {
-            Some(form) => Form::Movie(form),
-            None => {
-                return Err(format!(
-                    "the output `{}` must end in .png, .gif, .apng, .mp4 or .webm",
-                    output.display()
-                ));
-            }
-        },
+        _ if is_standard_stream(output) && !one => Form::Movie(MovieForm::Apng),
+        _ if is_standard_stream(output) => Form::Png,
+        "png" => Form::Png,
+        ending => Form::Movie(MovieForm::of(ending).ok_or_else(|| {
+            format!(
+                "the output `{}` must end in .png, .gif, .apng, .mp4 or .webm",
+                output.display()
+            )
+        })?),
     };
     if one && form != Form::Png {
         let name = output.display();
@@ -277,21 +239,18 @@ struct Source {
 }
 
 /// The model, and the outcome of compiling the drawing, whose findings are printed.
-fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
+fn model(arguments: &Render, common: Common) -> Result<Source, Failure> {
     let drawing = &arguments.drawing;
-    let ending = drawing
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_lowercase());
-    if matches!(ending.as_deref(), Some("glb" | "gltf")) {
+    if matches!(ending(drawing).as_str(), "glb" | "gltf") {
         if arguments.as_drawn {
-            return Err(fail(&format!(
+            return Err(format!(
                 "`{}` is a model, which has no page: --as-drawn needs the drawing",
                 drawing.display()
-            )));
+            )
+            .into());
         }
-        let bytes = read_file(drawing).map_err(|error| fail(&error.to_string()))?;
         return Ok(Source {
-            bytes,
+            bytes: read_file(drawing)?,
             page: None,
             linked: Vec::new(),
             outcome: Outcome::Done,
@@ -299,12 +258,11 @@ fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
     }
     let mut loaded = spinning("building", || load(drawing, &arguments.reading))?;
     eprint!("{}", loaded.findings_aside(common));
-    let empty = loaded.compiled.scene.nodes.is_empty();
-    if loaded.compiled.has_errors() && (empty || !arguments.keep_going) {
+    if !loaded.can_be_written(arguments.keep_going) {
         if !common.quiet {
             eprintln!("nothing was written");
         }
-        return Err(Outcome::Errors);
+        return Err(Outcome::Errors.into());
     }
     let outcome = loaded.outcome();
     let linked = loaded.linked(&resolver(drawing, &arguments.reading));
@@ -312,21 +270,20 @@ fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
     let page = if arguments.as_drawn {
         let scale = arguments.scale.unwrap_or(1.0);
         let view = DrawnView::new(&loaded.compiled, scene, scale)
-            .map_err(|error| fail(&page_failure(&loaded.path, &error)))?;
+            .map_err(|error| page_failure(&loaded.path, &error))?;
         scene = view.scene;
         Some((view.sheet, view.size))
     } else {
         None
     };
-    match export::to_memory(&GLB, &scene, None) {
-        Ok(model) => Ok(Source {
-            bytes: model.bytes,
-            page,
-            linked,
-            outcome,
-        }),
-        Err(error) => Err(fail(&format!("`{}` cannot be drawn: {error}", loaded.path))),
-    }
+    let model = export::to_memory(&GLB, &scene, None)
+        .map_err(|error| format!("`{}` cannot be drawn: {error}", loaded.path))?;
+    Ok(Source {
+        bytes: model.bytes,
+        page,
+        linked,
+        outcome,
+    })
 }
 
 /// Why the page cannot be drawn.
@@ -352,19 +309,18 @@ fn draw(
     what: (Form, Subject),
 ) -> Result<String, Failure> {
     let options = options(arguments, what.0);
-    let picture = describe_picture(options.size, posed.triangles());
+    let picture = describe_picture(options.size, posed.triangles);
     let name = output.path.display();
     match what {
         (Form::Png, Subject::Turntable(frames)) => {
-            output.check_numbered(frames).map_err(Failure::written)?;
+            output.check_numbered(frames)?;
             let mut number = 0;
             counting("drawing", frames, |done| {
                 posed.turntable(&options, frames, |image| {
                     number += 1;
                     output
                         .numbered(number, frames)
-                        .and_then(|target| target.write(|out| write_png(&image, out)))
-                        .map_err(Failure::written)?;
+                        .and_then(|target| target.write(|out| write_png(&image, out)))?;
                     done(number);
                     Ok::<(), Failure>(())
                 })
@@ -372,7 +328,7 @@ fn draw(
             Ok(format!("{}: {picture} each", output.range(frames)))
         }
         (Form::Movie(form), Subject::Turntable(frames)) => {
-            let target = output.single().map_err(Failure::written)?;
+            let target = output.single()?;
             let movie = Movie {
                 form,
                 size: options.size,
@@ -395,14 +351,13 @@ fn draw(
             Ok(format!("{name}: {frames} frames, {picture} each"))
         }
         _ => {
-            let target = output.single().map_err(Failure::written)?;
+            let target = output.single()?;
             let image = spinning("drawing", || match camera {
                 Some(camera) => posed.picture_by(&options, camera),
                 None => posed.picture(&options),
             });
-            let image = image.map_err(|error| Failure::of(arguments, &error))?;
-            let written = target.write(|out| write_png(&image, out));
-            written.map_err(Failure::written)?;
+            let image = image.map_err(|error| of_drawing(arguments, &error))?;
+            target.write(|out| write_png(&image, out))?;
             Ok(format!("{name}: {picture}"))
         }
     }
@@ -421,32 +376,11 @@ fn draw_page(
         background: background(arguments, Form::Png),
         ..Options::default()
     };
-    let target = output.single().map_err(Failure::written)?;
+    let target = output.single()?;
     let image = spinning("drawing", || posed.picture_of(&options, &sheet))?;
-    let written = target.write(|out| write_png(&image, out));
-    written.map_err(Failure::written)?;
-    let picture = describe_picture(size, posed.triangles());
+    target.write(|out| write_png(&image, out))?;
+    let picture = describe_picture(size, posed.triangles);
     Ok(format!("{}: {picture}", output.path.display()))
-}
-
-/// Why pictures could not be drawn or written, as a message.
-pub(super) struct Failure(pub(super) String);
-
-impl Failure {
-    /// A problem of the model.
-    fn of(arguments: &Render, error: &render::RenderError) -> Self {
-        Self(format!("`{}` {error}", arguments.drawing.display()))
-    }
-
-    fn written(error: impl std::fmt::Display) -> Self {
-        Self(error.to_string())
-    }
-}
-
-impl From<render::RenderError> for Failure {
-    fn from(error: render::RenderError) -> Self {
-        Self(error.to_string())
-    }
 }
 
 /// The background of the pictures; `None` is transparent.

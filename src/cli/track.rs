@@ -13,8 +13,8 @@ use self::clip::Clip;
 use super::args::{Common, Track};
 use super::progress::counting;
 use super::render::movie::{Movie, MovieForm};
-use super::{Outcome, counted, fail};
-use crate::disk::{Inputs, Naming, Target};
+use super::{Failure, Outcome, counted, ending};
+use crate::disk::{Inputs, Naming, Target, WriteError};
 use crate::limited::frame_ranges;
 use crate::mark_tracks::{MAX_MARKS, MarkTrack, MarkTracks, repeated_name};
 use crate::render::{Image, Palette, write_png};
@@ -44,24 +44,18 @@ enum Annotated {
 }
 
 /// Follows marks through a clip.
-pub(super) fn run(arguments: &Track, common: Common) -> Outcome {
-    match track(arguments, common) {
-        Ok(()) => Outcome::Done,
-        Err(message) => fail(&message),
-    }
-}
-
-fn track(arguments: &Track, common: Common) -> Result<(), String> {
-    let names = arguments.marks.iter().map(|mark| mark.name());
+pub(super) fn run(arguments: &Track, common: Common) -> Result<Outcome, Failure> {
+    let names = arguments.marks.iter().map(|mark| mark.name.as_str());
     if let Some(index) = repeated_name(names) {
-        let name = arguments.marks[index].name();
+        let name = &arguments.marks[index].name;
         return Err(format!(
             "there are two marks `{name}`: name them, as in `--mark left={name} --mark right={name}`, \
              and give them colours that differ"
-        ));
+        )
+        .into());
     }
     if arguments.marks.len() > MAX_MARKS {
-        return Err(format!("at most {MAX_MARKS} marks can be followed"));
+        return Err(format!("at most {MAX_MARKS} marks can be followed").into());
     }
     let output = output(arguments);
     let form = form(&output)?;
@@ -74,19 +68,12 @@ fn track(arguments: &Track, common: Common) -> Result<(), String> {
     for file in clip.files() {
         inputs = inputs.reading(&file);
     }
-    let naming = match arguments.output {
-        Some(_) => Naming::Given,
-        None => Naming::Derived,
-    };
-    let target = inputs
-        .target(&output, naming)
-        .map_err(|error| error.to_string())?;
+    let naming = Naming::of(arguments.output.as_deref(), &output);
+    let target = inputs.target(&output, naming)?;
     inputs = inputs.writing(&output);
     // Refused before anything is read; numbered pictures are checked when their number is known.
     if let Some((path, Annotated::Movie(_))) = annotated {
-        inputs
-            .target(path, Naming::Given)
-            .map_err(|error| error.to_string())?;
+        inputs.target(path, Naming::Given)?;
     }
     let (learned, count) = learn(&clip, arguments)?;
     let found = follow(&clip, &learned, count)?;
@@ -94,8 +81,7 @@ fn track(arguments: &Track, common: Common) -> Result<(), String> {
         Form::Json => found.to_json(),
         Form::Csv => found.to_csv(),
     };
-    let written = target.write(|out| out.write_all(text.as_bytes()));
-    written.map_err(|error| error.to_string())?;
+    target.write(|out| out.write_all(text.as_bytes()))?;
     let name = arguments.clips[0].display();
     if !common.quiet {
         eprint!("{name}: {}", report(&found, &learned));
@@ -109,7 +95,7 @@ fn track(arguments: &Track, common: Common) -> Result<(), String> {
             eprintln!("wrote {wrote}");
         }
     }
-    Ok(())
+    Ok(Outcome::Done)
 }
 
 /// Where the track is written.
@@ -118,12 +104,6 @@ fn output(arguments: &Track) -> PathBuf {
         Some(output) => output.clone(),
         None => arguments.clips[0].with_extension("json"),
     }
-}
-
-/// The ending of a file's name, in small letters.
-fn ending(path: &Path) -> String {
-    let ending = path.extension().unwrap_or_default();
-    ending.to_string_lossy().to_lowercase()
 }
 
 fn form(output: &Path) -> Result<Form, String> {
@@ -183,7 +163,7 @@ fn not_found(arguments: &Track, error: &LearnError) -> String {
     };
     format!(
         "the mark `{}` is not in `{}`: it would be {}, and {hues}; choose one of these, the largest area comes first",
-        arguments.marks[error.mark].name(),
+        arguments.marks[error.mark].name,
         arguments.clips[0].display(),
         hue_name(error.hue),
     )
@@ -266,23 +246,20 @@ fn annotate(
     path: &Path,
     form: Annotated,
     inputs: &Inputs,
-) -> Result<String, String> {
+) -> Result<String, Failure> {
     let count = found.times.len() as u32;
     match form {
         Annotated::Numbered => {
             let name = |number: u32| numbered(path, number, count);
-            let target = |number: u32| -> Result<Target, String> {
-                let target = inputs.target(&name(number), Naming::Given);
-                target.map_err(|error| error.to_string())
-            };
+            let target = |number: u32| inputs.target(&name(number), Naming::Given);
             for number in 1..=count {
                 target(number)?;
             }
             counting("writing", count, |done| {
                 draw(clip, found, &mut |image, number| {
-                    let target = target(number as u32 + 1)?;
-                    let written = target.write(|out| write_png(&image, out));
-                    written.map_err(|error| error.to_string())?;
+                    target(number as u32 + 1)
+                        .and_then(|target| target.write(|out| write_png(&image, out)))
+                        .map_err(|error| error.to_string())?;
                     done(number as u32 + 1);
                     Ok(())
                 })
@@ -294,9 +271,7 @@ fn annotate(
             ))
         }
         Annotated::Movie(form) => {
-            let target = inputs
-                .target(path, Naming::Given)
-                .map_err(|error| error.to_string())?;
+            let target = inputs.target(path, Naming::Given)?;
             counting("writing", count, |done| {
                 movie(clip, found, form, &target, done)
             })?;
@@ -312,7 +287,7 @@ fn movie(
     form: MovieForm,
     target: &Target,
     done: &dyn Fn(u32),
-) -> Result<(), String> {
+) -> Result<(), WriteError> {
     let count = found.times.len();
     // Videos store colours for two by two pixels.
     let size = match form {
@@ -343,7 +318,7 @@ fn movie(
         .map_err(io::Error::other)?;
         Ok(Palette::new(&samples, None))
     };
-    let written = movie.write(target, palette, |push| {
+    movie.write(target, palette, |push| {
         let frames = draw(clip, found, &mut |image, number| {
             let seconds = match found.times.get(number + 1) {
                 Some(next) => next - found.times[number],
@@ -355,8 +330,7 @@ fn movie(
             Ok(())
         });
         frames.map_err(io::Error::other)
-    });
-    written.map_err(|failure| failure.0)
+    })
 }
 
 /// Draws what was found on each frame.

@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::args::{Common, Noticing, Reading, Watch};
 use super::build::overwrites_drawing;
 use super::loading::{Detail, count, describe, tally};
-use super::{Outcome, counted, fail, style};
+use super::{Failure, Outcome, counted, style};
 use crate::disk::{
     ChangeDetection, Inputs, Naming, ReadError, is_drawing, is_standard_stream, make_folder,
 };
@@ -16,14 +16,11 @@ use crate::report::{Findings, part_count};
 use crate::watch::{Build, Event, NoModel, Options, watch};
 
 /// Builds drawings on every save until it is interrupted.
-pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {
+pub(super) fn run(arguments: &Watch, common: Common) -> Result<Outcome, Failure> {
     if let Some(missing) = arguments.paths.iter().find(|path| !path.exists()) {
-        return fail(&ReadError::missing(missing).to_string());
+        return Err(ReadError::missing(missing).into());
     }
-    let destination = match Destination::of(arguments.output.as_deref(), &arguments.paths) {
-        Ok(destination) => destination,
-        Err(message) => return fail(&message),
-    };
+    let destination = Destination::of(arguments.output.as_deref(), &arguments.paths)?;
     let options = Options {
         exporter: match destination {
             Destination::File(_, exporter) => exporter,
@@ -47,12 +44,12 @@ pub(super) fn follow(
     paths: &[PathBuf],
     options: &Options,
     mut describe: impl FnMut(Event<'_>) -> String,
-) -> Outcome {
+) -> Result<Outcome, Failure> {
     match watch(paths, options, |event| eprint!("{}", describe(event))) {
         Ok(never) => match never {},
-        Err(error) => fail(&format!(
-            "file changes are not reported here: {error}; try --poll"
-        )),
+        Err(error) => {
+            Err(format!("file changes are not reported here: {error}; try --poll").into())
+        }
     }
 }
 
@@ -238,20 +235,15 @@ fn summary(build: &Build, model: &Model, found: &str, done: &str) -> String {
 
 /// Describes an event other than a build.
 pub(super) fn describe_event(event: &Event<'_>, common: Common) -> String {
+    let about = |path: &Path, what: &str| line(&path.display().to_string(), what);
     match event {
-        Event::Gone(drawing) => line(
-            &drawing.display().to_string(),
-            "the file is gone; waiting for it",
-        ),
-        Event::Back(drawing) => line(
-            &drawing.display().to_string(),
-            "the file is back, unchanged",
-        ),
-        Event::Unreadable(drawing, why) => line(&drawing.display().to_string(), why),
-        Event::Unwatchable(folder, why) => line(
-            &folder.display().to_string(),
-            &format!("changes in it are not reported: {why}; try --poll"),
-        ),
+        Event::Gone(drawing) => about(drawing, "the file is gone; waiting for it"),
+        Event::Back(drawing) => about(drawing, "the file is back, unchanged"),
+        Event::Unreadable(drawing, why) => about(drawing, why),
+        Event::Unwatchable(folder, why) => {
+            let why = format!("changes in it are not reported: {why}; try --poll");
+            about(folder, &why)
+        }
         Event::Ready(_) if common.quiet => String::new(),
         Event::Ready(0) => "no drawings yet; waiting for them, press Ctrl-C to stop\n".to_owned(),
         Event::Ready(drawings) => format!(

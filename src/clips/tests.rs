@@ -13,7 +13,7 @@ fn all() -> impl Iterator<Item = (String, BuiltIn, Body, Vec<mocap::Pose>)> {
         .flat_map(|legs| BuiltIn::ALL.map(|which| (legs, which)));
     pairs.map(|(legs, which)| {
         let (clip, _) = clip(which, legs);
-        let poses = (0..clip.frames()).map(|frame| clip.pose(frame)).collect();
+        let poses = (0..clip.frames).map(|frame| clip.pose(frame)).collect();
         let name = format!("{} on {}", which.name(), legs.count());
         (name, which, Body::on(legs), poses)
     })

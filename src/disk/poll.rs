@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, Weak};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::time::Duration;
 
 use super::search::{Stamp, stamp};
@@ -41,10 +41,7 @@ impl Poll {
     }
 
     pub(super) fn set(&self, folders: &BTreeSet<PathBuf>) {
-        let mut known = self
-            .folders
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut known = self.folders.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|folder, _| folders.contains(folder));
         for folder in folders {
             let listing = || listing(folder);
@@ -56,9 +53,7 @@ impl Poll {
 /// The files that changed since the last poll; `None` if the watch was dropped.
 fn poll(folders: &Weak<Mutex<BTreeMap<PathBuf, Listing>>>) -> Option<Vec<PathBuf>> {
     let folders = folders.upgrade()?;
-    let mut folders = folders
-        .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut folders = folders.lock().unwrap_or_else(PoisonError::into_inner);
     let mut paths = vec![];
     for (folder, before) in folders.iter_mut() {
         let now = listing(folder);

@@ -30,6 +30,16 @@ pub(crate) enum Naming {
     Derived,
 }
 
+impl Naming {
+    /// That of an output, of which a person may have named one.
+    pub(crate) fn of(named: Option<&Path>, output: &Path) -> Self {
+        match named {
+            Some(named) if named == output => Self::Given,
+            _ => Self::Derived,
+        }
+    }
+}
+
 /// What a file that must not be replaced is to the command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {

@@ -5,8 +5,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
 use notify::event::{AccessKind, AccessMode, ModifyKind, RenameMode};
@@ -94,9 +94,7 @@ impl FolderWatch {
                 return vec![];
             }
         };
-        let mut guard = watch
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut guard = watch.lock().unwrap_or_else(PoisonError::into_inner);
         let (watcher, watched) = &mut *guard;
         for gone in watched.difference(folders) {
             let _ = watcher.unwatch(gone);

@@ -23,57 +23,47 @@ pub(super) fn check(scene: &Scene) -> io::Result<()> {
         .try_for_each(|animation| check_animation(animation, &scene.nodes))
 }
 
+/// Refuses what has `fault`, said by `what`.
+fn refuse<T: Into<String>>(fault: bool, what: impl FnOnce() -> T) -> io::Result<()> {
+    if fault { Err(invalid(what())) } else { Ok(()) }
+}
+
 fn check_nodes(scene: &Scene) -> io::Result<()> {
     for (id, node) in scene.nodes.iter_enumerated() {
-        let name = &node.name;
-        if !node.translation.is_finite() || !node.rotation.is_finite() {
-            return Err(invalid(format!(
-                "node `{name}` has a position that is not a number"
-            )));
-        }
+        let wrong = |what: &str| format!("node `{}` has {what}", node.name);
+        let is_finite = node.translation.is_finite() && node.rotation.is_finite();
+        refuse(!is_finite, || wrong("a position that is not a number"))?;
         // A child comes after its parent, so there can be no cycle.
         let in_order = |child: &NodeId| *child > id && *child < scene.nodes.next_key();
-        if !node.children.iter().all(in_order) {
-            return Err(invalid(format!("node `{name}` has a child out of order")));
-        }
-        if node
+        refuse(!node.children.iter().all(in_order), || {
+            wrong("a child out of order")
+        })?;
+        let is_beyond = node
             .mesh
-            .is_some_and(|mesh| mesh >= scene.meshes.next_key())
-        {
-            return Err(invalid(format!("node `{name}` has a mesh out of range")));
-        }
+            .is_some_and(|mesh| mesh >= scene.meshes.next_key());
+        refuse(is_beyond, || wrong("a mesh out of range"))?;
     }
-    if scene
-        .roots
-        .iter()
-        .any(|root| *root >= scene.nodes.next_key())
-    {
-        return Err(invalid("a root out of range"));
-    }
-    Ok(())
+    let mut roots = scene.roots.iter();
+    refuse(
+        roots.any(|root| *root >= scene.nodes.next_key()),
+        || "a root out of range",
+    )
 }
 
 fn check_cameras(scene: &Scene) -> io::Result<()> {
     for camera in &scene.cameras {
-        if !camera.projection.is_valid() {
-            let name = &camera.name;
-            return Err(invalid(format!(
-                "camera `{name}` has a number out of range"
-            )));
-        }
+        let wrong = || format!("camera `{}` has a number out of range", camera.name);
+        refuse(!camera.projection.is_valid(), wrong)?;
     }
     for (id, node) in scene.nodes.iter_enumerated() {
         let Some(camera) = node.camera else { continue };
-        let name = &node.name;
-        if camera >= scene.cameras.next_key() {
-            return Err(invalid(format!("node `{name}` has a camera out of range")));
-        }
+        let wrong = |what: &str| format!("node `{}` has a camera{what}", node.name);
+        refuse(camera >= scene.cameras.next_key(), || {
+            wrong(" out of range")
+        })?;
         let is_apart = node.mesh.is_none() && node.children.is_empty();
-        if !is_apart || !scene.roots.contains(&id) {
-            return Err(invalid(format!(
-                "node `{name}` has a camera, but is a part of the model"
-            )));
-        }
+        let is_part = !is_apart || !scene.roots.contains(&id);
+        refuse(is_part, || wrong(", but is a part of the model"))?;
     }
     Ok(())
 }
@@ -85,65 +75,51 @@ fn check_skin(scene: &Scene) -> io::Result<()> {
     let own = scene.nodes.iter().any(|node| node.mesh == Some(skin.mesh));
     let is_joint = |joint: &NodeId| *joint < scene.nodes.next_key();
     let joints_fit = skin.rest.len() == skin.joints.len() && skin.joints.iter().all(is_joint);
-    if own || skin.mesh >= scene.meshes.next_key() || !joints_fit {
-        return Err(invalid("a skin that does not fit the nodes"));
-    }
-    if skin.joints.len() > MAX_JOINTS {
-        Err(invalid("a skin with too many joints"))
-    } else {
-        Ok(())
-    }
+    let is_beyond = own || skin.mesh >= scene.meshes.next_key() || !joints_fit;
+    refuse(is_beyond, || "a skin that does not fit the nodes")?;
+    refuse(
+        skin.joints.len() > MAX_JOINTS,
+        || "a skin with too many joints",
+    )
 }
 
 fn check_images(scene: &Scene) -> io::Result<()> {
     for image in &scene.images {
-        if MediaType::of(&image.bytes) != Some(image.media_type) {
-            let (name, media_type) = (&image.name, image.media_type);
-            return Err(invalid(format!("image `{name}` is not a {media_type:?}")));
-        }
+        let (name, media_type) = (&image.name, image.media_type);
+        let is_other = MediaType::of(&image.bytes) != Some(media_type);
+        refuse(is_other, || {
+            format!("image `{name}` is not a {media_type:?}")
+        })?;
     }
     let mut textures = scene.textures.iter();
-    if textures.any(|texture| texture.image >= scene.images.next_key()) {
-        Err(invalid("a texture with an image out of range"))
-    } else {
-        Ok(())
-    }
+    let is_beyond = textures.any(|texture| texture.image >= scene.images.next_key());
+    refuse(is_beyond, || "a texture with an image out of range")
 }
 
 fn check_materials(scene: &Scene) -> io::Result<()> {
     for material in &scene.materials {
+        let wrong = |what: &str| format!("material `{}` has a {what}", material.name);
         let mut textures = material.textures();
-        if textures.any(|used| used.texture >= scene.textures.next_key()) {
-            let name = &material.name;
-            return Err(invalid(format!(
-                "material `{name}` has a texture out of range"
-            )));
-        }
+        let is_beyond = textures.any(|used| used.texture >= scene.textures.next_key());
+        refuse(is_beyond, || wrong("texture out of range"))?;
         let cutoff = match material.alpha_mode {
             AlphaMode::Mask { cutoff } => cutoff,
             AlphaMode::Opaque | AlphaMode::Blend => 0.0,
         };
         let factors = [material.metallic, material.roughness, cutoff];
         let amounts = material.textures().map(|used| &used.amount);
-        let numbers = material
-            .base_color
-            .iter()
-            .chain(&material.emissive)
-            .chain(&factors)
-            .chain(amounts);
-        if !numbers.into_iter().all(|number| number.is_finite()) {
-            return Err(invalid(format!(
-                "material `{}` has a factor that is not a number",
-                material.name
-            )));
-        }
+        let colors = material.base_color.iter().chain(&material.emissive);
+        let mut numbers = colors.chain(&factors).chain(amounts);
+        let is_finite = numbers.all(|number| number.is_finite());
+        refuse(!is_finite, || wrong("factor that is not a number"))?;
     }
     Ok(())
 }
 
 fn check_animation(animation: &Animation, nodes: &TiSlice<NodeId, Node>) -> io::Result<()> {
     let name = &animation.name;
-    let wrong = |what: &str| Err(invalid(format!("animation `{name}` has {what}")));
+    let refuse =
+        |fault: bool, what: &str| refuse(fault, || format!("animation `{name}` has {what}"));
     let mut animated = BTreeSet::new();
     for Track {
         node,
@@ -167,30 +143,26 @@ fn check_animation(animation: &Animation, nodes: &TiSlice<NodeId, Node>) -> io::
                 all.all(|is_valid| is_valid)
             }
         };
-        if *node >= nodes.next_key() {
-            return wrong("a track of a node out of range");
-        }
+        refuse(*node >= nodes.next_key(), "a track of a node out of range")?;
         let kind = match values {
             Values::Rotations(_) => 0,
             Values::Translations(_) => 1,
             Values::Weights(_) => 2,
         };
-        if !animated.insert((*node, kind)) {
-            return wrong("two tracks of one kind for one node");
-        }
+        refuse(
+            !animated.insert((*node, kind)),
+            "two tracks of one kind for one node",
+        )?;
         let times = &timing.times;
         let ascending = times.windows(2).all(|pair| pair[0] < pair[1]);
         let within = times.first().is_some_and(|first| *first >= 0.0)
             && times.last().is_some_and(|last| last.is_finite());
-        if !ascending || !within {
-            return wrong("keys out of order in time, or none");
-        }
-        if values.len() != times.len() {
-            return wrong("a different number of keys and times");
-        }
-        if !is_valid {
-            return wrong("a key that is not a number, or not a rotation");
-        }
+        refuse(!ascending || !within, "keys out of order in time, or none")?;
+        refuse(
+            values.len() != times.len(),
+            "a different number of keys and times",
+        )?;
+        refuse(!is_valid, "a key that is not a number, or not a rotation")?;
     }
     Ok(())
 }
@@ -198,46 +170,32 @@ fn check_animation(animation: &Animation, nodes: &TiSlice<NodeId, Node>) -> io::
 /// Refuses an invalid surface with triangles, and returns the bounding box of a valid one. `joints` is the number of joints.
 pub(super) fn surface(surface: &Surface, joints: usize) -> io::Result<[[f32; 3]; 2]> {
     let vertices = surface.positions.len();
-    let lengths = [
-        surface.normals.len(),
-        surface.uvs.len(),
-        surface.joints.len(),
-    ];
-    let is_whole = surface
-        .targets
-        .iter()
-        .all(|target| target.len() == vertices);
-    if !is_whole || !lengths.iter().all(|length| [0, vertices].contains(length)) {
-        return Err(invalid(
-            "a surface whose lists of vertices differ in length",
-        ));
-    }
+    let (normals, uvs, own_joints) = (&surface.normals, &surface.uvs, &surface.joints);
+    let lengths = [normals.len(), uvs.len(), own_joints.len()];
+    let mut targets = surface.targets.iter();
+    let is_whole = targets.all(|target| target.len() == vertices)
+        && lengths.iter().all(|length| [0, vertices].contains(length));
+    refuse(
+        !is_whole,
+        || "a surface whose lists of vertices differ in length",
+    )?;
     let greatest = surface.triangles.as_flattened().iter().copied().max();
-    if greatest.is_none_or(|vertex| vertex as usize >= vertices) || vertices > u32::MAX as usize {
-        return Err(invalid("a surface with a vertex out of range"));
-    }
-    if surface
-        .joints
-        .iter()
-        .any(|joint| usize::from(*joint) >= joints)
-    {
-        return Err(invalid("a surface with a joint out of range"));
-    }
+    let is_beyond =
+        greatest.is_none_or(|at| at as usize >= vertices) || vertices > u32::MAX as usize;
+    refuse(is_beyond, || "a surface with a vertex out of range")?;
+    let is_beyond = own_joints.iter().any(|joint| usize::from(*joint) >= joints);
+    refuse(is_beyond, || "a surface with a joint out of range")?;
     // Without an early end, so that many numbers are tested at once.
-    let is_finite = |rows: &[f32]| {
-        rows.iter()
-            .fold(true, |all, number| all & number.is_finite())
-    };
+    let is_finite = |rows: &[f32]| rows.iter().fold(true, |all, row| all & row.is_finite());
+    let mut targets = surface.targets.iter();
     let is_finite = is_finite(surface.positions.as_flattened())
-        && is_finite(surface.normals.as_flattened())
-        && is_finite(surface.uvs.as_flattened())
-        && surface
-            .targets
-            .iter()
-            .all(|target| is_finite(target.as_flattened()));
-    if !is_finite {
-        return Err(invalid("a surface with a vertex that is not a number"));
-    }
+        && is_finite(normals.as_flattened())
+        && is_finite(uvs.as_flattened())
+        && targets.all(|target| is_finite(target.as_flattened()));
+    refuse(
+        !is_finite,
+        || "a surface with a vertex that is not a number",
+    )?;
     bounds(&surface.positions).ok_or_else(|| invalid("a surface without vertices"))
 }
 

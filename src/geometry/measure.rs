@@ -94,17 +94,11 @@ pub(crate) fn measure_along(outline: &Outline, axis: DVec2) -> Option<Measure> {
 fn within(outline: &Outline, axis: DVec2, (low, high): (DVec2, DVec2)) -> Option<Measure> {
     let axis = upright(axis.try_normalize()?);
     let middle = low.midpoint(high);
-    let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for p in outline
-        .polygons
-        .iter()
-        .flat_map(|p| p.rings.first())
-        .flatten()
-    {
+    let borders = outline.polygons.iter().flat_map(|p| p.rings.first());
+    let (least, most) = query::bounds_of(borders.flatten().map(|p| {
         let p = *p - middle;
-        let p = DVec2::new(axis.dot(p), axis.perp_dot(p));
-        (least, most) = (least.min(p), most.max(p));
-    }
+        DVec2::new(axis.dot(p), axis.perp_dot(p))
+    }))?;
     let half = (most - least) / 2.0;
     let foot = least.midpoint(most);
     let center = middle + axis * foot.x + axis.perp() * foot.y;

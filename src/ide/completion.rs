@@ -150,7 +150,7 @@ impl Cursor<'_> {
             let starts = if is_empty { self.starts() } else { vec![] };
             return Some(self.replacing(word, starts.into()));
         }
-        let (annotation, _) = self.parsed(self.head);
+        let (annotation, _) = parsed(self.head, self.in_desc);
         match &annotation {
             Annotation::Defaults(_) | Annotation::Legend(_) => {}
             Annotation::Part(part)
@@ -189,12 +189,9 @@ impl Cursor<'_> {
             };
             let text = plain(&snippet);
             Proposal {
-                label: label.to_owned(),
-                kind: ProposalKind::String,
-                detail: row.summary.to_owned(),
-                page: None,
                 text: self.escape(&text),
                 snippet: Some(self.escape(&snippet)),
+                ..simple(label, ProposalKind::String, row.summary)
             }
         })
         .collect()
@@ -203,14 +200,14 @@ impl Cursor<'_> {
     /// The proposals after `$` and `%`.
     fn in_attributes(&self) -> Option<Completion> {
         if let Some(quote) = open_quote(self.head) {
-            let (annotation, _) = self.parsed(&self.head[..quote]);
+            let (annotation, _) = parsed(&self.head[..quote], self.in_desc);
             let word = &self.head[quote..];
             let proposals = self.arguments(attributes(&annotation).last()?, true, word);
             return Some(self.replacing(quote..self.head.len(), proposals));
         }
         let word = self.word();
         let (before, typed) = self.head.split_at(word.start);
-        let (annotation, _) = self.parsed(before);
+        let (annotation, _) = parsed(before, self.in_desc);
         if open_parenthesis(before) {
             let mut proposals = self.variables(typed);
             proposals.extend(self.functions().into());
@@ -233,16 +230,6 @@ impl Cursor<'_> {
         let letters = self.head.trim_end_matches(is_word_char);
         let start = letters.strip_suffix(['-', '+', '#']).unwrap_or(letters);
         start.len()..self.head.len()
-    }
-
-    fn parsed(&self, head: &str) -> (Annotation, usize) {
-        let place = if self.in_desc {
-            lang::Container::Desc
-        } else {
-            lang::Container::Text
-        };
-        let (annotation, findings) = lang::parse(&Text::plain(head, 0), place);
-        (annotation, findings.len())
     }
 
     /// The keywords that are allowed here and not given yet.
@@ -275,13 +262,11 @@ impl Cursor<'_> {
             .map(|keyword| {
                 let row = keyword.row();
                 Proposal {
-                    label: keyword.name().to_owned(),
-                    kind: ProposalKind::Keyword,
                     detail: format!("{}{}", row.summary, row.status.remark()),
                     page: Some(keyword.name()),
-                    text: keyword.name().to_owned(),
                     snippet: filled(keyword.name(), &example_arguments(keyword))
                         .map(|snippet| self.escape(&snippet)),
+                    ..simple(keyword.name(), ProposalKind::Keyword, "")
                 }
             })
             .collect()
@@ -292,21 +277,19 @@ impl Cursor<'_> {
             return vec![];
         }
         let given = |letter| {
-            attribute
-                .flags
-                .iter()
-                .any(|(given, _)| given.eq_ignore_ascii_case(&letter))
+            let mut flags = attribute.flags.iter();
+            flags.any(|(given, _)| given.eq_ignore_ascii_case(&letter))
         };
         let flags = attribute.keyword.row().flags.iter();
         flags
             .filter(|flag| !given(flag.letter))
             .map(|flag| Proposal {
-                label: format!("-{}", flag.letter),
-                kind: ProposalKind::Flag,
-                detail: flag.summary.to_owned(),
                 page: Some(attribute.keyword.name()),
-                text: format!("-{}", flag.letter),
-                snippet: None,
+                ..simple(
+                    &format!("-{}", flag.letter),
+                    ProposalKind::Flag,
+                    flag.summary,
+                )
             })
             .collect()
     }
@@ -482,14 +465,20 @@ fn simple(label: &str, kind: ProposalKind, detail: &str) -> Proposal {
     }
 }
 
-/// The name that a text gives its part, bound or not.
-fn own_name_of(text: &Text, in_desc: bool) -> Option<String> {
+/// A string by itself, and the number of findings in it.
+fn parsed(head: &str, in_desc: bool) -> (Annotation, usize) {
     let place = if in_desc {
         lang::Container::Desc
     } else {
         lang::Container::Text
     };
-    let (annotation, _) = lang::parse(&Text::plain(text.as_str(), 0), place);
+    let (annotation, findings) = lang::parse(&Text::plain(head, 0), place);
+    (annotation, findings.len())
+}
+
+/// The name that a text gives its part, bound or not.
+fn own_name_of(text: &Text, in_desc: bool) -> Option<String> {
+    let (annotation, _) = parsed(text.as_str(), in_desc);
     match annotation {
         Annotation::Part(part) => part.name.map(|name| name.text),
         _ => None,

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::at::{At, Found, Item, attributes};
 use super::subject::bound_by;
 use super::{Analysis, Subject, Symbol, Which};
-use crate::bind::{BoundBy, NamedBy, PartId, PartKind, SetBy, StringId};
+use crate::bind::{BoundBy, LayerId, NamedBy, PartId, PartKind, SetBy, StringId};
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::{Keyword, kinds};
@@ -76,9 +76,8 @@ impl Analysis {
                 };
                 let name = &part.parent.as_ref()?.text;
                 let unknown = || Some(format!("There is no part named `{name}`."));
-                at.meant
-                    .and_then(|meant| self.subject_card(meant))
-                    .or_else(unknown)
+                let card = at.meant.and_then(|meant| self.subject_card(meant));
+                card.or_else(unknown)
             }
             Item::Feature => Some(FEATURE.to_owned()),
             Item::Keyword(index) => {
@@ -88,23 +87,20 @@ impl Analysis {
                     Keyword::View => self.view_card(string),
                     _ => self.motion_card(string, index),
                 };
-                Some(match card {
-                    Some(card) => format!("{card}\n{manual}"),
-                    None => manual,
-                })
+                Some(below(card, &manual))
             }
             Item::Flag(index, flag) => {
                 let (letter, _) = attribute(index).flags[flag];
-                let flags = attribute(index).keyword.row().flags.iter();
-                let known = flags
-                    .into_iter()
-                    .find(|known| known.letter.eq_ignore_ascii_case(&letter))?;
+                let mut flags = attribute(index).keyword.row().flags.iter();
+                let known = flags.find(|known| known.letter.eq_ignore_ascii_case(&letter))?;
                 Some(format!("`-{}`: {}", known.letter, known.summary))
             }
             Item::Argument(index, argument) => {
-                let slot =
-                    parameter_at(attribute(index), argument, &|name| self.is_variable(name))?;
-                if let Some(name) = self.bone_name(string, index, argument)
+                let attribute = attribute(index);
+                let slot = parameter_at(attribute, argument, &|name| self.is_variable(name))?;
+                if attribute.keyword == Keyword::Bone
+                    && let ArgumentKind::Word(name) | ArgumentKind::Quoted(name) =
+                        &attribute.arguments[argument].kind
                     && let Some(card) = self.joint_card(string, name)
                 {
                     return Some(card);
@@ -114,14 +110,11 @@ impl Analysis {
                 }
                 let card = self.argument_card(string, (index, argument), slot, offset)?;
                 let has_clips = matches!(
-                    attribute(index).keyword,
+                    attribute.keyword,
                     Keyword::Motion | Keyword::Limited | Keyword::Perform | Keyword::Mark
                 );
                 let motion = has_clips.then(|| self.motion_card(string, index)).flatten();
-                Some(match motion {
-                    Some(motion) => format!("{motion}\n{card}"),
-                    None => card,
-                })
+                Some(below(motion, &card))
             }
         }
     }
@@ -145,9 +138,8 @@ impl Analysis {
                 return Some(explain::kind(kinds::from_name(word)?));
             }
             (Takes::Choice(words), ArgumentKind::Word(word)) => {
-                let word = words
-                    .iter()
-                    .find(|known| known.name.eq_ignore_ascii_case(word))?;
+                let mut words = words.iter();
+                let word = words.find(|known| known.name.eq_ignore_ascii_case(word))?;
                 format!("`{}`: {}", word.name, word.summary)
             }
             (Takes::Names, ArgumentKind::Word(name) | ArgumentKind::Quoted(name))
@@ -225,6 +217,8 @@ impl Analysis {
     pub(super) fn part_card(&self, index: PartId) -> String {
         let bindings = self.bindings();
         let part = &bindings.parts[index];
+        let group = self.drawing().shapes[part.shape].group;
+        let of = |layer: Option<LayerId>| escaped(layer.map_or("", |at| &bindings.layers[at].name));
         let mut out = match part.kind {
             PartKind::Main => format!("**{}**", escaped(&part.name)),
             PartKind::Sub if part.host.is_some() => {
@@ -237,16 +231,8 @@ impl Analysis {
             }
             PartKind::Legend => "**A legend's sample**, left out of the model".to_owned(),
             PartKind::Unused => "**Left out of the model**".to_owned(),
-            PartKind::Tile => {
-                let layer = bindings.tile_layer_of_group(self.drawing().shapes[part.shape].group);
-                let name = layer.map_or("", |layer| &bindings.layers[layer].name);
-                format!("**Tiles** of {}", escaped(name))
-            }
-            PartKind::Region => {
-                let layer = bindings.view_of_group(self.drawing().shapes[part.shape].group);
-                let name = layer.map_or("", |layer| &bindings.layers[layer].name);
-                format!("**A region** of {}", escaped(name))
-            }
+            PartKind::Tile => format!("**Tiles** of {}", of(bindings.tile_layer_of_group(group))),
+            PartKind::Region => format!("**A region** of {}", of(bindings.view_of_group(group))),
         };
         if part.kind == PartKind::Main {
             let _ = write!(out, "\n\n{}", self.lineage(index));
@@ -345,17 +331,12 @@ impl Analysis {
     }
 
     fn legend_card(&self, string: StringId, part: PartId) -> String {
-        let mut out = format!(
-            "A legend for all parts that are painted like {}.",
-            self.element_of(part)
-        );
-        match self.names(self.parts_inheriting_from(string)) {
-            Some(names) => {
-                let _ = write!(out, "\n\nParts that use it: {names}.");
-            }
-            None => out.push_str("\n\nNo part uses it."),
-        }
-        out
+        let element = self.element_of(part);
+        let users = match self.names(self.parts_inheriting_from(string)) {
+            Some(names) => format!("Parts that use it: {names}."),
+            None => "No part uses it.".to_owned(),
+        };
+        format!("A legend for all parts that are painted like {element}.\n\n{users}")
     }
 
     /// The parts that inherit an attribute from a legend or a `%` string.
@@ -374,18 +355,25 @@ impl Analysis {
     }
 
     fn names(&self, parts: Vec<PartId>) -> Option<String> {
-        let shown: Vec<_> = parts
-            .iter()
-            .take(MAX_NAMED)
-            .map(|part| self.bindings().describe(self.drawing(), *part))
-            .collect();
-        let more = parts.len().saturating_sub(MAX_NAMED);
-        match (shown.is_empty(), more) {
-            (true, _) => None,
-            (_, 0) => Some(shown.join(", ")),
-            _ => Some(format!("{} and {more} more", shown.join(", "))),
-        }
+        let name = |part: PartId| self.bindings().describe(self.drawing(), part);
+        some_of(parts.into_iter().map(name))
     }
+}
+
+/// The first of some names, and how many more there are; `None` without any.
+pub(super) fn some_of(names: impl ExactSizeIterator<Item = String>) -> Option<String> {
+    let more = names.len().saturating_sub(MAX_NAMED);
+    let shown: Vec<_> = names.take(MAX_NAMED).collect();
+    match (shown.is_empty(), more) {
+        (true, _) => None,
+        (_, 0) => Some(shown.join(", ")),
+        _ => Some(format!("{} and {more} more", shown.join(", "))),
+    }
+}
+
+/// A text below a card, if there is one.
+fn below(card: Option<String>, text: &str) -> String {
+    card.map_or_else(String::new, |card| card + "\n") + text
 }
 
 /// A name, escaped for Markdown.

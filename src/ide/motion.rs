@@ -4,9 +4,8 @@ use std::fmt::Write as _;
 
 use super::Analysis;
 use super::at::attributes;
-use super::hover::escaped;
+use super::hover::{escaped, some_of};
 use crate::bind::{PartId, PartKind, StringId};
-use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
 use crate::limited::frame_ranges;
 use crate::rig::{FigureClip, JointId};
@@ -16,8 +15,6 @@ use crate::source::Span;
 const MAX_CLIPS: usize = 8;
 /// How many runs of frames are listed individually.
 const MAX_RANGES: usize = 12;
-/// How many children of a joint are listed.
-const MAX_JOINTS: usize = 8;
 
 impl Analysis {
     /// The clips of the drawing, those of the part's figure first.
@@ -52,14 +49,9 @@ impl Analysis {
         }
         let mut out = String::new();
         for (line, names) in lines.iter().take(MAX_CLIPS) {
-            let shown = names.iter().take(MAX_CLIPS).map(|name| code(name));
-            let shown: Vec<String> = shown.collect();
             let clips = if names.len() == 1 { "clip" } else { "clips" };
-            let more = match names.len().saturating_sub(MAX_CLIPS) {
-                0 => String::new(),
-                more => format!(" and {more} more"),
-            };
-            let _ = writeln!(out, "In {clips} {}{more}: {line}.\n", shown.join(", "));
+            let names = some_of(names.iter().map(|name| code(name))).unwrap_or_default();
+            let _ = writeln!(out, "In {clips} {names}: {line}.\n");
         }
         let others = lines.iter().skip(MAX_CLIPS);
         match others.map(|(_, names)| names.len()).sum() {
@@ -89,17 +81,10 @@ impl Analysis {
     }
 
     fn asked_card(&self, span: Span) -> String {
-        let clips = self
-            .compiled
-            .clips
-            .iter()
-            .filter(|clip| clip.requested_at == span);
+        let clips = self.compiled.clips.iter();
+        let clips = clips.filter(|clip| clip.requested_at == span);
         let lines = clips.map(|clip| {
-            let driven = clip
-                .parts
-                .iter()
-                .filter(|drive| drive.joint.is_some())
-                .count();
+            let driven = clip.parts.iter().filter(|drive| drive.joint.is_some());
             format!(
                 "clip {} of {}: {:.2} s, {}, {}; {} of {} are driven by the {} of {}",
                 code(&clip.name),
@@ -107,7 +92,7 @@ impl Analysis {
                 clip.seconds(),
                 counted(clip.frames(), "frame"),
                 counted(clip.drawings(), "drawing"),
-                driven,
+                driven.count(),
                 counted(clip.parts.len(), "part"),
                 counted(clip.skeleton().joints.len(), "joint"),
                 code(&clip.file),
@@ -117,18 +102,16 @@ impl Analysis {
     }
 
     fn limited_card(&self, span: Span) -> Option<String> {
-        let clips = self
-            .compiled
-            .clips
-            .iter()
-            .filter(|clip| clip.limited_at == Some(span));
+        let clips = self.compiled.clips.iter();
+        let clips = clips.filter(|clip| clip.limited_at == Some(span));
         let lines = clips.map(|clip| {
             let (omitted, held) = clip.cut_frames();
             let what = |frames: &[u32]| {
+                let ranges = || format!(" ({})", frame_ranges(frames, MAX_RANGES));
                 if frames.is_empty() {
                     String::new()
                 } else {
-                    format!(" ({})", frame_ranges(frames, MAX_RANGES))
+                    ranges()
                 }
             };
             format!(
@@ -165,11 +148,10 @@ impl Analysis {
             if files.len() <= MAX_CLIPS {
                 cards.push(match clip.joint_named(name) {
                     Some(joint) => joint_of(clip, joint),
-                    None => format!(
-                        "The motion {} has no joint {}.",
-                        code(&clip.file),
-                        code(name)
-                    ),
+                    None => {
+                        let (file, name) = (code(&clip.file), code(name));
+                        format!("The motion {file} has no joint {name}.")
+                    }
                 });
             }
         }
@@ -179,34 +161,13 @@ impl Analysis {
     pub(super) fn figure_of(&self, clip: &FigureClip) -> String {
         code(&self.bindings().parts[clip.root].name)
     }
-
-    /// The joint name in an argument of `Bone`.
-    pub(super) fn bone_name(
-        &self,
-        string: StringId,
-        index: usize,
-        argument: usize,
-    ) -> Option<&str> {
-        let attribute = &attributes(&self.bindings().strings[string].annotation)[index];
-        match &attribute.arguments.get(argument)?.kind {
-            ArgumentKind::Word(name) | ArgumentKind::Quoted(name)
-                if attribute.keyword == Keyword::Bone =>
-            {
-                Some(name)
-            }
-            _ => None,
-        }
-    }
 }
 
 /// Describes a joint: its label, the reason for it, its parent and its children.
 fn joint_of(clip: &FigureClip, joint: JointId) -> String {
     let joints = &clip.skeleton().joints;
-    let mut out = format!(
-        "**{}**, a joint of {}",
-        escaped(&joints[joint].name),
-        code(&clip.file)
-    );
+    let (name, file) = (escaped(&joints[joint].name), code(&clip.file));
+    let mut out = format!("**{name}**, a joint of {file}");
     match clip.label(joint) {
         Some(label) => {
             let _ = write!(out, ": {}\n\n{}.", label.describe(), label.why);
@@ -219,25 +180,12 @@ fn joint_of(clip: &FigureClip, joint: JointId) -> String {
         }
         None => out.push_str(" It is a root"),
     }
-    let carried: Vec<&str> = joints
-        .iter()
-        .filter(|other| other.parent == Some(joint))
-        .map(|other| other.name.as_str())
-        .collect();
-    let names: Vec<String> = carried
-        .iter()
-        .take(MAX_JOINTS)
-        .map(|name| code(name))
-        .collect();
-    if !names.is_empty() {
-        let _ = write!(out, " and the parent of {}", names.join(", "));
+    let carried = joints.iter().filter(|other| other.parent == Some(joint));
+    let carried: Vec<String> = carried.map(|other| code(&other.name)).collect();
+    if let Some(names) = some_of(carried.into_iter()) {
+        let _ = write!(out, " and the parent of {names}");
     }
-    match carried.len().saturating_sub(MAX_JOINTS) {
-        0 => out.push('.'),
-        more => {
-            let _ = write!(out, " and {more} more.");
-        }
-    }
+    out.push('.');
     out
 }
 

@@ -99,8 +99,8 @@ pub fn label_clip(clip: &Clip) -> Anatomy {
     let skeleton = &*clip.skeleton;
     anatomy(skeleton, || {
         let mut poses = vec![skeleton.offset_pose()];
-        let count = clip.frames().min(FRAMES);
-        poses.extend((0..count).map(|index| clip.pose(index * clip.frames() / count)));
+        let count = clip.frames.min(FRAMES);
+        poses.extend((0..count).map(|index| clip.pose(index * clip.frames / count)));
         poses
     })
 }

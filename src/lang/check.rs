@@ -26,22 +26,17 @@ pub fn settings(
     variables: &Variables,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Setting> {
-    let (attributes, string) = match annotation {
-        Annotation::Defaults(attributes) => (attributes, AttributeString::Defaults),
-        Annotation::Legend(attributes) => (attributes, AttributeString::Legend),
-        Annotation::Part(part) => (&part.attributes, AttributeString::Part),
-        Annotation::Empty
-        | Annotation::Comment
-        | Annotation::Unused
-        | Annotation::Feature(_)
-        | Annotation::Caption => return vec![],
+    let string = match annotation {
+        Annotation::Defaults(_) => AttributeString::Defaults,
+        Annotation::Legend(_) => AttributeString::Legend,
+        _ => AttributeString::Part,
     };
     let mut checker = Checker {
         text,
         variables,
         diagnostics: vec![],
     };
-    let settings = checker.attributes(attributes, string);
+    let settings = checker.attributes(annotation.attributes(), string);
     super::keep_safe_fixes(text, &mut checker.diagnostics);
     diagnostics.append(&mut checker.diagnostics);
     settings
@@ -125,11 +120,8 @@ impl Checker<'_> {
         if row.status == Status::Planned {
             self.not_built(attribute.keyword.name(), attribute.keyword_range.clone());
         }
-        let unreadable = attribute
-            .arguments
-            .iter()
-            .any(|argument| argument.kind == ArgumentKind::Unreadable);
-        if unreadable {
+        let mut arguments = attribute.arguments.iter();
+        if arguments.any(|argument| argument.kind == ArgumentKind::Unreadable) {
             return None;
         }
         let (value, arguments) = self.value(attribute)?;
@@ -139,12 +131,8 @@ impl Checker<'_> {
         let mut text = String::new();
         if !attribute.flags.is_empty() {
             text.push('-');
-            text.extend(
-                attribute
-                    .flags
-                    .iter()
-                    .map(|(letter, _)| letter.to_ascii_lowercase()),
-            );
+            let letters = attribute.flags.iter().map(|(letter, _)| letter);
+            text.extend(letters.map(char::to_ascii_lowercase));
         }
         for argument in arguments {
             if !text.is_empty() {

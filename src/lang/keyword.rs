@@ -136,6 +136,10 @@ pub struct Flag {
     pub summary: &'static str,
 }
 
+const fn flag(letter: char, summary: &'static str) -> Flag {
+    Flag { letter, summary }
+}
+
 /// Whether a row of the table has an effect in this version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {

@@ -32,6 +32,8 @@ pub(crate) use parse::{
 };
 pub(crate) use variables::Variables;
 
+use std::ops::Range;
+
 use crate::diagnostic::Diagnostic;
 use crate::source::Text;
 
@@ -42,4 +44,30 @@ fn keep_safe_fixes(text: &Text, diagnostics: &mut [Diagnostic]) {
             .fixes
             .retain(|fix| fix.edits.iter().all(|edit| text.is_whole(edit.span)));
     }
+}
+
+/// A diagnostic with the fix that writes something better in a range of its string.
+fn fixed_by_writing(
+    diagnostic: Diagnostic,
+    text: &Text,
+    range: &Range<usize>,
+    better: &str,
+) -> Diagnostic {
+    let written = text.escape_at(range.start, better);
+    diagnostic.fix(
+        format!("Write `{better}`"),
+        text.span(range.clone()),
+        written,
+    )
+}
+
+/// The same for a word that is misspelled.
+fn did_you_mean(
+    diagnostic: Diagnostic,
+    text: &Text,
+    range: &Range<usize>,
+    near: &str,
+) -> Diagnostic {
+    let diagnostic = diagnostic.label(format!("did you mean `{near}`?"));
+    fixed_by_writing(diagnostic, text, range, near)
 }

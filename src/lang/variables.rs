@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ast::{Annotation, Argument, ArgumentKind, Expression, Name};
+use super::did_you_mean;
 use super::evaluate::{EvaluationError, Lookup, evaluate};
 use super::keyword::Keyword;
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
@@ -101,13 +102,8 @@ impl Variables {
 
     /// The variable that `name` is probably a misspelling of.
     pub(super) fn nearest(&self, name: &str) -> Option<&str> {
-        nearest_word(
-            name,
-            self.variables
-                .keys()
-                .take(MAX_CANDIDATES)
-                .map(String::as_str),
-        )
+        let names = self.variables.keys().take(MAX_CANDIDATES);
+        nearest_word(name, names.map(String::as_str))
     }
 }
 
@@ -286,11 +282,7 @@ pub(super) fn evaluation_diagnostic(
             let message = format!("there is no variable called `{}`", name.text);
             let diagnostic = Diagnostic::new(Code::UnknownVariable, span, message);
             Some(match nearest(&name.text) {
-                Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
-                    format!("Write `{near}`"),
-                    span,
-                    text.escape_at(name.range.start, &near),
-                ),
+                Some(near) => did_you_mean(diagnostic, text, &name.range, &near),
                 None => diagnostic.label("expected a number").help(format!(
                     "write a number, or define the variable in a `%` string: `%Let {} 10`",
                     name.text

@@ -37,7 +37,7 @@ pub struct Error {
 /// same number. Of a shortened clip only its own frames are compared; source frames that do
 /// not exist are skipped. `height` is the figure's, in the positions' unit.
 pub fn error(frames: Poses<'_>, height: f64, exposure: &Exposure) -> Error {
-    let shown = exposure.sources();
+    let shown = &exposure.sources;
     let shown = &shown[..shown.len().min(frames.count())];
     let sums: Vec<[f64; 2]> = shown
         .par_chunks(GRAIN)

@@ -190,7 +190,7 @@ impl DualityGap<'_> {
 
     /// Searches the table for the cheapest segmentation that costs less than `known`.
     fn search_table(&self, known: f64) -> TableResult {
-        let frames = self.segments.frames();
+        let frames = self.segments.frames;
         let mut rows: Vec<TableRow> = vec![TableRow {
             first: 0,
             at: 0,
@@ -251,7 +251,7 @@ impl DualityGap<'_> {
                 .filter(|index| *index < row.width)?;
             Some(costs[row.at + index]).filter(|cost| cost.is_finite())
         };
-        let (mut frame, mut count) = (self.segments.frames(), self.count);
+        let (mut frame, mut count) = (self.segments.frames, self.count);
         let Some(cost) = entry(frame, count) else {
             return TableResult::NoneCheaper;
         };

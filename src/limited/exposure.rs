@@ -3,7 +3,8 @@
 /// An exposure sheet: for each shown frame the source frame whose drawing it shows.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Exposure {
-    sources: Vec<u32>,
+    /// The source frame of each shown frame.
+    pub sources: Vec<u32>,
 }
 
 /// A drawing on an exposure sheet: consecutive shown frames that show the same source frame.
@@ -21,11 +22,6 @@ impl Exposure {
     /// An exposure sheet from the source frame of each shown frame.
     pub fn new(sources: Vec<u32>) -> Self {
         Self { sources }
-    }
-
-    /// The source frame of each shown frame.
-    pub fn sources(&self) -> &[u32] {
-        &self.sources
     }
 
     /// The number of shown frames.

@@ -10,7 +10,7 @@ use crate::scene::{Interpolation, Timing};
 pub struct KeyTimes {
     timing: Arc<Timing>,
     /// Per key the frame of the clip.
-    frames: Vec<usize>,
+    pub frames: Vec<usize>,
 }
 
 impl KeyTimes {
@@ -68,11 +68,6 @@ impl KeyTimes {
             }),
             frames,
         }
-    }
-
-    /// Per key the frame that it shows.
-    pub fn frames(&self) -> &[usize] {
-        &self.frames
     }
 
     /// Their times.

@@ -12,7 +12,7 @@ const FAR: f64 = 1e280;
 /// All segments that one drawing may be held for, with their cost: Σ ‖p(t) − p(drawing)‖² over the frames of the segment, for
 /// its best drawing.
 pub(super) struct Segments {
-    frames: usize,
+    pub(super) frames: usize,
     max_hold: usize,
     /// `frames × max_hold`: the cost of each segment, by its first frame and its length − 1.
     costs: Vec<f64>,
@@ -58,16 +58,25 @@ impl Segments {
             .for_each(|(chunk, costs)| {
                 let start = chunk * GRAIN;
                 let rows = costs.len() / max_hold;
-                let near = nearby_ssds(
-                    frames,
-                    start,
-                    (start + rows + max_hold).min(count),
-                    max_hold,
-                );
+                let end = (start + rows + max_hold).min(count);
+                let near = nearby_ssds(frames, start, end, max_hold);
                 let mut sums = vec![0.0; max_hold];
                 for (row, costs) in costs.chunks_mut(max_hold).enumerate() {
                     let most = max_hold.min(count - start - row);
-                    accumulate_costs(&near[row * max_hold..], max_hold, most, &mut sums, costs);
+                    // Of the segments that begin with this frame.
+                    for last in 0..most {
+                        let row = &near[(row + last) * max_hold..][..=last];
+                        let mut own = 0.0;
+                        let mut least = f64::INFINITY;
+                        for drawing in 0..last {
+                            let apart = row[last - drawing];
+                            sums[drawing] += apart;
+                            own += apart;
+                            least = least.min(sums[drawing]);
+                        }
+                        sums[last] = own;
+                        costs[last] = least.min(own);
+                    }
                 }
             });
         let mut segments = Self {
@@ -119,10 +128,6 @@ impl Segments {
             }
             start = end;
         }
-    }
-
-    pub(super) fn frames(&self) -> usize {
-        self.frames
     }
 
     /// The segments that begin at a frame, as end and cost.
@@ -199,29 +204,6 @@ fn nearby_ssds(frames: Poses<'_>, start: usize, end: usize, max_hold: usize) -> 
         }
     }
     near
-}
-
-/// The costs of the segments of up to `most` frames that begin where `near` begins.
-fn accumulate_costs(
-    near: &[f64],
-    max_hold: usize,
-    most: usize,
-    sums: &mut [f64],
-    costs: &mut [f64],
-) {
-    for last in 0..most {
-        let row = &near[last * max_hold..][..=last];
-        let mut own = 0.0;
-        let mut least = f64::INFINITY;
-        for drawing in 0..last {
-            let apart = row[last - drawing];
-            sums[drawing] += apart;
-            own += apart;
-            least = least.min(sums[drawing]);
-        }
-        sums[last] = own;
-        costs[last] = least.min(own);
-    }
 }
 
 /// The frame of a segment that is its drawing: the one that must stay, else the best one; of equal ones the first.

@@ -130,7 +130,7 @@ fn the_best_drawings_are_optimal() {
             assert_eq!(drawn.exposure.drawings().count(), count);
             assert_eq!(drawn.exposure.len(), frames);
             if let Some(key) = key {
-                let shown = drawn.exposure.sources()[key] as usize;
+                let shown = drawn.exposure.sources[key] as usize;
                 assert_eq!(motion[shown], motion[key], "the key pose is shown");
             }
             let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.max(1.0);
@@ -141,7 +141,7 @@ fn the_best_drawings_are_optimal() {
             );
             assert!(near(drawn.bound, drawn.cost));
             let mut shown = 0.0;
-            for (frame, source) in drawn.exposure.sources().iter().enumerate() {
+            for (frame, source) in drawn.exposure.sources.iter().enumerate() {
                 shown += motion[frame].distance_squared(motion[*source as usize]);
             }
             assert!(near(shown, drawn.cost));
@@ -193,7 +193,7 @@ fn degenerate_motions_have_drawings() {
     }
     let still = vec![DVec3::ONE; 100];
     assert_eq!(
-        drawings(Poses::new(&still, 1), 7, 8).exposure.sources(),
+        drawings(Poses::new(&still, 1), 7, 8).exposure.sources,
         vec![0; 100]
     );
 }
@@ -206,12 +206,12 @@ fn of_equally_good_drawings_the_first_is_taken() {
 
 #[test]
 fn each_second_or_third_frame_is_a_drawing() {
-    assert_eq!(every(5, 2).sources(), [0, 0, 2, 2, 4]);
-    assert_eq!(every(5, 3).sources(), [0, 0, 0, 3, 3]);
-    assert_eq!(every(2, 0).sources(), [0, 1]);
+    assert_eq!(every(5, 2).sources, [0, 0, 2, 2, 4]);
+    assert_eq!(every(5, 3).sources, [0, 0, 0, 3, 3]);
+    assert_eq!(every(2, 0).sources, [0, 1]);
     assert!(every(0, 3).is_empty());
-    assert_eq!(every_through(6, 3, 4).sources(), [0, 1, 1, 1, 4, 4]);
-    assert_eq!(every_through(6, 3, 2).sources(), [0, 0, 2, 2, 2, 5]);
+    assert_eq!(every_through(6, 3, 4).sources, [0, 1, 1, 1, 4, 4]);
+    assert_eq!(every_through(6, 3, 2).sources, [0, 0, 2, 2, 2, 5]);
 }
 
 #[test]

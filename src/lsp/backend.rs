@@ -1,9 +1,10 @@
 //! The requests of the protocol, each answered by `ide`.
 
 use std::collections::BTreeSet;
+use std::fmt::Display;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
 use tower_lsp::ls_types::*;
@@ -12,14 +13,14 @@ use tower_lsp::{Client, LanguageServer};
 use super::convert::{self, PositionMap};
 use super::documents::{Analyzed, Document, Documents, Snapshot, file_path};
 use super::links::Links;
-use super::ordered::SNAPSHOTS;
+use super::ordered::{SNAPSHOTS, task_error};
 use super::positions::Encoding;
 use super::preview::Previews;
 use super::scheduler::Scheduler;
 use super::worker::ClientSupport;
 use super::workspace::Workspace;
-use super::{capabilities, manual};
-use crate::ide::Analysis;
+use super::{capabilities, edits, manual, queries};
+use crate::ide::{self, Analysis};
 
 /// The command behind the code lens.
 pub(super) const PREVIEW: &str = "okoshi.preview";
@@ -63,11 +64,6 @@ impl View {
 }
 
 impl Backend {
-    /// A text in its state when the request came.
-    pub(super) fn snapshot(&self, uri: &Uri) -> Option<Snapshot> {
-        SNAPSHOTS.with(|snapshots| snapshots.get(uri.as_str()).cloned())
-    }
-
     /// The analysis of the text in its state when the request came; waits for it.
     ///
     /// # Errors
@@ -76,20 +72,19 @@ impl Backend {
         &self,
         uri: &Uri,
     ) -> Result<Option<(Arc<Document>, Arc<Analyzed>)>> {
-        let Some(snapshot) = self.snapshot(uri) else {
-            return Ok(None);
-        };
-        let Snapshot {
+        let snapshot = SNAPSHOTS.with(|snapshots| snapshots.get(uri.as_str()).cloned());
+        let Some(Snapshot {
             document,
             mut analyses,
-        } = snapshot;
+        }) = snapshot
+        else {
+            return Ok(None);
+        };
         self.scheduler.request(uri.as_str());
         let arrived = analyses
             .wait_for(|analyzed| {
-                let generation = analyzed
-                    .as_ref()
-                    .map(|analyzed| analyzed.document.generation);
-                generation >= Some(document.generation)
+                let analyzed = analyzed.as_ref();
+                analyzed.is_some_and(|analyzed| analyzed.document.generation >= document.generation)
             })
             .await;
         // The sender is gone when the text was closed.
@@ -99,11 +94,10 @@ impl Backend {
         if analyzed.document.generation != document.generation
             && analyzed.document.text() != document.text()
         {
-            return Err(Error {
-                code: ErrorCode::ServerError(-32801),
-                message: "the text has changed meanwhile".into(),
-                data: None,
-            });
+            return Err(error(
+                ErrorCode::ContentModified,
+                "the text has changed meanwhile",
+            ));
         }
         Ok(Some((analyzed.document.clone(), analyzed)))
     }
@@ -114,10 +108,7 @@ impl Backend {
         let Some((document, analyzed)) = self.analyzed(uri).await? else {
             return Ok(None);
         };
-        let analyzed = match &analyzed.last_sound {
-            Some(last_sound) => last_sound.clone(),
-            None => analyzed,
-        };
+        let analyzed = analyzed.last_sound.clone().unwrap_or(analyzed);
         let view = View { document, analyzed };
         Ok(Some(view).filter(|view| view.analysis().is_annotated()))
     }
@@ -136,9 +127,18 @@ impl Backend {
         Ok(offset.and_then(|offset| answer(&view, &map, offset)))
     }
 
+    /// The text with its analysis, if that is of this very text.
+    pub(super) async fn current_view(&self, uri: &Uri) -> Result<Option<View>> {
+        Ok(self.view(uri).await?.filter(View::is_current))
+    }
+
     pub(super) fn client_capabilities(&self) -> ClientCapabilities {
         let can = self.client_capabilities.lock();
-        can.unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
+        can.unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn text_capabilities(&self) -> Option<TextDocumentClientCapabilities> {
+        self.client_capabilities().text_document
     }
 }
 
@@ -157,24 +157,13 @@ impl LanguageServer for Backend {
             }
         }
         #[allow(deprecated, reason = "older clients name one folder so")]
-        let root = params
-            .root_uri
-            .iter()
-            .filter_map(file_path)
-            .collect::<Vec<_>>();
-        let folders: Vec<PathBuf> = match &params.workspace_folders {
-            Some(folders) => folders
-                .iter()
-                .filter_map(|folder| file_path(&folder.uri))
-                .collect(),
-            None => root,
-        };
-        self.workspace.change(folders, &[]);
+        let root = || params.root_uri.iter().filter_map(file_path).collect();
+        let folders = params.workspace_folders.as_deref();
+        self.workspace
+            .change(folders.map_or_else(root, folder_paths), &[]);
         let answer = capabilities::initialize_result(&can, encoding);
-        *self
-            .client_capabilities
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner()) = can;
+        let known = self.client_capabilities.lock();
+        *known.unwrap_or_else(PoisonError::into_inner) = can;
         super::exit_with_client(params.process_id);
         Ok(answer)
     }
@@ -185,14 +174,9 @@ impl LanguageServer for Backend {
     }
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
-        let paths = |folders: &[WorkspaceFolder]| -> Vec<PathBuf> {
-            folders
-                .iter()
-                .filter_map(|folder| file_path(&folder.uri))
-                .collect()
-        };
-        let removed = paths(&params.event.removed);
-        self.workspace.change(paths(&params.event.added), &removed);
+        let removed = folder_paths(&params.event.removed);
+        self.workspace
+            .change(folder_paths(&params.event.added), &removed);
     }
 
     async fn did_change_watched_files(&self, params: DidChangeWatchedFilesParams) {
@@ -212,17 +196,12 @@ impl LanguageServer for Backend {
     ) -> Result<DocumentDiagnosticReportResult> {
         let uri = &params.text_document.uri;
         let analyzed = self.analyzed(uri).await?;
-        if analyzed.is_some()
-            && self
-                .client_support
-                .pulls_diagnostics
-                .load(Ordering::Relaxed)
-        {
+        let can = &self.client_support;
+        if analyzed.is_some() && can.pulls_diagnostics.load(Ordering::Relaxed) {
             self.scheduler.pulled(uri);
         }
-        let id = analyzed
-            .as_ref()
-            .map(|(document, _)| document.generation.to_string());
+        let document = analyzed.as_ref().map(|(document, _)| document);
+        let id = document.map(|document| document.generation.to_string());
         if id.is_some() && id == params.previous_result_id {
             let unchanged = RelatedUnchangedDocumentDiagnosticReport {
                 related_documents: None,
@@ -232,7 +211,7 @@ impl LanguageServer for Backend {
             };
             return Ok(DocumentDiagnosticReport::Unchanged(unchanged).into());
         }
-        let links = self.client_support.links_at_codes.load(Ordering::Relaxed);
+        let links = can.links_at_codes.load(Ordering::Relaxed);
         let items = analyzed.map_or_else(Vec::new, |(_, analyzed)| {
             convert::diagnostics(&analyzed, manual::links(links))
         });
@@ -247,37 +226,63 @@ impl LanguageServer for Backend {
     }
 
     async fn hover(&self, params: HoverParams) -> Result<Option<Hover>> {
-        self.on_hover(params).await
+        self.at(&params.text_document_position_params, queries::hover)
+            .await
     }
 
     async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
-        self.on_completion(params).await
+        let place = &params.text_document_position;
+        let analyzed = self.analyzed(&place.text_document.uri).await?;
+        let can = self.text_capabilities().and_then(|can| can.completion);
+        let item = can.and_then(|can| can.completion_item);
+        let snippets = item.and_then(|can| can.snippet_support) == Some(true);
+        Ok(analyzed.and_then(|(document, analyzed)| {
+            queries::completion(&document, analyzed.known(), place.position, snippets)
+        }))
     }
 
-    async fn completion_resolve(&self, item: CompletionItem) -> Result<CompletionItem> {
-        self.on_completion_resolve(item).await
+    async fn completion_resolve(&self, mut item: CompletionItem) -> Result<CompletionItem> {
+        item.documentation = convert::page(&item);
+        Ok(item)
     }
 
     async fn signature_help(&self, params: SignatureHelpParams) -> Result<Option<SignatureHelp>> {
-        self.on_signature_help(params).await
+        let place = &params.text_document_position_params;
+        let analyzed = self.analyzed(&place.text_document.uri).await?;
+        Ok(analyzed.and_then(|(document, analyzed)| {
+            let offset = document.positions.offset(place.position);
+            let help = ide::signature(document.text(), &analyzed.known().analysis, offset)?;
+            Some(convert::signatures(help))
+        }))
     }
 
     async fn goto_definition(
         &self,
         params: GotoDefinitionParams,
     ) -> Result<Option<GotoDefinitionResponse>> {
-        self.on_goto_definition(params).await
+        let can = self.text_capabilities().and_then(|can| can.definition);
+        let links = can.and_then(|can| can.link_support) == Some(true);
+        let place = &params.text_document_position_params;
+        self.at(place, |view, map, offset| {
+            queries::definition(view, map, offset, links)
+        })
+        .await
     }
 
     async fn references(&self, params: ReferenceParams) -> Result<Option<Vec<Location>>> {
-        self.on_references(params).await
+        let with_definition = params.context.include_declaration;
+        self.at(&params.text_document_position, |view, map, offset| {
+            queries::references(view, map, offset, with_definition)
+        })
+        .await
     }
 
     async fn document_highlight(
         &self,
         params: DocumentHighlightParams,
     ) -> Result<Option<Vec<DocumentHighlight>>> {
-        self.on_document_highlight(params).await
+        self.at(&params.text_document_position_params, queries::highlights)
+            .await
     }
 
     async fn prepare_rename(
@@ -295,54 +300,72 @@ impl LanguageServer for Backend {
         &self,
         params: DocumentSymbolParams,
     ) -> Result<Option<DocumentSymbolResponse>> {
-        self.on_document_symbol(params).await
+        let can = self.text_capabilities().and_then(|can| can.document_symbol);
+        let nested = can.and_then(|can| can.hierarchical_document_symbol_support);
+        let view = self.view(&params.text_document.uri).await?;
+        Ok(view.map(|view| queries::symbols(&view, nested == Some(true))))
     }
 
     async fn symbol(
         &self,
         params: WorkspaceSymbolParams,
     ) -> Result<Option<WorkspaceSymbolResponse>> {
-        self.on_symbol(params).await
+        let open = SNAPSHOTS.with(Clone::clone);
+        let workspace = self.workspace.clone();
+        let encoding = self.documents.encoding();
+        let found =
+            tokio::task::spawn_blocking(move || workspace.symbols(&params.query, &open, encoding));
+        let found = found.await.map_err(task_error)?;
+        Ok(Some(WorkspaceSymbolResponse::Nested(found)))
     }
 
     async fn folding_range(&self, params: FoldingRangeParams) -> Result<Option<Vec<FoldingRange>>> {
-        self.on_folding_range(params).await
+        let view = self.view(&params.text_document.uri).await?;
+        Ok(view.as_ref().map(queries::folds))
     }
 
     async fn selection_range(
         &self,
         params: SelectionRangeParams,
     ) -> Result<Option<Vec<SelectionRange>>> {
-        self.on_selection_range(params).await
+        let view = self.view(&params.text_document.uri).await?;
+        Ok(view.map(|view| queries::selections(&view, &params.positions)))
     }
 
     async fn semantic_tokens_full(
         &self,
         params: SemanticTokensParams,
     ) -> Result<Option<SemanticTokensResult>> {
-        self.on_semantic_tokens_full(params).await
+        let view = self.view(&params.text_document.uri).await?;
+        Ok(view.map(|view| queries::semantic_tokens(&view, None).into()))
     }
 
     async fn semantic_tokens_range(
         &self,
         params: SemanticTokensRangeParams,
     ) -> Result<Option<SemanticTokensRangeResult>> {
-        self.on_semantic_tokens_range(params).await
+        let view = self.view(&params.text_document.uri).await?;
+        Ok(view.map(|view| queries::semantic_tokens(&view, Some(params.range)).into()))
     }
 
     async fn inlay_hint(&self, params: InlayHintParams) -> Result<Option<Vec<InlayHint>>> {
-        self.on_inlay_hint(params).await
+        let view = self.view(&params.text_document.uri).await?;
+        Ok(view.map(|view| queries::inlays(&view, params.range)))
     }
 
     async fn document_color(&self, params: DocumentColorParams) -> Result<Vec<ColorInformation>> {
-        self.on_document_color(params).await
+        let view = self.view(&params.text_document.uri).await?;
+        Ok(view.as_ref().map(queries::colors).unwrap_or_default())
     }
 
     async fn color_presentation(
         &self,
         params: ColorPresentationParams,
     ) -> Result<Vec<ColorPresentation>> {
-        self.on_color_presentation(params).await
+        let view = self.current_view(&params.text_document.uri).await?;
+        Ok(view
+            .map(|view| edits::color_presentations(&view, params.range, params.color))
+            .unwrap_or_default())
     }
 
     async fn code_action(&self, params: CodeActionParams) -> Result<Option<CodeActionResponse>> {
@@ -350,21 +373,37 @@ impl LanguageServer for Backend {
     }
 
     async fn formatting(&self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
-        self.on_formatting(params).await
+        self.formatted(&params.text_document.uri, None).await
     }
 
     async fn range_formatting(
         &self,
         params: DocumentRangeFormattingParams,
     ) -> Result<Option<Vec<TextEdit>>> {
-        self.on_range_formatting(params).await
+        self.formatted(&params.text_document.uri, Some(params.range))
+            .await
     }
 
     async fn code_lens(&self, params: CodeLensParams) -> Result<Option<Vec<CodeLens>>> {
-        self.on_code_lens(params).await
+        let view = self.view(&params.text_document.uri).await?;
+        Ok(view.as_ref().and_then(queries::preview_lens))
     }
 
     async fn execute_command(&self, params: ExecuteCommandParams) -> Result<Option<LSPAny>> {
         self.on_execute_command(params).await
+    }
+}
+
+fn folder_paths(folders: &[WorkspaceFolder]) -> Vec<PathBuf> {
+    let paths = folders.iter().map(|folder| file_path(&folder.uri));
+    paths.flatten().collect()
+}
+
+/// An error of the protocol; editors show its message.
+pub(super) fn error(code: ErrorCode, message: impl Display) -> Error {
+    Error {
+        code,
+        message: message.to_string().into(),
+        data: None,
     }
 }

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::watch;
 use tower_lsp::ls_types::{
@@ -62,6 +62,13 @@ pub(super) struct Analyzed {
 }
 
 /// Receives the analyses of a text.
+impl Analyzed {
+    /// What is known of the drawing: the last analysis that was sound, if this one is not.
+    pub(super) fn known(&self) -> &Self {
+        self.last_sound.as_deref().unwrap_or(self)
+    }
+}
+
 pub(super) type AnalysisReceiver = watch::Receiver<Option<Arc<Analyzed>>>;
 
 #[derive(Debug)]
@@ -71,7 +78,19 @@ struct Entry {
 }
 
 /// All open texts.
-#[derive(Debug)]
+impl Entry {
+    fn replace(&mut self, positions: Positions, version: i32, generation: u64) {
+        self.document = Arc::new(Document {
+            uri: self.document.uri.clone(),
+            version,
+            generation,
+            positions,
+            path: self.document.path.clone(),
+        });
+    }
+}
+
+#[derive(Debug, Default)]
 pub(super) struct Documents {
     state: Mutex<State>,
 }
@@ -92,17 +111,9 @@ pub(super) struct Snapshot {
 }
 
 impl Documents {
-    pub(super) fn new() -> Self {
-        Self {
-            state: Mutex::default(),
-        }
-    }
-
     fn state(&self) -> MutexGuard<'_, State> {
         // Entries are replaced as a whole, so a panic while the lock was held left them consistent.
-        self.state
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner())
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Sets what columns count.
@@ -156,15 +167,9 @@ impl Documents {
             };
             positions = Some(Positions::new(text, encoding));
         }
-        let old = &entry.document;
+        let old = &entry.document.positions;
         let positions = positions.unwrap_or_else(|| Positions::new(old.text().clone(), encoding));
-        entry.document = Arc::new(Document {
-            uri: old.uri.clone(),
-            version: id.version,
-            generation,
-            positions,
-            path: old.path.clone(),
-        });
+        entry.replace(positions, id.version, generation);
         state.generation = generation;
     }
 
@@ -174,14 +179,8 @@ impl Documents {
         let generation = state.generation + 1;
         let encoding = state.encoding.unwrap_or(Encoding::Utf16);
         if let Some(entry) = state.entries.get_mut(uri) {
-            let old = &entry.document;
-            entry.document = Arc::new(Document {
-                uri: old.uri.clone(),
-                version: old.version,
-                generation,
-                positions: Positions::new(old.text().clone(), encoding),
-                path: old.path.clone(),
-            });
+            let positions = Positions::new(entry.document.text().clone(), encoding);
+            entry.replace(positions, entry.document.version, generation);
             state.generation = generation;
         }
     }

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
 use tower_lsp::ls_types::*;
 
-use super::backend::{Backend, PREVIEW, View};
+use super::backend::{Backend, PREVIEW, View, error};
 use super::convert::{self, PositionMap};
 use super::documents::Document;
 use super::manual;
@@ -30,7 +30,7 @@ impl Backend {
                 placeholder,
             })),
             Err(ide::RenameError::NoName) => Ok(None),
-            Err(error) => Err(refused(&error)),
+            Err(refused) => Err(error(REFUSED, refused)),
         }
     }
 
@@ -40,50 +40,12 @@ impl Backend {
             return Ok(None);
         };
         let offset = document.positions.offset(place.position);
-        let edits = analyzed
-            .analysis
-            .rename(offset, &params.new_name)
-            .map_err(|error| refused(&error))?;
-        let edits = PositionMap::identity(&document.positions)
-            .edits(&edits)
-            .unwrap_or_default();
-        Ok(Some(self.workspace_edit(&document, edits)))
-    }
-
-    pub(super) async fn on_color_presentation(
-        &self,
-        params: ColorPresentationParams,
-    ) -> Result<Vec<ColorPresentation>> {
-        let Some(view) = self
-            .view(&params.text_document.uri)
-            .await?
-            .filter(View::is_current)
-        else {
-            return Ok(vec![]);
-        };
-        let map = view.map();
-        let Color {
-            red,
-            green,
-            blue,
-            alpha,
-        } = params.color;
-        let rgba = [red, green, blue, alpha].map(f64::from);
-        let forms = view
-            .analysis()
-            .color_edits(map.span(params.range), rgba)
-            .into_iter();
-        let presentations = forms.filter_map(|(label, edits)| {
-            let mut edits = map.edits(&edits)?.into_iter();
-            let first = edits.next()?;
-            let others: Vec<_> = edits.collect();
-            Some(ColorPresentation {
-                label,
-                text_edit: Some(first),
-                additional_text_edits: (!others.is_empty()).then_some(others),
-            })
-        });
-        Ok(presentations.collect())
+        let edits = analyzed.analysis.rename(offset, &params.new_name);
+        let edits = edits.map_err(|refused| error(REFUSED, refused))?;
+        let edits = PositionMap::identity(&document.positions).edits(&edits);
+        Ok(Some(
+            self.workspace_edit(&document, edits.unwrap_or_default()),
+        ))
     }
 
     pub(super) async fn on_code_action(
@@ -136,21 +98,6 @@ impl Backend {
         Ok((!actions.is_empty()).then_some(actions))
     }
 
-    pub(super) async fn on_formatting(
-        &self,
-        params: DocumentFormattingParams,
-    ) -> Result<Option<Vec<TextEdit>>> {
-        self.formatted(&params.text_document.uri, None).await
-    }
-
-    pub(super) async fn on_range_formatting(
-        &self,
-        params: DocumentRangeFormattingParams,
-    ) -> Result<Option<Vec<TextEdit>>> {
-        self.formatted(&params.text_document.uri, Some(params.range))
-            .await
-    }
-
     pub(super) async fn on_execute_command(
         &self,
         params: ExecuteCommandParams,
@@ -179,8 +126,13 @@ impl Backend {
         Ok(None)
     }
 
-    async fn formatted(&self, uri: &Uri, range: Option<Range>) -> Result<Option<Vec<TextEdit>>> {
-        let Some(view) = self.view(uri).await?.filter(View::is_current) else {
+    /// The edits that format a text, or a range of it.
+    pub(super) async fn formatted(
+        &self,
+        uri: &Uri,
+        range: Option<Range>,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        let Some(view) = self.current_view(uri).await? else {
             return Ok(None);
         };
         // Formatting compiles the result, which may take long.
@@ -224,11 +176,27 @@ impl Backend {
     }
 }
 
-/// The error of a rename that is impossible; editors show its message.
-fn refused(error: &ide::RenameError) -> Error {
-    Error {
-        code: ErrorCode::ServerError(-32803),
-        message: error.to_string().into(),
-        data: None,
-    }
+/// The code of a request that is understood but cannot be met, such as an impossible rename.
+const REFUSED: ErrorCode = ErrorCode::ServerError(-32803);
+
+/// What to write for a color that was chosen in place of the one in a range.
+pub(super) fn color_presentations(
+    view: &View,
+    range: Range,
+    color: Color,
+) -> Vec<ColorPresentation> {
+    let map = view.map();
+    let rgba = [color.red, color.green, color.blue, color.alpha].map(f64::from);
+    let forms = view.analysis().color_edits(map.span(range), rgba);
+    let presentations = forms.into_iter().filter_map(|(label, edits)| {
+        let mut edits = map.edits(&edits)?.into_iter();
+        let first = edits.next()?;
+        let others: Vec<_> = edits.collect();
+        Some(ColorPresentation {
+            label,
+            text_edit: Some(first),
+            additional_text_edits: (!others.is_empty()).then_some(others),
+        })
+    });
+    presentations.collect()
 }

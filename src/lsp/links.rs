@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::scheduler::Scheduler;
 use crate::disk::{ChangeDetection, FolderWatch, event_path};
@@ -23,9 +23,7 @@ impl std::fmt::Debug for Links {
 type LinkedFiles = Mutex<BTreeMap<String, BTreeSet<PathBuf>>>;
 
 fn lock(linked: &LinkedFiles) -> MutexGuard<'_, BTreeMap<String, BTreeSet<PathBuf>>> {
-    linked
-        .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner())
+    linked.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Links {

@@ -3,6 +3,7 @@
 //! The framework stops reading after the first message that it cannot decode. This stage passes on what it can decode, and
 //! in the place of everything else a request that [`Ordered`](super::ordered::Ordered) answers with the error.
 
+use std::fmt::Display;
 use std::io;
 
 use serde_json::json;
@@ -11,6 +12,8 @@ use tokio::io::{
     AsyncWriteExt as _, BufReader,
 };
 use tower_lsp::jsonrpc::{Error, ErrorCode, Request, Response};
+
+use super::backend::error;
 
 /// The method that stands for a message that cannot be read; its parameter is the error.
 pub(super) const UNREADABLE: &str = "okoshi/unreadable";
@@ -109,22 +112,12 @@ fn readable(body: Vec<u8>) -> Result<Option<String>, Error> {
             "the protocol has no batches: send the messages one by one",
         ));
     }
-    let syntax = |error: serde_json::Error| {
-        if error.is_data() {
-            None
-        } else {
-            Some(parse_error(error))
-        }
-    };
-    let Err(error) = serde_json::from_str::<Request>(&text) else {
-        return Ok(Some(text));
-    };
-    match syntax(error) {
-        Some(error) => Err(error),
-        None if serde_json::from_str::<Response>(&text).is_ok() => Ok(Some(text)),
-        None => Err(invalid(
+    match serde_json::from_str::<Request>(&text) {
+        Err(error) if !error.is_data() => Err(parse_error(error)),
+        Err(_) if serde_json::from_str::<Response>(&text).is_err() => Err(invalid(
             "it is neither a request nor a notification nor a response",
         )),
+        _ => Ok(Some(text)),
     }
 }
 
@@ -142,14 +135,8 @@ fn without_lone_surrogates(text: String) -> String {
     while let Some(next) = memchr::memchr(b'\\', &text.as_bytes()[at..]) {
         at += next;
         at += match escape(at) {
-            Some(0xD800..=0xDBFF) => match escape(at + 6) {
-                Some(0xDC00..=0xDFFF) => 12,
-                _ => {
-                    lone.push(at);
-                    6
-                }
-            },
-            Some(0xDC00..=0xDFFF) => {
+            Some(0xD800..=0xDBFF) if matches!(escape(at + 6), Some(0xDC00..=0xDFFF)) => 12,
+            Some(0xD800..=0xDFFF) => {
                 lone.push(at);
                 6
             }
@@ -174,20 +161,16 @@ fn without_lone_surrogates(text: String) -> String {
     out
 }
 
-fn parse_error(why: impl std::fmt::Display) -> Error {
-    Error {
-        code: ErrorCode::ParseError,
-        message: format!("the message cannot be read: {why}").into(),
-        data: None,
-    }
+fn parse_error(why: impl Display) -> Error {
+    unread(ErrorCode::ParseError, why)
 }
 
-fn invalid(why: impl std::fmt::Display) -> Error {
-    Error {
-        code: ErrorCode::InvalidRequest,
-        message: format!("the message cannot be read: {why}").into(),
-        data: None,
-    }
+fn invalid(why: impl Display) -> Error {
+    unread(ErrorCode::InvalidRequest, why)
+}
+
+fn unread(code: ErrorCode, why: impl Display) -> Error {
+    error(code, format!("the message cannot be read: {why}"))
 }
 
 /// The request that stands for a message that cannot be read.

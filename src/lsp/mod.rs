@@ -96,7 +96,7 @@ type Parts = (
 
 /// The service, the connection to the client, and whether the client has asked to shut down.
 fn service() -> Parts {
-    let documents = Arc::new(Documents::new());
+    let documents: Arc<Documents> = Arc::default();
     let scheduler = Arc::new(Scheduler::new(documents.clone()));
     let shut_down = Arc::new(AtomicBool::new(false));
     let builder = LspService::build(|client| {

@@ -1,10 +1,11 @@
 //! The live preview of open texts, saved or not: in the client's own panel, or on a page in the browser.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::SystemTime;
 
 use base64::Engine;
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, PercentEncode, utf8_percent_encode};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use serde_json::value::RawValue;
@@ -99,9 +100,7 @@ impl Previews {
     }
 
     fn queue(&self) -> MutexGuard<'_, Queue> {
-        self.queue
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner())
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The client has panels: events are sent to it, and no page is served.
@@ -166,10 +165,8 @@ impl Previews {
                 if let Some(next) = queue.waiting.pop_first() {
                     break next;
                 }
-                queue = self
-                    .wakeup
-                    .wait(queue)
-                    .unwrap_or_else(|poisoned| poisoned.into_inner());
+                let woken = self.wakeup.wait(queue);
+                queue = woken.unwrap_or_else(PoisonError::into_inner);
             };
             memories.retain(|uri, _| queue.open.contains_key(uri));
             drop(queue);
@@ -283,15 +280,16 @@ fn offset(text: &str, line: usize, column: usize) -> usize {
     before + places.nth(column.saturating_sub(1)).unwrap_or(line.len())
 }
 
+/// What is not written as it is in the fragment of an address.
+const ENCODED: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'-')
+    .remove(b'.')
+    .remove(b'_')
+    .remove(b'~');
+
 /// Percent-encodes text for the fragment of an address.
-fn escaped(text: &str) -> String {
-    let escape = |byte: u8| match byte {
-        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
-            char::from(byte).to_string()
-        }
-        byte => format!("%{byte:02X}"),
-    };
-    text.bytes().map(escape).collect()
+fn escaped(text: &str) -> PercentEncode<'_> {
+    utf8_percent_encode(text, ENCODED)
 }
 
 /// Events of one drawing.
@@ -342,12 +340,17 @@ pub(super) struct CursorParams {
 impl Backend {
     /// Starts the preview of a text in the client's panel.
     pub(super) async fn preview_open(&self, params: OpenParams) -> Result<Value> {
-        let uri = &params.text_document.uri;
+        self.preview(&params.text_document.uri).await?;
+        Ok(Value::Null)
+    }
+
+    /// Previews a text from now on.
+    async fn preview(&self, uri: &Uri) -> Result<()> {
         if self.analyzed(uri).await?.is_none() {
             return Err(Error::invalid_params("this drawing is not open"));
         }
         self.previews.open(uri);
-        Ok(Value::Null)
+        Ok(())
     }
 
     /// Ends the preview of a text.
@@ -387,10 +390,7 @@ impl Backend {
 
     /// Shows a text on a page in the browser, or says where that page is.
     pub(super) async fn show_page(&self, uri: &Uri) -> Result<()> {
-        if self.analyzed(uri).await?.is_none() {
-            return Err(Error::invalid_params("this drawing is not open"));
-        }
-        self.previews.open(uri);
+        self.preview(uri).await?;
         let page = match self.previews.page(uri.as_str()) {
             Ok(page) => page,
             Err(error) => {

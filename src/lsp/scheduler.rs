@@ -3,7 +3,7 @@
 //! A text that changes while it waits is analysed once, in its newest state.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 use tower_lsp::ls_types::Uri;
 
@@ -58,9 +58,7 @@ impl Scheduler {
     }
 
     fn queue(&self) -> MutexGuard<'_, Queue> {
-        self.queue
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner())
+        self.queue.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Applies the client's settings, `{"analyze": "onType"}`, alone or under `okoshi`; others are ignored.
@@ -137,10 +135,8 @@ impl Scheduler {
             if let Some(task) = queue.tasks.pop_front() {
                 return task;
             }
-            queue = self
-                .wakeup
-                .wait(queue)
-                .unwrap_or_else(|poisoned| poisoned.into_inner());
+            let woken = self.wakeup.wait(queue);
+            queue = woken.unwrap_or_else(PoisonError::into_inner);
         }
     }
 
@@ -169,7 +165,7 @@ mod tests {
 
     #[test]
     fn a_change_while_diagnostics_are_sent_has_its_own_sent() {
-        let documents = Arc::new(Documents::new());
+        let documents = Arc::new(Documents::default());
         let scheduler = Scheduler::new(Arc::clone(&documents));
         let uri: Uri = "file:///drawing.svg".parse().unwrap();
         documents.open(TextDocumentItem {

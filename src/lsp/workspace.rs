@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
 use tower_lsp::ls_types::{Location, OneOf, Range, Uri, WorkspaceSymbol};
@@ -43,10 +43,7 @@ pub(super) struct Workspace {
 impl Workspace {
     /// Adds and removes folders.
     pub(super) fn change(&self, added: Vec<PathBuf>, removed: &[PathBuf]) {
-        let mut folders = self
-            .folders
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut folders = self.folders.lock().unwrap_or_else(PoisonError::into_inner);
         folders.retain(|folder| !removed.contains(folder));
         folders.extend(added);
     }
@@ -72,7 +69,7 @@ impl Workspace {
         let folders = self
             .folders
             .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner())
+            .unwrap_or_else(PoisonError::into_inner)
             .clone();
         for folder in folders {
             let drawings = below(&folder)
@@ -96,10 +93,7 @@ impl Workspace {
 
     fn read(&self, file: &Path, encoding: Encoding) -> Option<Arc<Vec<PartSymbol>>> {
         let stamp = stamp(file)?;
-        let mut read = self
-            .read
-            .lock()
-            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = read.get(file).filter(|known| known.stamp == stamp) {
             return Some(known.parts.clone());
         }

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::Error;
 use super::write::TICKS;
 
 /// The most frames of a track: more than two hours of 60 a second.
@@ -23,23 +24,30 @@ pub(crate) fn is_name(name: &str) -> bool {
     !name.is_empty() && name.chars().all(is_part) && name.chars().nth(MAX_NAME).is_none()
 }
 
-/// What is wrong with a name, and how to fix it.
-pub(super) fn name_problem(name: &str) -> Option<(String, &'static str)> {
+/// Fails if a mark cannot have this name.
+pub(super) fn check_name(name: &str) -> Result<(), Error> {
+    if is_name(name) {
+        return Ok(());
+    }
     let shown: String = name.chars().take(MAX_NAME).collect();
-    (!is_name(name)).then(|| {
-        let message = format!("`{}` cannot be the name of a mark", shown.escape_debug());
-        let help = "names have letters, digits, `-` and `_`, 64 at most, such as `red`";
-        (message, help)
-    })
+    let message = format!("`{}` cannot be the name of a mark", shown.escape_debug());
+    let help = "names have letters, digits, `-` and `_`, 64 at most, such as `red`";
+    Err(Error::whole(message, help))
 }
 
-/// What is wrong with the size of the pictures.
-pub(super) fn size_problem(size: [u32; 2]) -> Option<String> {
-    let is_right = size.iter().all(|side| (1..=MAX_SIDE).contains(side));
-    (!is_right).then(|| {
-        let [width, height] = size;
-        format!("the pictures cannot be {width} × {height} pixels")
-    })
+/// Fails if pictures cannot have this size.
+pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), Error> {
+    if [width, height]
+        .iter()
+        .all(|side| (1..=MAX_SIDE).contains(side))
+    {
+        return Ok(());
+    }
+    let message = format!("the pictures cannot be {width} × {height} pixels");
+    Err(Error::whole(
+        message,
+        "give the width and the height of the clip's pictures",
+    ))
 }
 
 /// The first name that an earlier mark has already, by its index.
@@ -53,31 +61,32 @@ pub(super) fn ticks(time: f64) -> f64 {
     (time * TICKS).round()
 }
 
-/// What is wrong with the time of a frame that follows on another.
-pub(super) fn time_problem(before: Option<f64>, time: f64) -> Option<(String, &'static str)> {
+/// Fails if a frame that follows on another cannot have this time.
+pub(super) fn check_time(before: Option<f64>, time: f64) -> Result<(), Error> {
     if !(-MAX_TIME..=MAX_TIME).contains(&time) {
         let message = format!("{time} is no time of a clip, in seconds");
-        return Some((message, "give the time of each frame in seconds"));
+        return Err(Error::whole(
+            message,
+            "give the time of each frame in seconds",
+        ));
     }
     // Frames closer than the times that are written would become one.
     let is_later = |before| ticks(time) > ticks(before);
     match before {
-        Some(before) if !is_later(before) => Some((
+        Some(before) if !is_later(before) => Err(Error::whole(
             format!("the frame at {time} s does not come after the one at {before} s"),
             "sort the frames by their times; two frames are at least 0.0001 s apart",
         )),
-        _ => None,
+        _ => Ok(()),
     }
 }
 
-/// What is wrong with a coordinate.
-pub(super) fn coordinate_problem(coordinate: f64) -> Option<(String, &'static str)> {
-    let is_right = coordinate.abs() <= MAX_COORDINATE;
-    (!is_right).then(|| {
-        let message = format!("{coordinate} is no place in a picture, in pixels");
-        (
-            message,
-            "coordinates are pixels from the picture's top left corner",
-        )
-    })
+/// Fails if no place in a picture has this coordinate.
+pub(super) fn check_coordinate(coordinate: f64) -> Result<(), Error> {
+    if coordinate.abs() <= MAX_COORDINATE {
+        return Ok(());
+    }
+    let message = format!("{coordinate} is no place in a picture, in pixels");
+    let help = "coordinates are pixels from the picture's top left corner";
+    Err(Error::whole(message, help))
 }

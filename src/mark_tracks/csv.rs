@@ -3,10 +3,9 @@
 use glam::DVec2;
 
 use super::check::{
-    MAX_FRAMES, MAX_MARKS, coordinate_problem, name_problem, repeated_name, size_problem,
-    time_problem,
+    MAX_FRAMES, MAX_MARKS, check_coordinate, check_name, check_size, check_time, repeated_name,
 };
-use super::{Error, ErrorLocation, MarkTrack, MarkTracks, bridge, named_color, parse_hex};
+use super::{Error, MarkTrack, MarkTracks, bridge, named_color, parse_hex};
 
 /// The colour of a mark whose name says none.
 const GRAY: [u8; 3] = [128; 3];
@@ -21,11 +20,11 @@ struct Cell<'a> {
 
 impl Cell<'_> {
     fn error(&self, message: impl Into<String>, help: impl Into<String>) -> Error {
-        let location = ErrorLocation::Position {
-            line: self.line,
-            column: self.column,
-        };
-        Error::new(location, message, help)
+        self.place(Error::whole(message, help))
+    }
+
+    fn place(&self, error: Error) -> Error {
+        error.at(self.line, self.column)
     }
 }
 
@@ -74,11 +73,8 @@ pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
         ));
     };
     let Some(size) = comment.size else {
-        return Err(Error::new(
-            ErrorLocation::Position { line: 1, column: 1 },
-            "the size of the clip's pictures is missing",
-            "begin the file with the line `# 320x240`, with the pictures' width and height in pixels",
-        ));
+        let help = "begin the file with the line `# 320x240`, with the pictures' width and height in pixels";
+        return Err(Error::whole("the size of the clip's pictures is missing", help).at(1, 1));
     };
     let mut times = Vec::new();
     for (index, line) in lines {
@@ -92,9 +88,7 @@ pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
         let cell = row[time];
         let at = number(cell, separator)?
             .ok_or_else(|| cell.error("the time of the frame is missing", "give it in seconds"))?;
-        if let Some((message, help)) = time_problem(times.last().copied(), at) {
-            return Err(cell.error(message, help));
-        }
+        check_time(times.last().copied(), at).map_err(|error| cell.place(error))?;
         if times.len() == MAX_FRAMES {
             let message = format!("a track has at most {MAX_FRAMES} frames");
             return Err(cell.error(message, "track a shorter clip"));
@@ -132,11 +126,7 @@ impl<'a> Comment<'a> {
             } else if let Some((width, height)) = word.split_once(['x', '×'])
                 && let (Ok(width), Ok(height)) = (width.parse(), height.parse())
             {
-                if let Some(message) = size_problem([width, height]) {
-                    let location = ErrorLocation::Position { line, column: 1 };
-                    let help = "give the width and the height of the clip's pictures";
-                    return Err(Error::new(location, message, help));
-                }
+                check_size([width, height]).map_err(|error| error.at(line, 1))?;
                 self.size = Some([width, height]);
             }
         }
@@ -156,10 +146,10 @@ impl Columns<'_> {
     fn read(&mut self, row: &[Cell<'_>], separator: char) -> Result<(), Error> {
         let coordinate = |column: usize| {
             let value = number(row[column], separator)?;
-            match value.and_then(coordinate_problem) {
-                Some((message, help)) => Err(row[column].error(message, help)),
-                None => Ok(value),
-            }
+            let checked = value.map_or(Ok(()), check_coordinate);
+            checked
+                .map(|()| value)
+                .map_err(|error| row[column].place(error))
         };
         let point = match (coordinate(self.x)?, coordinate(self.y)?) {
             (Some(x), Some(y)) => Some(DVec2::new(x, y)),
@@ -196,9 +186,7 @@ fn columns<'a>(header: &[Cell<'a>]) -> Result<Vec<Columns<'a>>, Error> {
         let Some(name) = cell.text.strip_suffix("_x") else {
             continue;
         };
-        if let Some((message, help)) = name_problem(name) {
-            return Err(cell.error(message, help));
-        }
+        check_name(name).map_err(|error| cell.place(error))?;
         let Some(y) = find(name, "_y") else {
             let message = format!("there is a column `{name}_x`, but no `{name}_y`");
             return Err(cell.error(message, format!("name a column `{name}_y`")));
@@ -273,9 +261,7 @@ fn number(cell: Cell<'_>, separator: char) -> Result<Option<f64>, Error> {
     number.map(Some).ok_or_else(|| {
         let shown: String = cell.text.chars().take(40).collect();
         let message = format!("`{}` is no number", shown.escape_debug());
-        cell.error(
-            message,
-            "write a number such as 12.5, or leave the cells of a lost mark empty",
-        )
+        let help = "write a number such as 12.5, or leave the cells of a lost mark empty";
+        cell.error(message, help)
     })
 }

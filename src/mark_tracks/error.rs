@@ -19,7 +19,8 @@ pub enum ErrorLocation {
 }
 
 /// Why a file is no track, and where.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{location}{message}")]
 pub struct Error {
     /// Where it is.
     pub location: ErrorLocation,
@@ -35,12 +36,29 @@ impl Error {
         Self::new(ErrorLocation::File, message, help)
     }
 
-    /// An error at a location.
-    pub(super) fn new(
-        location: ErrorLocation,
+    /// An error of a field of JSON.
+    pub(super) fn field(
+        field: impl Into<String>,
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Self {
+        Self::new(ErrorLocation::Field(field.into()), message, help)
+    }
+
+    /// This error, at a line and a column.
+    pub(super) fn at(self, line: usize, column: usize) -> Self {
+        let location = ErrorLocation::Position { line, column };
+        Self { location, ..self }
+    }
+
+    /// This error, of a field of JSON.
+    pub(super) fn of(self, field: String) -> Self {
+        let location = ErrorLocation::Field(field);
+        Self { location, ..self }
+    }
+
+    /// An error at a location.
+    fn new(location: ErrorLocation, message: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             location,
             message: message.into(),
@@ -49,17 +67,12 @@ impl Error {
     }
 }
 
-impl fmt::Display for Error {
+impl fmt::Display for ErrorLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.location {
-            ErrorLocation::File => {}
-            ErrorLocation::Position { line, column } => {
-                write!(f, "line {line}, column {column}: ")?
-            }
-            ErrorLocation::Field(field) => write!(f, "`{field}`: ")?,
+        match self {
+            Self::File => Ok(()),
+            Self::Position { line, column } => write!(f, "line {line}, column {column}: "),
+            Self::Field(field) => write!(f, "`{field}`: "),
         }
-        f.write_str(&self.message)
     }
 }
-
-impl std::error::Error for Error {}

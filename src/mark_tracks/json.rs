@@ -4,10 +4,9 @@ use glam::DVec2;
 use serde::Deserialize;
 
 use super::check::{
-    MAX_FRAMES, MAX_MARKS, coordinate_problem, name_problem, repeated_name, size_problem,
-    time_problem,
+    MAX_FRAMES, MAX_MARKS, check_coordinate, check_name, check_size, check_time, repeated_name,
 };
-use super::{Error, ErrorLocation, MarkTrack, MarkTracks, bridge, parse_hex};
+use super::{Error, MarkTrack, MarkTracks, bridge, parse_hex};
 
 /// What tells a track from other JSON.
 #[derive(Deserialize)]
@@ -46,28 +45,18 @@ struct Mark {
 pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
     let header: Header = serde_json::from_str(text).map_err(|error| invalid(&error))?;
     if header.format.as_deref() != Some("okoshi track") {
-        return Err(Error::new(
-            ErrorLocation::Field("format".to_owned()),
+        return Err(Error::field(
+            "format",
             "this JSON is no track: it does not say `\"format\": \"okoshi track\"`",
             "`okoshi track` makes a track of a clip",
         ));
     }
     if header.version != Some(1) {
-        return Err(Error::new(
-            ErrorLocation::Field("version".to_owned()),
-            "only version 1 can be read",
-            "make the track again with this version of okoshi",
-        ));
+        let help = "make the track again with this version of okoshi";
+        return Err(Error::field("version", "only version 1 can be read", help));
     }
     let file: File = serde_json::from_str(text).map_err(|error| invalid(&error))?;
-    if let Some(message) = size_problem(file.size) {
-        let help = "give the width and the height of the clip's pictures";
-        return Err(Error::new(
-            ErrorLocation::Field("size".to_owned()),
-            message,
-            help,
-        ));
-    }
+    check_size(file.size).map_err(|error| error.of("size".to_owned()))?;
     check_times(&file.times)?;
     check_marks(&file.marks)?;
     let [width, height] = file.size.map(f64::from);
@@ -88,58 +77,37 @@ fn invalid(error: &serde_json::Error) -> Error {
         Some(at) => message[..at].to_owned(),
         None => message,
     };
-    let location = ErrorLocation::Position {
-        line: error.line().max(1),
-        column: error.column().max(1),
-    };
-    Error::new(
-        location,
-        message,
-        "compare it with a track that `okoshi track` writes, or make it again",
-    )
+    let help = "compare it with a track that `okoshi track` writes, or make it again";
+    Error::whole(message, help).at(error.line().max(1), error.column().max(1))
 }
 
 fn check_times(times: &[f64]) -> Result<(), Error> {
     if times.is_empty() || times.len() > MAX_FRAMES {
-        return Err(Error::new(
-            ErrorLocation::Field("times".to_owned()),
-            format!(
-                "a track has from 1 to {MAX_FRAMES} frames, this one {}",
-                times.len()
-            ),
-            "give the time of each frame in seconds",
-        ));
+        let frames = times.len();
+        let message = format!("a track has from 1 to {MAX_FRAMES} frames, this one {frames}");
+        let help = "give the time of each frame in seconds";
+        return Err(Error::field("times", message, help));
     }
     for (frame, time) in times.iter().enumerate() {
         let before = frame.checked_sub(1).map(|before| times[before]);
-        if let Some((message, help)) = time_problem(before, *time) {
-            let location = ErrorLocation::Field(format!("times[{frame}]"));
-            return Err(Error::new(location, message, help));
-        }
+        check_time(before, *time).map_err(|error| error.of(format!("times[{frame}]")))?;
     }
     Ok(())
 }
 
 fn check_marks(marks: &[Mark]) -> Result<(), Error> {
     if marks.is_empty() || marks.len() > MAX_MARKS {
-        return Err(Error::new(
-            ErrorLocation::Field("marks".to_owned()),
-            format!(
-                "a track has from 1 to {MAX_MARKS} marks, this one {}",
-                marks.len()
-            ),
-            "give a name, a colour and a point for each frame",
-        ));
+        let count = marks.len();
+        let message = format!("a track has from 1 to {MAX_MARKS} marks, this one {count}");
+        let help = "give a name, a colour and a point for each frame";
+        return Err(Error::field("marks", message, help));
     }
     for (index, mark) in marks.iter().enumerate() {
-        if let Some((message, help)) = name_problem(&mark.name) {
-            let location = ErrorLocation::Field(format!("marks[{index}].name"));
-            return Err(Error::new(location, message, help));
-        }
+        check_name(&mark.name).map_err(|error| error.of(format!("marks[{index}].name")))?;
     }
     match repeated_name(marks.iter().map(|mark| mark.name.as_str())) {
-        Some(index) => Err(Error::new(
-            ErrorLocation::Field(format!("marks[{index}].name")),
+        Some(index) => Err(Error::field(
+            format!("marks[{index}].name"),
             format!("there is a mark `{}` already", marks[index].name),
             "give each mark a name of its own",
         )),
@@ -148,38 +116,39 @@ fn check_marks(marks: &[Mark]) -> Result<(), Error> {
 }
 
 fn read_mark(index: usize, mark: &Mark, times: &[f64], middle: DVec2) -> Result<MarkTrack, Error> {
-    let field = |field: String| ErrorLocation::Field(format!("marks[{index}].{field}"));
+    let field = |field: &str| format!("marks[{index}].{field}");
     let color = parse_hex(&mark.color).ok_or_else(|| {
-        let message = "this is no colour";
-        Error::new(field("colour".into()), message, "write it as `#d03020`")
+        Error::field(
+            field("colour"),
+            "this is no colour",
+            "write it as `#d03020`",
+        )
     })?;
     let frames = times.len();
     if mark.points.len() != frames {
-        return Err(Error::new(
-            field("points".into()),
+        return Err(Error::field(
+            field("points"),
             format!("{} points for {frames} frames", mark.points.len()),
             "give a point for each of the `times`, or `null` where the mark is lost",
         ));
     }
     for (frame, point) in mark.points.iter().enumerate() {
         for (axis, coordinate) in point.iter().flatten().enumerate() {
-            if let Some((message, help)) = coordinate_problem(*coordinate) {
-                let location = field(format!("points[{frame}][{axis}]"));
-                return Err(Error::new(location, message, help));
-            }
+            let place = || field(&format!("points[{frame}][{axis}]"));
+            check_coordinate(*coordinate).map_err(|error| error.of(place()))?;
         }
     }
     let mut is_lost: Vec<bool> = mark.points.iter().map(Option::is_none).collect();
     for (range, [first, last]) in mark.lost.iter().enumerate() {
         let lost = is_lost.get_mut(*first..last.saturating_add(1));
         let Some(lost) = lost.filter(|_| first <= last) else {
-            return Err(Error::new(
-                field(format!("lost[{range}]")),
-                format!("there are no frames {first} to {last}"),
-                format!(
-                    "give the first and the last lost frame, from 0 to {}",
-                    frames - 1
-                ),
+            let message = format!("there are no frames {first} to {last}");
+            let most = frames - 1;
+            let help = format!("give the first and the last lost frame, from 0 to {most}");
+            return Err(Error::field(
+                field(&format!("lost[{range}]")),
+                message,
+                help,
             ));
         };
         lost.fill(true);

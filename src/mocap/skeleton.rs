@@ -157,7 +157,8 @@ pub struct Clip {
     pub frame_time: f64,
     /// All frames, one after the other, each with a number per channel in the order of the file.
     values: Vec<f64>,
-    frames: usize,
+    /// The number of frames.
+    pub frames: usize,
 }
 
 impl Clip {
@@ -174,11 +175,6 @@ impl Clip {
             values,
             frames,
         }
-    }
-
-    /// The number of frames.
-    pub fn frames(&self) -> usize {
-        self.frames
     }
 
     /// The numbers of a frame, one per channel.

@@ -157,7 +157,7 @@ impl EditedClip {
     }
 
     fn move_character(&mut self, joint: JointId) -> Filmed {
-        let shown = Exposure::shown(self.exposure.as_ref(), self.clip.frames());
+        let shown = Exposure::shown(self.exposure.as_ref(), self.clip.frames);
         let upright = |at: &DVec3| self.to_model * *at;
         let points: Vec<DVec3> = self.clip.positions().iter().map(upright).collect();
         let per_frame = self.clip.skeleton.joints.len();
@@ -179,7 +179,7 @@ impl EditedClip {
     }
 
     fn expose(&mut self, method: ExposureMethod) {
-        let frames = self.clip.frames();
+        let frames = self.clip.frames;
         self.exposure = match method {
             ExposureMethod::Full => None,
             ExposureMethod::Limited { omit, hold, length } => {
@@ -234,7 +234,7 @@ impl EditedClip {
         let exposure = match &self.exposure {
             Some(exposure) => exposure,
             None => {
-                full = limited::every(self.clip.frames() as u32, 1);
+                full = limited::every(self.clip.frames as u32, 1);
                 &full
             }
         };
@@ -268,7 +268,7 @@ impl EditedClip {
             Decimals::All
         };
         match &self.exposure {
-            Some(exposure) => bvh::write_frames(&self.clip, exposure.sources(), decimals, out),
+            Some(exposure) => bvh::write_frames(&self.clip, &exposure.sources, decimals, out),
             None => bvh::write(&self.clip, decimals, out),
         }
     }

@@ -31,7 +31,7 @@ impl Measured {
     ) -> Self {
         let joints = clip.skeleton.joints.len();
         let repeat = |frame: usize| frame > 0 && clip.row(frame) == clip.row(frame - 1);
-        let repeats = (0..clip.frames()).map(repeat).collect();
+        let repeats = (0..clip.frames).map(repeat).collect();
         let tips = match choice {
             PointChoice::Seen => seen(clip, anatomy),
             PointChoice::All => Vec::new(),
@@ -44,7 +44,7 @@ impl Measured {
             };
         }
         let ends = tips.iter().any(|tip| matches!(tip, Tip::End { .. }));
-        let mut points = vec![DVec3::ZERO; clip.frames() * tips.len()];
+        let mut points = vec![DVec3::ZERO; clip.frames * tips.len()];
         points
             .par_chunks_mut(GRAIN * tips.len())
             .enumerate()

@@ -30,7 +30,7 @@ pub(crate) fn skeleton_model(
     to_model: DQuat,
 ) -> Scene {
     let skeleton = &clip.skeleton;
-    let first = match clip.frames() {
+    let first = match clip.frames {
         0 => skeleton.offset_pose(),
         _ => clip.pose(0),
     };
@@ -96,8 +96,8 @@ pub(crate) fn add_camera(
         scale: scale(&clip.pose(0), to_model),
     };
     let points: Vec<DVec3> = clip.positions().iter().map(|at| to_model * *at).collect();
-    let shown = Exposure::shown(exposure, clip.frames());
-    let keys = KeyTimes::of_shown(exposure, clip.frames(), clip.frame_time);
+    let shown = Exposure::shown(exposure, clip.frames);
+    let keys = KeyTimes::of_shown(exposure, clip.frames, clip.frame_time);
     let per_frame = clip.skeleton.joints.len();
     let filmed = Filmed::new(Filming::Camera, &points, per_frame, &shown, joint.into());
     filmed.add_camera(&world, &keys, &mut animation, scene);
@@ -124,12 +124,12 @@ fn animation(
     to_model: DQuat,
     scale: f64,
 ) -> Animation {
-    let keys = KeyTimes::new(exposure, clip.frames(), clip.frame_time);
+    let keys = KeyTimes::new(exposure, clip.frames, clip.frame_time);
     let mut animation = Animation {
         name: name.to_owned(),
         tracks: Vec::new(),
     };
-    if keys.frames().is_empty() {
+    if keys.frames.is_empty() {
         return animation;
     }
     let mut start = 0;
@@ -145,7 +145,7 @@ fn animation(
             DQuat::IDENTITY
         };
         let local = keys
-            .frames()
+            .frames
             .iter()
             .map(|frame| Clip::local(joint, &clip.row(*frame)[numbers.clone()]));
         let (turns, places): (Vec<DQuat>, Vec<DVec3>) = local

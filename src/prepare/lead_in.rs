@@ -221,7 +221,7 @@ mod tests {
         let mut values = clip.row(0).to_vec();
         values[6..].fill(0.0);
         values.extend_from_slice(clip.values());
-        assert_eq!(values.len(), (clip.frames() + 1) * width);
+        assert_eq!(values.len(), (clip.frames + 1) * width);
         let found = find(
             &Clip::new(Arc::clone(&clip.skeleton), clip.frame_time, values),
             &[],

@@ -39,7 +39,7 @@ pub(super) fn looped(clip: &Clip, anatomy: &Anatomy, up: DVec3) -> Option<(Clip,
 /// the hips, and by their velocities. The earliest one, and of these the shortest, wins ties.
 fn best_cycle(clip: &Clip, anatomy: &Anatomy, up: DVec3) -> Option<Cycle> {
     let fps = 1.0 / clip.frame_time;
-    let frames = clip.frames();
+    let frames = clip.frames;
     let shortest = (MIN_SECONDS * fps).ceil().max(1.0) as usize;
     let longest = (MAX_SECONDS * fps) as usize;
     if frames <= shortest {
@@ -87,7 +87,7 @@ impl Poses {
             points = clip.skeleton.joints.keys().collect();
         }
         let hips = anatomy.hips.unwrap_or_default();
-        let mut places = Vec::with_capacity(clip.frames() * points.len());
+        let mut places = Vec::with_capacity(clip.frames * points.len());
         for pose in clip.positions().chunks_exact(count.max(1)) {
             let pose: &TiSlice<JointId, DVec3> = TiSlice::from_ref(pose);
             let below = pose[hips].reject_from(up);
@@ -200,8 +200,8 @@ mod tests {
         let (found, cycle) = looped(&clip, &label_clip(&clip), DVec3::Y).unwrap();
         assert!(cycle.first >= 29, "{cycle:?}");
         assert_eq!((cycle.last - cycle.first) % 20, 0, "{cycle:?}");
-        assert_eq!(found.frames(), cycle.last - cycle.first + 1);
-        let (start, end) = (found.row(0), found.row(found.frames() - 1));
+        assert_eq!(found.frames, cycle.last - cycle.first + 1);
+        let (start, end) = (found.row(0), found.row(found.frames - 1));
         for angle in 3..6 {
             assert!(
                 (start[angle] - end[angle]).abs() < 1e-6,
@@ -223,14 +223,14 @@ mod tests {
             let (found, cycle) = looped(&clip.clip, &clip.anatomy, DVec3::Y).unwrap();
             assert!(cycle.last - cycle.first >= 12, "{name}: {cycle:?}");
             let poses = Poses::of(&found, &clip.anatomy, DVec3::Y);
-            let last = found.frames() - 1;
+            let last = found.frames - 1;
             let mut steps: Vec<f64> = (0..last).map(|at| poses.apart(at, at + 1)).collect();
             steps.sort_by(f64::total_cmp);
             let (seam, median) = (poses.apart(0, last), steps[steps.len() / 2]);
             assert!(seam <= median, "{name}: {seam} over {median}");
             // Nor does blending make any step larger than those of the motion.
             let source = Poses::of(&clip.clip, &clip.anatomy, DVec3::Y);
-            let all = (1..clip.clip.frames()).map(|at| source.apart(at - 1, at));
+            let all = (1..clip.clip.frames).map(|at| source.apart(at - 1, at));
             let most = all.fold(0.0, f64::max);
             assert!(steps[steps.len() - 1] <= most * 1.5, "{name}");
         }

@@ -123,7 +123,7 @@ pub fn prepare(clip: Clip, options: &Options) -> Result<PreparedClip, Error> {
         notes,
     };
     if first > 0 {
-        let frames = first..prepared.clip.frames();
+        let frames = first..prepared.clip.frames;
         prepared.clip = prepared.clip.select_frames(frames);
         prepared.positions.drain(..first * joints);
     }
@@ -137,17 +137,17 @@ impl PreparedClip {
     /// Returns an error for a frame rate or a range that is not possible for the clip.
     pub fn change(mut self, options: &Options) -> Result<Self, Error> {
         let joints = self.clip.skeleton.joints.len();
-        let (frames, step) = (self.clip.frames(), self.clip.frame_time);
+        let (frames, step) = (self.clip.frames, self.clip.frame_time);
         self.clip = resample::resample(self.clip, options.fps)?;
         // A clip that was not resampled keeps its positions.
-        if (self.clip.frames(), self.clip.frame_time) != (frames, step) {
+        if (self.clip.frames, self.clip.frame_time) != (frames, step) {
             self.is_changed = true;
             self.positions = self.clip.positions();
         }
         if let Some(range) = options.range {
             self.clip = resample::range(&self.clip, range)?;
             self.positions.drain(..(range.first - 1) * joints);
-            self.positions.truncate(self.clip.frames() * joints);
+            self.positions.truncate(self.clip.frames * joints);
             self.ending = Ending::Open;
         }
         if options.is_loop && self.ending == Ending::Open {

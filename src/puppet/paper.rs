@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use super::pieces::PaperPiece;
 use crate::geometry::{
-    FillRule, Outline, Polygon, Ring, bounds, centroid, distance_squared, offset, resolve_overlaps,
-    subtract, union,
+    FillRule, Outline, Polygon, Ring, bounds, bounds_of, centroid, distance_squared, offset,
+    resolve_overlaps, subtract, union,
 };
 
 /// The paper around what is drawn.
@@ -211,12 +211,9 @@ fn bridge(from: DVec2, to: DVec2) -> Outline {
 
 fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
     let way = DVec2::from_angle(turn);
-    let points = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    points.flatten().fold(none, |(low, high), point| {
-        let point = way.rotate(*point);
-        (low.min(point), high.max(point))
-    })
+    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let points = rings.flatten().map(|point| way.rotate(*point));
+    bounds_of(points).unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY))
 }
 
 /// How far a piece is turned so that its box is smallest: not at all where that gains little.

@@ -277,7 +277,7 @@ pub(super) struct Camera {
     half: f32,
     size: Vec2,
     /// The depths of the nearest and the farthest that is shown.
-    depths: [f32; 2],
+    pub(super) depths: [f32; 2],
 }
 
 impl Camera {
@@ -357,11 +357,6 @@ impl Camera {
                 steps: [[right, Vec3::ZERO], [down, Vec3::ZERO]],
             },
         }
-    }
-
-    /// The depths of the nearest and the farthest that is shown.
-    pub(super) fn depths(&self) -> [f32; 2] {
-        self.depths
     }
 
     /// The point of the picture at which a point in space is seen, in pixels from the top left; `None` if it is not in front

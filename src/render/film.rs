@@ -37,7 +37,8 @@ pub struct Film<'a> {
     pub(super) normalization: Normalization,
     /// The height of the ground in normalised space: below all poses.
     pub(super) ground: f32,
-    triangles: usize,
+    /// The largest number of triangles of any sampled pose.
+    pub triangles: usize,
     /// The camera of the file that films it.
     pub(super) camera: Option<&'a ModelCamera>,
     /// What moves from place to place. A camera that is not of the file follows it; lines show how it moves over the ground.
@@ -177,11 +178,6 @@ impl<'a> Film<'a> {
             clearance: 2.0 + (path.length() * self.normalization.scale) as f32,
             path,
         }))
-    }
-
-    /// The largest number of triangles of any sampled pose.
-    pub fn triangles(&self) -> usize {
-        self.triangles
     }
 
     /// Its duration in seconds.

@@ -28,8 +28,10 @@ pub type Image = RgbaImage;
 pub struct PosedModel<'a> {
     model: &'a Model,
     pose: Pose,
-    normalization: Normalization,
-    triangles: usize,
+    /// From the world into normalised space.
+    pub(super) normalization: Normalization,
+    /// The number of triangles.
+    pub triangles: usize,
     /// The geometry for every view; `None` if it depends on the view.
     view_independent: Option<Tracer<'a>>,
     /// The points that must be in every picture, unless they depend on the view.
@@ -58,16 +60,6 @@ impl<'a> PosedModel<'a> {
             })
         };
         on_pool(build)
-    }
-
-    /// The number of triangles.
-    pub fn triangles(&self) -> usize {
-        self.triangles
-    }
-
-    /// From the world into normalised space.
-    pub(super) fn normalization(&self) -> Normalization {
-        self.normalization
     }
 
     /// The surface of a view-dependent model for a viewer; see [`Options::viewer`].

@@ -192,7 +192,7 @@ impl<'a> Raster<'a> {
         Some(Self {
             tracer,
             rays,
-            depths: camera.depths().map(Vec4::splat),
+            depths: camera.depths.map(Vec4::splat),
             candidates,
         })
     }

@@ -107,7 +107,7 @@ impl PosedModel<'_> {
     ) -> Result<Vec<Option<VisibleSurface>>, RenderError> {
         check_size(options.size)?;
         let [width, height] = options.size;
-        let normalization = self.normalization();
+        let normalization = self.normalization;
         let towards = beam.towards;
         let texel = (beam.width * normalization.scale) as f32;
         let look = |tracer: &Tracer<'_>| {

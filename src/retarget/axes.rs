@@ -78,7 +78,7 @@ impl Axes {
             first: DQuat::IDENTITY,
             facing: facing.turn(),
         };
-        axes.first = match clip.frames() {
+        axes.first = match clip.frames {
             0 => axes.at(landmarks, &clip.skeleton.offset_pose()),
             _ => axes.at(landmarks, PoseBuffer::new(clip).at(0)),
         };

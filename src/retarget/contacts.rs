@@ -2,11 +2,10 @@
 
 use glam::DVec3;
 
-use super::axes::{Axes, Landmarks};
+use super::Source;
+use super::axes::Landmarks;
 use super::planting::{Hold, Planting};
-use super::{PoseBuffer, Rig};
 use crate::labels::{FigurePartId, Tip};
-use crate::mocap::Clip;
 use crate::mocap::resample::TimeMap;
 use crate::retarget::Drive;
 
@@ -29,16 +28,9 @@ pub(super) struct Foot {
 
 impl Walk {
     /// The walk of a clip whose legs are `leg` long.
-    pub(super) fn of(
-        clip: &Clip,
-        rig: &Rig,
-        landmarks: &Landmarks,
-        axes: &Axes,
-        leg: f64,
-        poses: &mut PoseBuffer<'_>,
-    ) -> Self {
+    pub(super) fn of(source: &mut Source<'_>, leg: f64) -> Self {
         let mut feet: Vec<Foot> = Vec::new();
-        for (index, part) in rig.parts.iter_enumerated() {
+        for (index, part) in source.rig.parts.iter_enumerated() {
             let Some(drive) = part.drive.filter(|_| part.is_leg && part.stands) else {
                 continue;
             };
@@ -48,37 +40,37 @@ impl Walk {
                 None => feet.push(Foot {
                     drive,
                     parts: vec![index],
-                    clearance: vec![f64::INFINITY; clip.frames()],
+                    clearance: vec![f64::INFINITY; source.clip.frames],
                     holds: Vec::new(),
                 }),
             }
         }
         let ends: Vec<Vec<Tip>> = feet
             .iter()
-            .map(|foot| ground_points(landmarks, &foot.drive))
+            .map(|foot| ground_points(source.landmarks, &foot.drive))
             .collect();
-        let to_drawing = axes.first.inverse();
-        let mut hips = Vec::with_capacity(clip.frames());
+        let to_drawing = source.axes.first.inverse();
+        let mut hips = Vec::with_capacity(source.clip.frames);
         let mut paths: Vec<Vec<Vec<DVec3>>> = ends
             .iter()
-            .map(|ends| vec![Vec::with_capacity(clip.frames()); ends.len()])
+            .map(|ends| vec![Vec::with_capacity(source.clip.frames); ends.len()])
             .collect();
-        for frame in 0..clip.frames() {
-            let pose = poses.at(frame);
-            hips.push(to_drawing * pose[landmarks.hips].position);
+        for frame in 0..source.clip.frames {
+            let pose = source.poses.at(frame);
+            hips.push(to_drawing * pose[source.landmarks.hips].position);
             for (ends, paths) in ends.iter().zip(&mut paths) {
                 for (end, path) in ends.iter().zip(paths) {
-                    path.push(to_drawing * end.place(&clip.skeleton, pose));
+                    path.push(to_drawing * end.place(&source.clip.skeleton, pose));
                 }
             }
         }
-        let planting = Planting::of(&paths, clip.frame_time, leg);
+        let planting = Planting::of(&paths, source.clip.frame_time, leg);
         for (index, foot) in feet.iter_mut().enumerate() {
             for (path, lowest) in paths[index].iter().zip(&planting.lowest[index]) {
                 foot.measure(path, *lowest);
             }
         }
-        let frames: Vec<f64> = (0..clip.frames()).map(|frame| frame as f64).collect();
+        let frames: Vec<f64> = (0..source.clip.frames).map(|frame| frame as f64).collect();
         Self {
             hips,
             feet,
@@ -100,7 +92,7 @@ impl Walk {
     /// they are now.
     #[must_use]
     pub(super) fn timed(&self, map: &TimeMap) -> Self {
-        let places = map.places().iter();
+        let places = map.places.iter();
         let places: Vec<f64> = places.map(|mix| mix.from as f64 + mix.t).collect();
         let between = |a: f64, b: f64, t: f64| a + (b - a) * t;
         let foot = |foot: &Foot| Foot {

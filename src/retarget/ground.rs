@@ -36,8 +36,8 @@ const AXES: [DVec3; 6] = [
 /// with the least spread, for which that direction counts too.
 pub(super) fn up(clip: &Clip, landmarks: &Landmarks) -> DVec3 {
     let mut poses = PoseBuffer::new(clip);
-    let step = clip.frames().div_ceil(MAX_POSES).max(1);
-    let frames: Vec<usize> = (0..clip.frames()).step_by(step).collect();
+    let step = clip.frames.div_ceil(MAX_POSES).max(1);
+    let frames: Vec<usize> = (0..clip.frames).step_by(step).collect();
     let mut rise = DVec3::ZERO;
     let mut height = 0.0_f64;
     let mut heights: [Heights; AXES.len()] = Default::default();

@@ -142,6 +142,15 @@ pub(crate) fn to_drawing(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> 
     axes::Axes::of(clip, landmarks, facing).first.inverse()
 }
 
+/// What turns are made from: a clip, and the rig that plays it.
+struct Source<'a> {
+    clip: &'a Clip,
+    rig: &'a Rig,
+    landmarks: &'a Landmarks,
+    axes: axes::Axes,
+    poses: PoseBuffer<'a>,
+}
+
 /// The poses of a clip, of which the one that was used last is stored.
 struct PoseBuffer<'a> {
     clip: &'a Clip,

@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec3};
 use typed_index_collections::TiSlice;
 
-use super::axes::{Axes, Landmarks};
-use super::{PoseBuffer, Rig, ground};
-use crate::mocap::{Clip, JointId, Pose, Transform};
+use super::axes::Landmarks;
+use super::{Source, ground};
+use crate::mocap::{JointId, Pose, Transform};
 use crate::retarget::Follow;
 
 /// In a standing pose the legs deviate from straight down by at most this, degrees.
@@ -33,28 +33,22 @@ pub(super) struct RestPose {
     pub(super) axes: DQuat,
 }
 
-pub(super) fn choose(
-    clip: &Clip,
-    rig: &Rig,
-    landmarks: &Landmarks,
-    axes: &Axes,
-    poses: &mut PoseBuffer<'_>,
-) -> RestPose {
-    let offsets = clip.skeleton.offset_pose();
+pub(super) fn choose(source: &mut Source<'_>) -> RestPose {
+    let offsets = source.clip.skeleton.offset_pose();
     // The skeleton may have been made in other axes than the motion.
-    let up = ground::upright(&offsets, landmarks);
-    if clip.frames() == 0 || stands(&offsets, landmarks, up) {
+    let up = ground::upright(&offsets, source.landmarks);
+    if source.clip.frames == 0 || stands(&offsets, source.landmarks, up) {
         return RestPose {
             source: RestSource::Offsets,
-            axes: axes.at_upright(landmarks, &offsets, up),
+            axes: source.axes.at_upright(source.landmarks, &offsets, up),
             pose: offsets,
         };
     }
-    let frame = nearest(clip, rig, landmarks, axes, poses);
-    let pose = poses.at(frame).to_vec();
+    let frame = nearest(source);
+    let pose = source.poses.at(frame).to_vec();
     RestPose {
         source: RestSource::Frame(frame),
-        axes: axes.at(landmarks, &pose),
+        axes: source.axes.at(source.landmarks, &pose),
         pose,
     }
 }
@@ -86,24 +80,18 @@ fn stands(pose: &TiSlice<JointId, Transform>, landmarks: &Landmarks, up: DVec3) 
 
 /// The frame in which the limbs' directions are nearest to the drawn ones: least sum of squared angles, the first of equal
 /// ones.
-fn nearest(
-    clip: &Clip,
-    rig: &Rig,
-    landmarks: &Landmarks,
-    axes: &Axes,
-    poses: &mut PoseBuffer<'_>,
-) -> usize {
+fn nearest(source: &mut Source<'_>) -> usize {
     let mut best = (0, f64::INFINITY);
-    for frame in 0..clip.frames() {
-        let pose = poses.at(frame);
-        let to_drawing = axes.at(landmarks, pose).inverse();
+    for frame in 0..source.clip.frames {
+        let pose = source.poses.at(frame);
+        let to_drawing = source.axes.at(source.landmarks, pose).inverse();
         let mut sum = 0.0;
-        for part in &rig.parts {
+        for part in &source.rig.parts {
             let Some(drive) = part.drive.filter(|drive| drive.follow == Follow::Direction) else {
                 continue;
             };
             let Some(tip) = drive.tip else { continue };
-            let bone = tip.place(&clip.skeleton, pose) - pose[drive.joint].position;
+            let bone = tip.place(&source.clip.skeleton, pose) - pose[drive.joint].position;
             let drawn = part.tip - part.joint;
             let angle = if bone.length_squared() > 0.0 && drawn.length_squared() > 0.0 {
                 (to_drawing * bone).angle_between(drawn)

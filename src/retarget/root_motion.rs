@@ -7,9 +7,9 @@ use super::contacts::Walk;
 use super::kinematics::ForwardKinematics;
 use super::planting::{CONTACT_HEIGHT, Hold};
 use super::rotations::Rotations;
-use super::{PoseBuffer, Rig};
+use super::{Rig, Source};
 use crate::labels::FigurePartId;
-use crate::mocap::{Clip, JointId};
+use crate::mocap::JointId;
 use crate::retarget::Drive;
 
 /// A foot rolls over the points of its sole that are about this high above the lowest one, in leg lengths.
@@ -204,32 +204,27 @@ fn is_foot(landmarks: &Landmarks, drive: &Drive) -> bool {
 }
 
 /// The leg lengths of the clip and of the figure, feet excluded; if one of them has no legs, their sizes.
-pub(super) fn leg_lengths(
-    clip: &Clip,
-    rig: &Rig,
-    landmarks: &Landmarks,
-    poses: &mut PoseBuffer<'_>,
-) -> [f64; 2] {
-    let pose = match clip.frames() {
-        0 => clip.skeleton.offset_pose(),
-        _ => poses.at(0).to_vec(),
+pub(super) fn leg_lengths(source: &mut Source<'_>) -> [f64; 2] {
+    let pose = match source.clip.frames {
+        0 => source.clip.skeleton.offset_pose(),
+        _ => source.poses.at(0).to_vec(),
     };
     let mean = |lengths: Vec<f64>| match lengths.len() {
         0 => None,
         count => Some(lengths.iter().sum::<f64>() / count as f64).filter(|length| *length > 0.0),
     };
     let way = |from: JointId, to: JointId| (pose[to].position - pose[from].position).length();
-    let clip_legs = match (landmarks.thighs, landmarks.feet) {
-        (Some(thighs), Some(feet)) => [0, 1].map(|side| match landmarks.knees {
+    let clip_legs = match (source.landmarks.thighs, source.landmarks.feet) {
+        (Some(thighs), Some(feet)) => [0, 1].map(|side| match source.landmarks.knees {
             Some(knees) => way(thighs[side], knees[side]) + way(knees[side], feet[side]),
             None => way(thighs[side], feet[side]),
         }),
         _ => [0.0; 2],
     };
-    let parts = rig.parts.iter_enumerated();
+    let parts = source.rig.parts.iter_enumerated();
     let stand_on = parts.filter(|(_, part)| part.is_leg && part.stands);
     let rig_legs = stand_on
-        .map(|(index, _)| leg_length(rig, landmarks, index))
+        .map(|(index, _)| leg_length(source.rig, source.landmarks, index))
         .collect();
     match (mean(clip_legs.to_vec()), mean(rig_legs)) {
         (Some(clip), Some(rig)) => [clip, rig],
@@ -245,7 +240,7 @@ pub(super) fn leg_lengths(
             let ends = |part: &super::RigPart| [part.joint, part.tip];
             [
                 extent(&mut pose.iter().map(|placed| placed.position)),
-                extent(&mut rig.parts.iter().flat_map(ends)),
+                extent(&mut source.rig.parts.iter().flat_map(ends)),
             ]
         }
     }

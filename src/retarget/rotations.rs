@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::axes::{Axes, Landmarks};
+use super::axes::Axes;
 use super::rest_pose::RestPose;
-use super::{PoseBuffer, Rig, RigPart};
+use super::{Rig, RigPart, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
 use crate::mocap::turns::{continuous, damp};
@@ -133,35 +133,31 @@ impl Rotations {
 }
 
 pub(super) fn rotations(
-    clip: &Clip,
-    rig: &Rig,
-    landmarks: &Landmarks,
-    axes: &Axes,
+    source: &mut Source<'_>,
     rest: &RestPose,
-    poses: &mut PoseBuffer<'_>,
     order: &[FigurePartId],
 ) -> Rotations {
-    let count = rig.parts.len();
-    let means = mean_references(clip, rig, landmarks, axes, poses);
+    let count = source.rig.parts.len();
+    let means = mean_references(source);
     let solver = |part: &FigurePartId| {
-        let drive = rig.parts[*part].drive?;
+        let drive = source.rig.parts[*part].drive?;
         let reference = match means[*part] {
             Some(mean) => mean,
-            None => Reference::at_rest(clip, &drive, rest),
+            None => Reference::at_rest(source.clip, &drive, rest),
         };
-        let rotation = PartRotation::new(&rig.parts[*part], drive, axes, reference);
+        let rotation = PartRotation::new(&source.rig.parts[*part], drive, &source.axes, reference);
         Some((*part, rotation))
     };
     let solvers: Vec<(FigurePartId, PartRotation)> = order.iter().filter_map(solver).collect();
     let mut own: TiVec<FigurePartId, Option<Vec<DQuat>>> = ti_vec![None; count];
     for (part, _) in &solvers {
-        own[*part] = Some(Vec::with_capacity(clip.frames()));
+        own[*part] = Some(Vec::with_capacity(source.clip.frames));
     }
-    for frame in 0..clip.frames() {
-        let pose = poses.at(frame);
+    for frame in 0..source.clip.frames {
+        let pose = source.poses.at(frame);
         for (part, solver) in &solvers {
             if let Some(rotations) = &mut own[*part] {
-                rotations.push(solver.at(clip, pose));
+                rotations.push(solver.at(source.clip, pose));
             }
         }
     }
@@ -169,7 +165,7 @@ pub(super) fn rotations(
         own,
         carrier: ti_vec![(None, DQuat::IDENTITY); count],
     };
-    rotations.carry(rig, order);
+    rotations.carry(source.rig, order);
     rotations
 }
 
@@ -199,35 +195,29 @@ impl Reference {
 
 /// Per part the mean over all frames, for limbs that keep their drawn pose: wings are drawn as they are on average, not as the arms
 /// of a T-pose. `None` for all others, and for limbs that point everywhere.
-fn mean_references(
-    clip: &Clip,
-    rig: &Rig,
-    landmarks: &Landmarks,
-    axes: &Axes,
-    poses: &mut PoseBuffer<'_>,
-) -> TiVec<FigurePartId, Option<Reference>> {
+fn mean_references(source: &mut Source<'_>) -> TiVec<FigurePartId, Option<Reference>> {
     /// The length of the mean of the directions, below which a limb has no main direction.
     const MAIN: f64 = 0.2;
 
     let keeps_pose = |drive: &Drive| drive.follow == Follow::Change && drive.tip.is_some();
     let none = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
     let sum = |part: &RigPart| Some((part.drive.filter(keeps_pose)?, none, DVec3::ZERO));
-    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = rig.parts.iter().map(sum).collect();
+    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = source.rig.parts.iter().map(sum).collect();
     if sums.iter().all(Option::is_none) {
-        return ti_vec![None; rig.parts.len()];
+        return ti_vec![None; source.rig.parts.len()];
     }
-    for frame in 0..clip.frames() {
-        let pose = poses.at(frame);
-        let body = axes.at(landmarks, pose);
+    for frame in 0..source.clip.frames {
+        let pose = source.poses.at(frame);
+        let body = source.axes.at(source.landmarks, pose);
         for (drive, turns, directions) in sums.iter_mut().flatten() {
-            let own = Reference::of(clip, drive, body, pose);
+            let own = Reference::of(source.clip, drive, body, pose);
             let is_opposite = turns.dot(own.turn) < 0.0;
             *turns += if is_opposite { -own.turn } else { own.turn };
             *directions += own.direction.unwrap_or_default();
         }
     }
     let mean = |(_, turns, directions): (Drive, DQuat, DVec3)| {
-        let frames = clip.frames() as f64;
+        let frames = source.clip.frames as f64;
         let is_clear = turns.length() > MAIN * frames && directions.length() > MAIN * frames;
         is_clear.then(|| Reference {
             turn: turns.normalize(),

@@ -10,8 +10,8 @@ use super::axes::Axes;
 use super::contacts::Walk;
 use super::rotations::{self, Rotations};
 use super::{
-    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, kinematics, rest_pose, root_motion,
-    swing,
+    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, Source, kinematics, rest_pose,
+    root_motion, swing,
 };
 use crate::labels::FigurePartId;
 use crate::mocap::Clip;
@@ -44,16 +44,20 @@ impl<'a> Turns<'a> {
         let order = rig.order();
         let is_still = rig.parts.iter().all(|part| part.drive.is_none()) || order.is_empty();
         let moving = (!is_still).then(|| {
-            let mut poses = PoseBuffer::new(clip);
             let axes = Axes::of(clip, landmarks, rig.facing);
-            let rest = rest_pose::choose(clip, rig, landmarks, &axes, &mut poses);
-            let rotations =
-                rotations::rotations(clip, rig, landmarks, &axes, &rest, &mut poses, &order);
-            let legs = root_motion::leg_lengths(clip, rig, landmarks, &mut poses);
-            let walk = Walk::of(clip, rig, landmarks, &axes, legs[0], &mut poses);
+            let poses = PoseBuffer::new(clip);
+            let mut source = Source {
+                clip,
+                rig,
+                landmarks,
+                axes,
+                poses,
+            };
+            let rest = rest_pose::choose(&mut source);
+            let legs = root_motion::leg_lengths(&mut source);
             Moving {
-                rotations,
-                walk,
+                rotations: rotations::rotations(&mut source, &rest, &order),
+                walk: Walk::of(&mut source, legs[0]),
                 legs,
                 rest: rest.source,
             }
@@ -62,7 +66,7 @@ impl<'a> Turns<'a> {
             rig,
             order,
             moving,
-            frames: clip.frames(),
+            frames: clip.frames,
             frame_time: clip.frame_time,
         }
     }
@@ -92,9 +96,9 @@ impl<'a> Turns<'a> {
     }
 
     /// Where the figure goes, how what hangs on it swings, and all of that in the frames of the nodes.
-    pub fn travel(self) -> RetargetedClip {
+    pub fn travel(mut self) -> RetargetedClip {
         let count = self.rig.parts.len();
-        let Some(moving) = self.moving else {
+        let Some(moving) = self.moving.take() else {
             return RetargetedClip {
                 rotations: ti_vec![None; count],
                 translations: ti_vec![None; count],
@@ -113,62 +117,61 @@ impl<'a> Turns<'a> {
             &mut rotations,
         );
         RetargetedClip {
-            rotations: node_rotations(self.rig, &self.order, &rotations, self.frames),
-            translations: node_translations(self.rig, &self.order, &rotations, &root_motion.path),
+            rotations: self.node_rotations(&rotations),
+            translations: self.node_translations(&rotations, &root_motion.path),
             grounded: root_motion.grounded,
             rest: moving.rest,
         }
     }
-}
 
-/// Per part the rotations of its node in its parent's frame, of rooted nodes in the drawing's axes.
-fn node_rotations(
-    rig: &Rig,
-    order: &[FigurePartId],
-    rotations: &Rotations,
-    frames: usize,
-) -> TiVec<FigurePartId, Option<Vec<DQuat>>> {
-    let mut local = ti_vec![None; rig.parts.len()];
-    for part in order {
-        let own = &rig.parts[*part];
-        let turned: Vec<DQuat> = match own.parent.filter(|_| !own.is_rooted) {
-            None => (0..frames)
-                .map(|frame| rotations.at(*part, frame))
-                .collect(),
-            Some(parent) if rotations.is_own(*part) => (0..frames)
-                .map(|frame| rotations.local(*part, parent, frame))
-                .collect(),
-            Some(_) => continue,
-        };
-        local[*part] = Some(continuous(turned));
-    }
-    local
-}
-
-/// Per part the positions of its node, for the root part and for nodes that are children of the model's root.
-fn node_translations(
-    rig: &Rig,
-    order: &[FigurePartId],
-    rotations: &Rotations,
-    path: &[DVec3],
-) -> TiVec<FigurePartId, Option<Vec<DVec3>>> {
-    let mut translations = ti_vec![None; rig.parts.len()];
-    let is_moving = |part: &FigurePartId| Some(part) == order.first() || rig.parts[*part].is_rooted;
-    let moving: Vec<FigurePartId> = order.iter().copied().filter(is_moving).collect();
-    for part in &moving {
-        translations[*part] = Some(Vec::with_capacity(path.len()));
-    }
-    let mut kinematics = kinematics::ForwardKinematics::new(rig);
-    for (frame, root) in path.iter().enumerate() {
-        // The root part itself is at the origin.
-        if moving.len() > 1 {
-            kinematics.pose(rig, rotations, order, frame);
+    /// Per part the rotations of its node in its parent's frame, of rooted nodes in the drawing's axes.
+    fn node_rotations(&self, rotations: &Rotations) -> TiVec<FigurePartId, Option<Vec<DQuat>>> {
+        let Self {
+            rig, order, frames, ..
+        } = self;
+        let mut local = ti_vec![None; rig.parts.len()];
+        for part in order {
+            let own = &rig.parts[*part];
+            let turned: Vec<DQuat> = match own.parent.filter(|_| !own.is_rooted) {
+                None => (0..*frames)
+                    .map(|frame| rotations.at(*part, frame))
+                    .collect(),
+                Some(parent) if rotations.is_own(*part) => (0..*frames)
+                    .map(|frame| rotations.local(*part, parent, frame))
+                    .collect(),
+                Some(_) => continue,
+            };
+            local[*part] = Some(continuous(turned));
         }
+        local
+    }
+
+    /// Per part the positions of its node, for the root part and for nodes that are children of the model's root.
+    fn node_translations(
+        &self,
+        rotations: &Rotations,
+        path: &[DVec3],
+    ) -> TiVec<FigurePartId, Option<Vec<DVec3>>> {
+        let Self { rig, order, .. } = self;
+        let mut translations = ti_vec![None; rig.parts.len()];
+        let is_moving =
+            |part: &FigurePartId| Some(part) == order.first() || rig.parts[*part].is_rooted;
+        let moving: Vec<FigurePartId> = order.iter().copied().filter(is_moving).collect();
         for part in &moving {
-            if let Some(places) = &mut translations[*part] {
-                places.push(*root + kinematics.transforms[*part].position);
+            translations[*part] = Some(Vec::with_capacity(path.len()));
+        }
+        let mut kinematics = kinematics::ForwardKinematics::new(rig);
+        for (frame, root) in path.iter().enumerate() {
+            // The root part itself is at the origin.
+            if moving.len() > 1 {
+                kinematics.pose(rig, rotations, order, frame);
+            }
+            for part in &moving {
+                if let Some(places) = &mut translations[*part] {
+                    places.push(*root + kinematics.transforms[*part].position);
+                }
             }
         }
+        translations
     }
-    translations
 }

@@ -138,7 +138,7 @@ pub(crate) fn add_clips(
                 continue;
             };
             is_played = true;
-            keys = keys.saturating_add(motion.clip.frames().saturating_mul(group.parts.len()));
+            keys = keys.saturating_add(motion.clip.frames.saturating_mul(group.parts.len()));
             if keys > MAX_KEYS {
                 diagnostics.push(diagnostics::too_many_keys(request.span));
                 break;

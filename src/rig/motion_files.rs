@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::bind::{ClipRequest, SignedAxis};
 use crate::diagnostic::Diagnostic;
 use crate::memo::Memo;
-use crate::mocap::{Axis, Clip};
+use crate::mocap::Axis;
 use crate::mocap::{UpAxis, bvh};
 use crate::prepare::{self, PreparedClip, prepare};
 use crate::resolver::{LinkError, Resolver};
@@ -95,13 +95,13 @@ impl MotionFile {
             Ok(reading) => (Some(reading.clip), reading.notes, None),
             Err(mut error) => {
                 let partial = error.partial.take().map(|clip| *clip);
-                let frames = partial.as_ref().map_or(0, Clip::frames);
+                let frames = partial.as_ref().map_or(0, |clip| clip.frames);
                 (partial, Vec::new(), Some((error, frames)))
             }
         };
         let notes = notes.drain(..).map(|note| note.to_string());
         let mut notes: Vec<String> = notes.collect();
-        let clip = clip.filter(|clip| clip.frames() > 0).and_then(|clip| {
+        let clip = clip.filter(|clip| clip.frames > 0).and_then(|clip| {
             let options = prepare::Options {
                 up: key.up,
                 is_loop: key.is_loop,

@@ -266,10 +266,10 @@ fn effects(request: &PerformanceRequest<'_>) -> Effects {
 
 /// The steps of the far ends of some drives relative to the hips; of several, in each frame that of the one that moves most.
 fn drive_steps(clip: &Clip, drives: &[Drive], hips: JointId) -> Vec<DVec3> {
-    let mut paths = vec![Vec::with_capacity(clip.frames()); drives.len()];
-    let mut hip_path = Vec::with_capacity(clip.frames());
+    let mut paths = vec![Vec::with_capacity(clip.frames); drives.len()];
+    let mut hip_path = Vec::with_capacity(clip.frames);
     let mut pose = Pose::new();
-    for frame in 0..clip.frames() {
+    for frame in 0..clip.frames {
         clip.pose_into(frame, &mut pose);
         hip_path.push(pose.get(hips).map_or(DVec3::ZERO, |hips| hips.position));
         for (path, drive) in paths.iter_mut().zip(drives) {
@@ -283,7 +283,7 @@ fn drive_steps(clip: &Clip, drives: &[Drive], hips: JointId) -> Vec<DVec3> {
         let longest = steps.max_by(|a, b| a.length().total_cmp(&b.length()));
         longest.unwrap_or_default()
     };
-    (0..clip.frames()).map(most).collect()
+    (0..clip.frames).map(most).collect()
 }
 
 /// The mark of a file that a part's `Mark` means: that of the same name, else of the same colour, else of the nearest hue.

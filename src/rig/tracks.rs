@@ -46,7 +46,7 @@ impl AnimatedNodes {
         let index: BTreeMap<PartId, FigurePartId> = index.collect();
         let mut tracks = Vec::new();
         for (node, rest) in self.nodes.iter_enumerated() {
-            let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames().is_empty()) else {
+            let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames.is_empty()) else {
                 continue;
             };
             let mut add = |timing, values| {
@@ -81,7 +81,7 @@ impl AnimatedNodes {
                 }
             }
             if let Some(rotations) = &clip.rotations[index] {
-                let rotations = keys.frames().iter().map(|frame| {
+                let rotations = keys.frames.iter().map(|frame| {
                     let rotation = if rest.is_mirrored {
                         mirrored(rotations[*frame])
                     } else {

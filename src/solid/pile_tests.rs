@@ -248,7 +248,7 @@ fn stacks_are_lawful() {
             return Ok(false);
         };
         let pile = Arc::new(Pile::new(bodies, Arc::default()));
-        for body in 1..pile.bodies().len() {
+        for body in 1..pile.bodies.len() {
             let laid = LaidSolid {
                 pile: Arc::clone(&pile),
                 body,
@@ -411,7 +411,7 @@ impl Made {
             sides: Sides::Front,
             texture: None,
         };
-        let surfaces: Vec<Surface> = (0..pile.bodies().len())
+        let surfaces: Vec<Surface> = (0..pile.bodies.len())
             .map(|body| laid(body).surface())
             .collect();
         Self {
@@ -426,7 +426,7 @@ impl Made {
 
     /// The front of what lies below a body at a point, of volumes alone if `volumes` says so.
     fn below(&self, body: usize, at: DVec2, volumes: bool) -> Option<f64> {
-        let below = (0..body).filter(|other| !volumes || !self.pile.bodies()[*other].is_detail);
+        let below = (0..body).filter(|other| !volumes || !self.pile.bodies[*other].is_detail);
         let fronts = below.filter_map(|other| self.fronts[other].at(at));
         fronts.reduce(f64::max)
     }
@@ -490,7 +490,7 @@ struct Lie {
 impl Made {
     fn lie(&self) -> Lie {
         let mut lie = Lie::default();
-        let bodies = self.pile.bodies();
+        let bodies = &self.pile.bodies;
         for (body, own) in bodies.iter().enumerate() {
             let Some(lay) = own.lay.as_ref().filter(|lay| lay.form != LayForm::Ink) else {
                 continue;
@@ -622,7 +622,7 @@ proptest! {
         let made = Made::new(bodies.collect());
         let front = |at: DVec2| made.fronts.iter().filter_map(|front| front.at(at)).reduce(f64::max);
         let [mut points, mut apart] = [0, 0];
-        for at in over(&made.pile.bodies()[0].solid.outline) {
+        for at in over(&made.pile.bodies[0].solid.outline) {
             if let (Some(here), Some(there)) = (front(at), front(at * DVec2::new(-1.0, 1.0))) {
                 points += 1;
                 apart += usize::from((here - there).abs() > 3.0 * step);

@@ -10,7 +10,7 @@ use crate::geometry::{FillRule, Outline, bounds, intersect, resolve_overlaps, un
 pub(super) struct Clip {
     outline: Outline,
     /// The minimum and maximum corner, if the clip is an axis-aligned rectangle.
-    rectangle: Option<(DVec2, DVec2)>,
+    pub(super) rectangle: Option<(DVec2, DVec2)>,
 }
 
 impl Clip {
@@ -29,11 +29,6 @@ impl Clip {
             out.extend(Self::read(outer, transform, tolerance));
         }
         out
-    }
-
-    /// The minimum and maximum corner, if the clip is an axis-aligned rectangle.
-    pub(super) fn rectangle(&self) -> Option<(DVec2, DVec2)> {
-        self.rectangle
     }
 
     /// The part of `outline` inside the clip.

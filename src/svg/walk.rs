@@ -143,7 +143,7 @@ impl<'a> Walk<'a, '_> {
                     self.page * affine(group.abs_transform()),
                     self.tolerance,
                 );
-                if let Some(frame) = own.first().and_then(Clip::rectangle) {
+                if let Some(frame) = own.first().and_then(|clip| clip.rectangle) {
                     self.frames.insert(xml, frame);
                 }
                 all.extend(own);

@@ -82,11 +82,7 @@ impl Landscape {
 
     /// The height of the top that is drawn in a cell: ground or water; `None` where there is none.
     pub fn top(&self, column: usize, row: usize) -> Option<i32> {
-        match self
-            .context
-            .groups
-            .kind(column * self.context.grid.rows + row)
-        {
+        match self.kind_at(column, row) {
             GroupKind::Surface(surface) => Some(self.context.levels.level[surface as usize]),
             _ => None,
         }
@@ -108,6 +104,11 @@ impl Landscape {
         heights.collect()
     }
 
+    fn kind_at(&self, column: usize, row: usize) -> GroupKind {
+        let context = &self.context;
+        context.groups.kind(column * context.grid.rows + row)
+    }
+
     /// The number of columns of the map.
     pub fn columns(&self) -> usize {
         self.context.grid.columns
@@ -118,11 +119,8 @@ impl Landscape {
     pub fn blocks(&self, column: usize) -> Vec<[[i32; 2]; 2]> {
         let mut solids = Solids::default();
         solids.build(&self.context, column);
-        solids
-            .blocks
-            .iter()
-            .map(|block| [block.z, block.y])
-            .collect()
+        let blocks = solids.blocks.iter();
+        blocks.map(|block| [block.z, block.y]).collect()
     }
 
     /// The places of the map that can be read in more than one way.
@@ -132,11 +130,7 @@ impl Landscape {
 
     /// The group that a cell's top belongs to: its index among [`groups`](Self::groups).
     pub fn group_at(&self, column: usize, row: usize) -> Option<usize> {
-        match self
-            .context
-            .groups
-            .kind(column * self.context.grid.rows + row)
-        {
+        match self.kind_at(column, row) {
             GroupKind::Surface(surface) => Some(surface as usize - 1),
             _ => None,
         }
@@ -145,13 +139,8 @@ impl Landscape {
     /// The groups of ground and the bodies of water, in the order of their first cells, column by column.
     pub fn groups(&self) -> impl Iterator<Item = Group> + '_ {
         // The first surface is the ground, which is not drawn.
-        let surfaces = self
-            .context
-            .groups
-            .surfaces
-            .iter()
-            .zip(&self.context.levels.level)
-            .skip(1);
+        let surfaces = self.context.groups.surfaces.iter();
+        let surfaces = surfaces.zip(&self.context.levels.level).skip(1);
         surfaces.map(|(surface, level)| Group {
             water: surface.water,
             height: *level,
@@ -162,11 +151,8 @@ impl Landscape {
 
     /// The house that a cell's roof or wall belongs to: its index among [`houses`](Self::houses).
     pub fn house_at(&self, column: usize, row: usize) -> Option<usize> {
-        let kind = self
-            .context
-            .groups
-            .kind(column * self.context.grid.rows + row);
-        kind.house().map(|house| house as usize)
+        let house = self.kind_at(column, row).house();
+        house.map(|house| house as usize)
     }
 
     /// The houses.

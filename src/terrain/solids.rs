@@ -43,6 +43,8 @@ pub(super) struct MapContext {
 /// The blocks of a column and what is visible of them, in reused lists.
 #[derive(Debug, Default)]
 pub(super) struct Solids {
+    /// Its number in the map.
+    number: usize,
     column: Column,
     /// What is visible, from the top; one view a segment.
     pub(super) views: Vec<View>,
@@ -56,6 +58,7 @@ pub(super) struct Solids {
 impl Solids {
     /// Reads a column and finds what is visible in it, without building blocks.
     pub(super) fn read_views(&mut self, context: &MapContext, number: usize) {
+        self.number = number;
         self.column.read(&context.grid, &context.groups, number);
         self.find_views(context);
     }
@@ -68,14 +71,14 @@ impl Solids {
         let end = context.grid.rows as i32;
         for index in (0..self.views.len()).rev() {
             match self.column.segments[index].kind {
-                GroupKind::Surface(surface) => self.surface(context, number, index, surface, end),
-                GroupKind::Front => self.front(context, number, index, end),
-                GroupKind::Wall(house) => self.foundation(context, number, index, house, end),
+                GroupKind::Surface(surface) => self.surface(context, index, surface, end),
+                GroupKind::Front => self.front(context, index, end),
+                GroupKind::Wall(house) => self.foundation(context, index, house, end),
                 GroupKind::Roof(_) | GroupKind::Nothing => {}
             }
             self.hidden.push(&self.views, index);
         }
-        self.walls(context, number);
+        self.walls(context);
     }
 
     /// Finds what is visible in each segment.
@@ -124,10 +127,10 @@ impl Solids {
     }
 
     /// The material of the sides of the block that a front belongs to.
-    fn side(&self, context: &MapContext, number: usize, front: usize, top: u8) -> u8 {
+    fn side(&self, context: &MapContext, front: usize, top: u8) -> u8 {
         match self.column.segments.get(front) {
             Some(segment) if segment.kind == GroupKind::Front => {
-                context.grid.cells[number * context.grid.rows + segment.start as usize]
+                context.grid.cells[self.number * context.grid.rows + segment.start as usize]
             }
             _ => context.earth.unwrap_or(top),
         }
@@ -176,26 +179,19 @@ impl Solids {
     }
 
     /// Adds the block of a top and its hidden continuation.
-    fn surface(
-        &mut self,
-        context: &MapContext,
-        number: usize,
-        index: usize,
-        surface: u32,
-        end: i32,
-    ) {
+    fn surface(&mut self, context: &MapContext, index: usize, surface: u32, end: i32) {
         let segment = self.column.segments[index];
         let level = context.levels.level[surface as usize];
-        let material = context.grid.cells[number * context.grid.rows + segment.start as usize];
+        let material = context.grid.cells[self.number * context.grid.rows + segment.start as usize];
         let (fronts, _, _) = self.column.below(index);
         let [back, front] = [self.backs[index], segment.end + level];
         let bottom = self.bottom(context, index, surface, end);
         let side = if context.groups.surfaces[surface as usize].water && bottom == level {
             material
         } else {
-            self.side(context, number, index + 1, material)
+            self.side(context, index + 1, material)
         };
-        self.flush_below(context, number, index, [level, bottom], side);
+        self.flush_below(context, index, [bottom, level], side);
         if fronts == 0 {
             self.support(context, index, surface, index + 1, end);
         }
@@ -231,12 +227,12 @@ impl Solids {
     }
 
     /// Adds the floor of a pit below its near bank (rule 7). `front` is its far wall.
-    fn floor(&mut self, context: &MapContext, number: usize, front: usize, surface: u32, end: i32) {
+    fn floor(&mut self, context: &MapContext, front: usize, surface: u32, end: i32) {
         let wall = self.column.segments[front];
         let level = context.levels.level[surface as usize] - wall.rows();
         let base = context.levels.base[surface as usize];
-        let top = context.grid.cells[number * context.grid.rows + wall.start as usize - 1];
-        let side = self.side(context, number, front, top);
+        let top = context.grid.cells[self.number * context.grid.rows + wall.start as usize - 1];
+        let side = self.side(context, front, top);
         let rows = wall.end..wall.end + wall.rows();
         self.hidden_top(rows, [base, level], [top, side], end);
     }
@@ -252,21 +248,15 @@ impl Solids {
     }
 
     /// Fills below a front that hangs, so that it ends flush with what is behind it (rule 6).
-    fn flush_below(
-        &mut self,
-        context: &MapContext,
-        number: usize,
-        index: usize,
-        [level, bottom]: [i32; 2],
-        side: u8,
-    ) {
+    fn flush_below(&mut self, context: &MapContext, index: usize, y: [i32; 2], side: u8) {
+        let [bottom, level] = y;
         let Some(front) = self.column.segments.get(index + 1) else {
             return;
         };
         if front.kind != GroupKind::Front {
             return;
         }
-        let label = context.groups.labels[number * context.grid.rows + front.start as usize];
+        let label = context.groups.labels[self.number * context.grid.rows + front.start as usize];
         let Some(lowest) = context.flush[label as usize] else {
             return;
         };
@@ -324,14 +314,14 @@ impl Solids {
     }
 
     /// Adds the block of a front. A front belongs to what is above it; without anything above it is one tile deep (rule 9).
-    fn front(&mut self, context: &MapContext, number: usize, index: usize, end: i32) {
+    fn front(&mut self, context: &MapContext, index: usize, end: i32) {
         let above = index
             .checked_sub(1)
             .map(|above| self.column.segments[above].kind);
         match above {
             Some(GroupKind::Surface(surface)) => {
                 if self.column.below(index - 1).1 == Below::Surface(surface) {
-                    self.floor(context, number, index, surface, end);
+                    self.floor(context, index, surface, end);
                 }
                 return self.support(context, index - 1, surface, index + 1, end);
             }
@@ -342,7 +332,7 @@ impl Solids {
         let Visible::Front(plane) = self.views[index].visible else {
             return;
         };
-        let material = context.grid.cells[number * context.grid.rows + segment.start as usize];
+        let material = context.grid.cells[self.number * context.grid.rows + segment.start as usize];
         self.blocks.push(Block {
             z: [plane - 1, plane],
             y: [plane - segment.end, plane - segment.start],
@@ -352,9 +342,9 @@ impl Solids {
     }
 
     /// Adds the blocks of houses, also where something nearer hides the wall.
-    fn walls(&mut self, context: &MapContext, number: usize) {
-        let column = number as i32;
-        for house in &context.houses_of[number / STRIPE] {
+    fn walls(&mut self, context: &MapContext) {
+        let column = self.number as i32;
+        for house in &context.houses_of[self.number / STRIPE] {
             let house = &context.houses[*house as usize];
             let [roof, wall] = house.materials;
             let roofed = house.roof.contains(&column) && house.depth > 0;
@@ -378,14 +368,7 @@ impl Solids {
     }
 
     /// Adds the block below a house where fronts are visible below its wall.
-    fn foundation(
-        &mut self,
-        context: &MapContext,
-        number: usize,
-        index: usize,
-        house: u32,
-        end: i32,
-    ) {
+    fn foundation(&mut self, context: &MapContext, index: usize, house: u32, end: i32) {
         let house = &context.houses[house as usize];
         let (fronts, below, _) = self.column.below(index);
         if fronts == 0 {
@@ -395,7 +378,7 @@ impl Solids {
             Below::Surface(surface) => context.levels.level[surface as usize],
             Below::House(_) => house.base - fronts,
         };
-        let side = self.side(context, number, index + 1, house.materials[1]);
+        let side = self.side(context, index + 1, house.materials[1]);
         let seen = self.hidden.wall_seen(&self.views, house.front, end);
         let hidden = house.base - (seen - self.column.segments[index].end);
         self.blocks.push(Block {
@@ -410,7 +393,6 @@ impl Solids {
     pub(super) fn drawn_materials(
         &self,
         context: &MapContext,
-        number: usize,
         rows: Range<i32>,
         is: impl Fn(Visible) -> bool,
         mut each: impl FnMut(Range<i32>, Option<u8>),
@@ -422,7 +404,7 @@ impl Solids {
             row = 0;
         }
         let mut at = self.views.partition_point(|view| view.end <= row);
-        let cells = &context.grid.cells[number * context.grid.rows..];
+        let cells = &context.grid.cells[self.number * context.grid.rows..];
         while row < end {
             let view = &self.views[at];
             let to = view.end.min(end);

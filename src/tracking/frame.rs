@@ -3,7 +3,8 @@
 /// A picture: rows from the top, three bytes a pixel, sRGB.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<'a> {
-    size: [u32; 2],
+    /// Width and height in pixels.
+    pub size: [u32; 2],
     pixels: &'a [u8],
 }
 
@@ -13,11 +14,6 @@ impl<'a> Frame<'a> {
         let [width, height] = size.map(|side| side as usize);
         let bytes = width.checked_mul(height)?.checked_mul(3)?;
         (bytes > 0 && bytes == pixels.len()).then_some(Self { size, pixels })
-    }
-
-    /// Width and height in pixels.
-    pub fn size(&self) -> [u32; 2] {
-        self.size
     }
 
     /// The bytes of a row.

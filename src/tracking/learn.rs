@@ -82,7 +82,7 @@ impl Learner {
 
     /// Looks at the next frame of the clip; frames of another size are passed over.
     pub fn push(&mut self, frame: Frame<'_>) {
-        if frame.size() == self.size {
+        if frame.size == self.size {
             self.samples.push(frame);
         }
     }

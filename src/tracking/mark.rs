@@ -14,9 +14,12 @@ const LEAST_CHROMA: f64 = 0.1;
 /// A mark: its name, and about which colour it has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    pub(super) name: String,
-    pub(super) color: [u8; 3],
-    pub(super) hue: f64,
+    /// Its name.
+    pub name: String,
+    /// About its colour, sRGB.
+    pub color: [u8; 3],
+    /// Its hue in degrees.
+    pub hue: f64,
 }
 
 /// Why a colour cannot be that of a mark.
@@ -50,7 +53,7 @@ impl Mark {
     /// # Errors
     /// If the picture is nearly black, grey or white there.
     pub fn picked(name: impl Into<String>, frame: Frame<'_>, at: DVec2) -> Result<Self, MarkError> {
-        let size = frame.size().map(|side| side as usize);
+        let size = frame.size.map(|side| side as usize);
         // A place outside is brought to the edge, also one that is no number.
         let index = |place: f64, side: usize| (place.round().max(0.0) as usize).min(side - 1);
         let (x, y) = (index(at.x, size[0]), index(at.y, size[1]));
@@ -77,21 +80,6 @@ impl Mark {
         } else {
             Err(MarkError::NoHue)
         }
-    }
-
-    /// Its name.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// About its colour, sRGB.
-    pub fn color(&self) -> [u8; 3] {
-        self.color
-    }
-
-    /// Its hue in degrees.
-    pub fn hue(&self) -> f64 {
-        self.hue
     }
 }
 

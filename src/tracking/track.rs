@@ -100,7 +100,7 @@ impl Tracker {
 
     /// The marks in the next frame; `None` for those that are lost, and for all in a frame of another size.
     pub fn push(&mut self, frame: Frame<'_>) -> Vec<Option<Sighting>> {
-        if frame.size() != self.learned.size {
+        if frame.size != self.learned.size {
             return vec![None; self.followed.len()];
         }
         self.find_runs(frame);

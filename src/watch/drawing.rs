@@ -69,7 +69,7 @@ impl Drawing {
 
     /// Its file.
     pub(crate) fn path(&self) -> &Path {
-        self.source.saved()
+        &self.source.saved
     }
 
     /// Its file, and the copy with unsaved changes, if there is one.

@@ -8,7 +8,8 @@ use crate::disk::{Stamp, stamp};
 /// last is read. Modification times of the two are not compared with each other, as their file systems may have different clocks.
 #[derive(Debug)]
 pub(super) struct Source {
-    saved: PathBuf,
+    /// The drawing's own file.
+    pub(super) saved: PathBuf,
     unsaved: Option<PathBuf>,
     /// The state of both files when the drawing was last read.
     seen: Option<[Option<Stamp>; 2]>,
@@ -24,11 +25,6 @@ impl Source {
             seen: None,
             reads_unsaved: unsaved.is_some(),
         }
-    }
-
-    /// The drawing's own file.
-    pub(super) fn saved(&self) -> &Path {
-        &self.saved
     }
 
     /// All files that may be read.

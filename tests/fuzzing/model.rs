@@ -46,7 +46,7 @@ fn check_pictures(bytes: &[u8]) -> Result<(), RenderError> {
     let options = Options::default().with_size([24, 16]);
     for pose in [model.rest()].into_iter().chain(moments) {
         let posed = PosedModel::new(&model, &pose)?;
-        if posed.triangles() <= RENDERED {
+        if posed.triangles <= RENDERED {
             let picture = posed.picture(&options)?;
             assert_eq!(picture.dimensions(), (24, 16));
             for camera in model.cameras().iter().take(2) {

@@ -29,7 +29,7 @@ fn written(room: &Room, name: &str) -> Clip {
 
 /// The number of rows of a clip that differ from the row before, including the first.
 fn drawings(clip: &Clip) -> usize {
-    1 + (1..clip.frames())
+    1 + (1..clip.frames)
         .filter(|frame| clip.row(*frame) != clip.row(frame - 1))
         .count()
 }
@@ -43,7 +43,7 @@ fn usual() -> (Clip, Cut) {
         &prepared.anatomy,
         PointChoice::Seen,
     );
-    let usual = Options::recommended(prepared.clip.frames());
+    let usual = Options::recommended(prepared.clip.frames);
     let cut = limit(measured.poses(), &usual);
     (prepared.clip, cut)
 }
@@ -72,14 +72,14 @@ fn a_limited_motion_is_what_the_library_makes() {
         .ends(0, "", "wrote out.bvh");
     let (full, cut) = usual();
     let out = written(&room, "out.bvh");
-    assert_eq!(out.frames(), FRAMES);
+    assert_eq!(out.frames, FRAMES);
     assert!(
         (out.frame_time * 24.0 - 1.0).abs() < 1e-4,
         "{}",
         out.frame_time
     );
     assert_eq!(drawings(&out), cut.exposure.drawings().count());
-    for (frame, source) in cut.exposure.sources().iter().enumerate() {
+    for (frame, source) in cut.exposure.sources.iter().enumerate() {
         for (is, due) in out.row(frame).iter().zip(full.row(*source as usize)) {
             assert!(
                 (is - due).abs() <= 0.5e-6 + 1e-12,
@@ -113,7 +113,7 @@ fn how_many_frames_and_drawings() {
         room.run(&all).ends(0, "", "");
         let out = written(&room, "out.bvh");
         assert_eq!(
-            (out.frames(), drawings(&out)),
+            (out.frames, drawings(&out)),
             (frames, shown),
             "{arguments:?}"
         );
@@ -290,7 +290,7 @@ fn through_pipes() {
     let kick = room.read("kick.bvh");
     let run = Run::of(room.pipe(&["motion", "-", "-o", "-", "--full"], &kick));
     assert_eq!(
-        read_bytes(run.out.as_bytes()).expect("BVH").clip.frames(),
+        read_bytes(run.out.as_bytes()).expect("BVH").clip.frames,
         FRAMES
     );
     assert!(!run.err.contains("wrote"), "{}", run.err);
@@ -389,7 +389,7 @@ fn a_damaged_file() {
     ]);
     assert!(run.err.contains(&place), "{}", run.err);
     run.ends(0, "", "continuing with the 100 frames before it");
-    assert_eq!(written(&room, "out.bvh").frames(), 100);
+    assert_eq!(written(&room, "out.bvh").frames, 100);
 
     room.write("empty.bvh", "");
     room.run(&["motion", "empty.bvh", "--keep-going"])
@@ -403,10 +403,7 @@ fn clips_that_come_along_are_written() {
         room.run(&["motion", "walk", "-o", "walk.bvh", "--legs", legs])
             .ends(0, "", "wrote walk.bvh");
         let clip = written(&room, "walk.bvh");
-        assert_eq!(
-            (clip.skeleton.joints.len(), clip.frames()),
-            (joints, frames)
-        );
+        assert_eq!((clip.skeleton.joints.len(), clip.frames), (joints, frames));
     }
     let room = room();
     room.run(&["motion", "walk", "--legs", "3"])
@@ -422,7 +419,7 @@ fn a_loop_in_place_ends_where_it_begins() {
     room.run(&["motion", "kick.bvh", "-o", "loop.bvh", "--full", "-il"])
         .ends(0, "", "a loop of the frames");
     let clip = written(&room, "loop.bvh");
-    let (first, last) = (clip.pose(0), clip.pose(clip.frames() - 1));
+    let (first, last) = (clip.pose(0), clip.pose(clip.frames - 1));
     for (first, last) in first.iter().zip(&last) {
         assert!(first.position.distance(last.position) < 0.01);
     }

@@ -136,8 +136,8 @@ impl Motion {
     fn read(path: &Path) -> Self {
         let bytes = fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let clip = bvh::read_bytes(&bytes).expect("a motion").clip;
-        let step = clip.frames().div_ceil(FRAMES);
-        let clip = clip.select_frames((0..clip.frames()).step_by(step));
+        let step = clip.frames.div_ceil(FRAMES);
+        let clip = clip.select_frames((0..clip.frames).step_by(step));
         let mut skeleton = Skeleton::clone(&clip.skeleton);
         for (index, joint) in skeleton.joints.iter_mut().enumerate() {
             joint.name = format!("joint{index}");

@@ -99,7 +99,7 @@ fn check_repeating(
     let cut = cut(poses, steps, kept);
     let held = cut.held.iter().map(|held| (held.covered, held.by));
     let fast = Plain {
-        shown: cut.exposure.sources().to_vec(),
+        shown: cut.exposure.sources.to_vec(),
         omitted: cut.omitted.clone(),
         duplicated: cut.duplicated.clone(),
         held: held.collect(),
@@ -126,8 +126,8 @@ fn check_repeating(
     assert_eq!([cut.omissions.done, cut.holds.done], [omitted, held]);
     assert_eq!(cut.omissions.shortfall() + omitted, steps[0]);
     assert_eq!(cut.holds.shortfall() + held, steps[1]);
-    assert!(cut.exposure.sources().is_sorted());
-    assert_eq!(cut.exposure.sources().first(), (frames > 0).then_some(&0));
+    assert!(cut.exposure.sources.is_sorted());
+    assert_eq!(cut.exposure.sources.first(), (frames > 0).then_some(&0));
     let stood = |source: u32| whole.drawings().find(|drawing| drawing.source == source);
     for drawing in &drawings {
         let before = stood(drawing.source).map_or(0, |drawing| drawing.length);
@@ -176,13 +176,12 @@ fn check_keeping(positions: &[DVec3], joints: usize, key: usize, steps: [usize; 
     let repeats = repeats(positions, joints);
     let plain = plain(positions, joints, &repeats, steps, length, Some(key));
     assert_eq!(
-        cut.exposure.sources(),
-        plain.shown,
+        cut.exposure.sources, plain.shown,
         "{positions:?} {steps:?} {key}"
     );
     let whole = self::cut(poses, [0; 2], length).exposure;
-    if let Some(pose) = whole.sources().get(key) {
-        assert!(cut.exposure.sources().contains(pose), "frame {key} stays");
+    if let Some(pose) = whole.sources.get(key) {
+        assert!(cut.exposure.sources.contains(pose), "frame {key} stays");
     }
 }
 
@@ -204,7 +203,7 @@ fn real_motions_are_cut_as_the_plain_code_does() {
             .clip;
         let positions = clip.positions();
         let anatomy = label_clip(&clip);
-        let third = clip.frames() / 3;
+        let third = clip.frames / 3;
         for choice in [PointChoice::Seen, PointChoice::All] {
             let Measured {
                 points,
@@ -214,7 +213,7 @@ fn real_motions_are_cut_as_the_plain_code_does() {
             for steps in [[4, third], [0, third], [12, 5], [6, usize::MAX]] {
                 for kept in [true, false] {
                     let cut = check_repeating(&points, per_frame, &repeats, steps, kept);
-                    assert!(cut.exposure.len() <= clip.frames(), "{file}");
+                    assert!(cut.exposure.len() <= clip.frames, "{file}");
                 }
             }
         }
@@ -323,8 +322,8 @@ fn frames_that_are_shown_keep_their_numbers() {
         .expect("memory takes everything");
     let again = bvh::read_bytes(&text).expect("a motion").clip;
     let sheet = edited.exposure.expect("it was cut");
-    assert_eq!(again.frames(), clip.frames());
-    for (frame, source) in sheet.sources().iter().enumerate() {
+    assert_eq!(again.frames, clip.frames);
+    for (frame, source) in sheet.sources.iter().enumerate() {
         assert_eq!(again.row(frame), clip.row(*source as usize), "{frame}");
     }
 }
@@ -335,21 +334,21 @@ fn the_shortest_motions_are_cut() {
     let most = [usize::MAX; 2];
     assert!(check(&[], 0, most, true).exposure.is_empty());
     assert!(check(&[], 1, most, true).exposure.is_empty());
-    assert_eq!(check(&at(&[1.0]), 1, most, true).exposure.sources(), [0]);
+    assert_eq!(check(&at(&[1.0]), 1, most, true).exposure.sources, [0]);
     // Nothing could be shown longer in place of the omitted pose.
     let two = check(&at(&[1.0, 2.0]), 1, [1, 0], true);
-    assert_eq!(two.exposure.sources(), [0, 1]);
+    assert_eq!(two.exposure.sources, [0, 1]);
     assert_eq!(two.omissions.shortfall(), 1);
     assert_eq!(
-        check(&at(&[1.0, 2.0]), 1, [1, 0], false).exposure.sources(),
+        check(&at(&[1.0, 2.0]), 1, [1, 0], false).exposure.sources,
         [0]
     );
     assert_eq!(
-        check(&at(&[1.0, 2.0]), 1, [0, 1], true).exposure.sources(),
+        check(&at(&[1.0, 2.0]), 1, [0, 1], true).exposure.sources,
         [0, 0]
     );
     let three = check(&at(&[0.0, 1.0, 5.0]), 1, [1, 0], true);
-    assert_eq!(three.exposure.sources(), [0, 0, 1]);
+    assert_eq!(three.exposure.sources, [0, 0, 1]);
     assert_eq!([three.omitted, three.duplicated], [[2], [0]]);
 }
 
@@ -379,14 +378,14 @@ fn still_poses_may_be_shown_longer_than_copies() {
     still.extend([1.0, 3.0, 6.0, 10.0].map(DVec3::splat));
     let cut = check(&still, 1, [0, usize::MAX], true);
     assert_eq!(
-        cut.exposure.sources(),
+        cut.exposure.sources,
         [0, 0, 0, 0, 0, 0, 0, 0, 0, 9, 9, 11, 11]
     );
     assert_eq!(cut.exposure.keys().collect::<Vec<_>>(), [0, 9, 11]);
     // Equal poses that only become neighbours later are two.
     let back = [0.0, 9.0, 0.0, 1.0].map(DVec3::splat);
     let cut = check(&back, 1, [1, 0], true);
-    assert_eq!(cut.exposure.sources(), [0, 0, 2, 3]);
+    assert_eq!(cut.exposure.sources, [0, 0, 2, 3]);
     assert_eq!(cut.exposure.drawings().count(), 3);
 }
 

@@ -130,7 +130,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
     };
     let mut worst = 0.0_f64;
     let (mut looked_at, mut splayed) = (0, 0);
-    for frame in 0..clip.frames() {
+    for frame in 0..clip.frames {
         let pose = clip.pose(frame);
         let now = world(&compiled.scene, full, frame);
         for drive in &figure_clip.parts {
@@ -166,10 +166,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
             }
         }
     }
-    assert!(
-        looked_at >= 4 * clip.frames(),
-        "only {looked_at} directions"
-    );
+    assert!(looked_at >= 4 * clip.frames, "only {looked_at} directions");
     let is_beetle = compiled
         .bindings
         .parts

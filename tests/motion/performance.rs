@@ -34,7 +34,7 @@ fn all(mut check: impl FnMut(&str, &Rig, &okoshi::internals::mocap::Clip, &Landm
 #[test]
 fn a_map_that_changes_nothing_changes_nothing() {
     let checked = all(|file, rig, clip, landmarks| {
-        let last = clip.frames() - 1;
+        let last = clip.frames - 1;
         let same = TimeMap::through(&[[0, 0], [last / 3, last / 3], [last, last]]);
         let timed = Turns::new(clip, rig, landmarks).timed(&same).travel();
         assert_eq!(timed, retarget(clip, rig, landmarks), "{file}");
@@ -45,7 +45,7 @@ fn a_map_that_changes_nothing_changes_nothing() {
 #[test]
 fn the_key_pose_stands_in_the_key_frame() {
     let checked = all(|file, rig, clip, landmarks| {
-        let (last, whole) = (clip.frames() - 1, retarget(clip, rig, landmarks));
+        let (last, whole) = (clip.frames - 1, retarget(clip, rig, landmarks));
         for (input, motion, end) in [
             (last / 4, last / 2, last),
             (last * 2, last / 3, last * 3),
@@ -79,7 +79,7 @@ fn the_key_pose_stands_in_the_key_frame() {
 fn contacts_go_through_the_map() {
     let mut contacts = 0;
     let checked = all(|file, rig, clip, landmarks| {
-        let last = clip.frames() - 1;
+        let last = clip.frames - 1;
         let whole = retarget(clip, rig, landmarks);
         let share = |clip: &RetargetedClip| {
             let on_ground = clip.grounded.iter().filter(|grounded| **grounded);

@@ -162,7 +162,7 @@ fn the_key_pose_stands_in_the_key_frame_of_the_scene() {
         let limited = perform(&string, &red, &green);
         let cut = limited.clips[0].cut.as_ref().expect("it is limited");
         assert!(
-            cut.exposure.sources().contains(&(input as u32)),
+            cut.exposure.sources.contains(&(input as u32)),
             "frame {input} stays"
         );
     }

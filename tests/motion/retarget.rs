@@ -30,7 +30,7 @@ pub(crate) struct Body {
 
 impl Body {
     pub(crate) fn of(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
-        let poses = (0..clip.frames()).map(|frame| clip.pose(frame));
+        let poses = (0..clip.frames).map(|frame| clip.pose(frame));
         let rise: DVec3 = poses.map(|pose| rise(landmarks, &pose)).sum();
         Self::from_rise(landmarks, facing, rise)
     }
@@ -75,7 +75,7 @@ impl Body {
 
     /// The mean of a direction over all frames, in the axes of a drawing of the body.
     pub(crate) fn mean(&self, clip: &Clip, way: impl Fn(&Pose) -> Option<DVec3>) -> DVec3 {
-        let poses = (0..clip.frames()).map(|frame| clip.pose(frame));
+        let poses = (0..clip.frames).map(|frame| clip.pose(frame));
         let ways = poses.filter_map(|pose| Some(self.drawn(&pose, way(&pose)?.normalize())));
         ways.sum::<DVec3>().normalize()
     }
@@ -204,7 +204,7 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
     };
     let size = rig.parts.iter().map(|part| part.tip.y).fold(0.0, f64::max);
     let mut worst = Worst::default();
-    for frame in 0..clip.frames() {
+    for frame in 0..clip.frames {
         let pose = clip.pose(frame);
         let placed = placed(rig, &retargeted, frame);
         for (index, part) in rig.parts.iter_enumerated() {
@@ -297,7 +297,7 @@ fn parts_point_where_bones_do() {
             assert!(worst.bodies < OFF, "{file}, {name}: {worst:?}");
             assert!(worst.joints < 1e-9, "{file}, {name}: {worst:?}");
             let parts = rig.parts.iter().filter(|part| part.drive.is_some()).count();
-            assert_eq!(worst.checked, parts * clip.frames(), "{file}, {name}");
+            assert_eq!(worst.checked, parts * clip.frames, "{file}, {name}");
             assert!(parts >= 6, "{file}, {name}: {parts}");
             all.limbs = all.limbs.max(worst.limbs);
             all.bodies = all.bodies.max(worst.bodies);

@@ -2,9 +2,9 @@
 // bytes: the archive's times are fixed unless SOURCE_DATE_EPOCH is set.
 
 import { spawnSync } from "node:child_process";
-import { existsSync, statSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { install } from "../../web/scripts/install.mjs";
 
 const here = join(dirname(fileURLToPath(import.meta.url)), "..");
 const env = { SOURCE_DATE_EPOCH: "315619200", ...process.env };
@@ -16,16 +16,8 @@ function run(command, ...args) {
   if (status !== 0) process.exit(status ?? 1);
 }
 
-/** Installs the locked dependencies unless they are up to date. */
-export function install() {
-  const installed = join(here, "node_modules", ".package-lock.json");
-  const lock = join(here, "package-lock.json");
-  if (existsSync(installed) && statSync(installed).mtimeMs >= statSync(lock).mtimeMs) return;
-  run("npm", "ci", "--no-audit", "--no-fund");
-}
-
 export function pack(output) {
-  install();
+  install(here);
   run("npx", "--no-install", "tsc", "--noEmit");
   run("node", "scripts/build.mjs");
   run("npx", "--no-install", "vsce", "package", "--no-dependencies", "--allow-missing-repository", "-o", output);

@@ -119,6 +119,15 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await page.locator(".tab.dirty").waitFor({ state: "detached" });
   };
 
+  /** Changes the body's colour in the text, and waits until the model shows it. */
+  const makeTeal = async () => {
+    await at("Color #d9534f", 7);
+    await editor.press("Shift+ArrowRight");
+    await editor.press("Shift+ArrowRight");
+    await editor.type("19");
+    await rest();
+    await editor.until("a teal body", async () => (await panel.find(TEAL)).count > 300);
+  };
   await step("the lens opens a panel beside the text, which shows the model", async () => {
     await again();
     await at(WRONG, 14);
@@ -148,12 +157,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await begin();
     await still();
     const before = await panel.find(RED);
-    await at("Color #d9534f", 7);
-    await editor.press("Shift+ArrowRight");
-    await editor.press("Shift+ArrowRight");
-    await editor.type("19");
-    await rest();
-    await editor.until("a teal body", async () => (await panel.find(TEAL)).count > 300);
+    await makeTeal();
     const after = await panel.find(RED);
     assert.ok(after.count < before.count / 5, `${before.count} red pixels before, ${after.count} after`);
     await shot("preview-key");
@@ -256,12 +260,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     assert.ok((await panel.find(RED)).count > 300);
     await editor.until("the next server's news", async () => (await link()) === "open");
     assert.deepEqual(await editor.messages(), []);
-    await at("Color #d9534f", 7);
-    await editor.press("Shift+ArrowRight");
-    await editor.press("Shift+ArrowRight");
-    await editor.type("19");
-    await rest();
-    await editor.until("a teal body", async () => (await panel.find(TEAL)).count > 300);
+    await makeTeal();
     await editor.press("Control+z");
     configure({});
   });

@@ -12,6 +12,10 @@ export interface Places {
   readonly gallery: () => void;
 }
 
+/** What a key does; nothing that is possible at the moment. */
+type Act = (() => void) | false | null | undefined;
+type Acts = Readonly<Record<string, Act>>;
+
 /** Degrees per press of an arrow key. */
 const TURN = 10;
 const ZOOM = 1.2;
@@ -48,105 +52,62 @@ export function listenToKeys(viewer: Viewer, commands: Commands, keys: Keys, pla
     if (!shows()) return;
     if (target?.closest("button, a") && (event.key === " " || event.key === "Enter")) return;
     // Wherever the key is: on some keyboards it is one of the digits with Shift.
-    const act = event.key === "/" ? () => places.side.focusSearch() : byPlace(event) ?? byLetter(event);
+    const act = event.key === "/" ? () => places.side.focusSearch() : byPlace(event) || byLetter(event);
     if (!act) return;
     event.preventDefault();
     act();
   });
 
   /** Keys by their position on the keyboard, whatever Shift makes of them. */
-  function byPlace({ code, shiftKey }: KeyboardEvent): (() => void) | undefined {
-    switch (code) {
-      case "Digit0":
-      case "Numpad0":
-        return () => view.look("threeQuarter");
-      case "Digit1":
-      case "Numpad1":
-        return () => view.look(shiftKey ? "back" : "front");
-      case "Digit3":
-      case "Numpad3":
-        return () => view.look(shiftKey ? "otherSide" : "side");
-      case "Digit7":
-      case "Numpad7":
-        return () => view.look(shiftKey ? "bottom" : "top");
-      case "Digit4":
-      case "Numpad4":
-        return commands.bends ? () => viewer.lookAsDrawn() : undefined;
-      case "Digit5":
-      case "Numpad5":
-        return () => commands.toggleParallel();
-      case "Comma":
-        return commands.isPosing ? () => commands.turn(POSE, shiftKey) : undefined;
-      case "Period":
-        return commands.isPosing ? () => commands.turn(-POSE, shiftKey) : undefined;
-    }
-    return undefined;
+  function byPlace({ code, shiftKey }: KeyboardEvent): Act {
+    const acts: Acts = {
+      Digit0: () => view.look("threeQuarter"),
+      Digit1: () => view.look(shiftKey ? "back" : "front"),
+      Digit3: () => view.look(shiftKey ? "otherSide" : "side"),
+      Digit7: () => view.look(shiftKey ? "bottom" : "top"),
+      Digit4: commands.bends && (() => viewer.lookAsDrawn()),
+      Digit5: () => commands.toggleParallel(),
+      Comma: commands.isPosing && (() => commands.turn(POSE, shiftKey)),
+      Period: commands.isPosing && (() => commands.turn(-POSE, shiftKey)),
+    };
+    return acts[code.replace("Numpad", "Digit")];
   }
 
-  function byLetter({ key, shiftKey }: KeyboardEvent): (() => void) | undefined {
-    switch (key.length === 1 ? key.toLowerCase() : key) {
-      case "ArrowLeft":
-        return () => view.orbit(-TURN, 0);
-      case "ArrowRight":
-        return () => view.orbit(TURN, 0);
-      case "ArrowUp":
-        return () => view.orbit(0, TURN);
-      case "ArrowDown":
-        return () => view.orbit(0, -TURN);
-      case "+":
-      case "=":
-        return () => view.zoom(ZOOM);
-      case "-":
-        return () => view.zoom(1 / ZOOM);
-      case "f":
-        return shiftKey ? () => void commands.toggleFullScreen() : () => viewer.frameSelected();
-      case "Home":
-        return () => view.frame();
-      case "b":
-        return commands.bends ? () => commands.toggleBend() : undefined;
-      case "l":
-        return () => viewer.stack.toggle();
-      case "z":
-        return () => commands.nextShading();
-      case "p":
-        return () => commands.togglePosing();
-      case "s":
-        return () => void commands.screenshot(shiftKey);
-      case "d":
-        return () => void commands.download();
-      case "t":
-        return () => places.side.focusTree();
-      case "h":
-        return shiftKey ? () => commands.isolate() : () => commands.hide();
-      case "a":
-        return () => commands.showAll();
-      case "e":
-        return () => places.findings.flip();
-      case "g":
-        return () => places.gallery();
-      case "j":
-        return () => places.clips.step(-1);
-      case "k":
-        return () => places.clips.step(1);
-      case "r":
-        return commands.recordPuppet ?? undefined;
-      case "c":
-        return () => places.clips.chart.toggle();
-      case "i":
-        return () => places.clips.performance.toggle();
-      case "o":
-        return () => places.clips.compare();
-      case "v":
-        return () => places.clips.followTravel();
-      case "n":
-        return () => places.clips.onionSkin();
-      case "m":
-        return () => places.clips.film();
-      case " ":
-        return () => places.clips.toggle();
-      case "Escape":
-        return () => commands.escape();
-    }
-    return undefined;
+  function byLetter({ key, shiftKey }: KeyboardEvent): Act {
+    const { clips, findings, gallery, side } = places;
+    const acts: Acts = {
+      ArrowLeft: () => view.orbit(-TURN, 0),
+      ArrowRight: () => view.orbit(TURN, 0),
+      ArrowUp: () => view.orbit(0, TURN),
+      ArrowDown: () => view.orbit(0, -TURN),
+      "+": () => view.zoom(ZOOM),
+      "=": () => view.zoom(ZOOM),
+      "-": () => view.zoom(1 / ZOOM),
+      f: shiftKey ? () => void commands.toggleFullScreen() : () => viewer.frameSelected(),
+      Home: () => view.frame(),
+      b: commands.bends && (() => commands.toggleBend()),
+      l: () => viewer.stack.toggle(),
+      z: () => commands.nextShading(),
+      p: () => commands.togglePosing(),
+      s: () => void commands.screenshot(shiftKey),
+      d: () => void commands.download(),
+      t: () => side.focusTree(),
+      h: shiftKey ? () => commands.isolate() : () => commands.hide(),
+      a: () => commands.showAll(),
+      e: () => findings.flip(),
+      g: () => gallery(),
+      j: () => clips.step(-1),
+      k: () => clips.step(1),
+      r: commands.recordPuppet,
+      c: () => clips.chart.toggle(),
+      i: () => clips.performance.toggle(),
+      o: () => clips.compare(),
+      v: () => clips.followTravel(),
+      n: () => clips.onionSkin(),
+      m: () => clips.film(),
+      " ": () => clips.toggle(),
+      Escape: () => commands.escape(),
+    };
+    return acts[key.length === 1 ? key.toLowerCase() : key];
   }
 }

@@ -1,10 +1,10 @@
 //! Labels for all pixels: seeds grow over edges and ink.
 
+use super::Seen;
 use super::canvas::{Canvas, Color, apart, mixture, mixture_of_three};
 use super::components::{Component, components};
 use super::detail::add_details;
 use super::ink::{Ink, Part, is_line};
-use super::palette::Palette;
 use super::seeds::{FRINGE_DISTANCE, FRINGE_SIDE, Kind, MAX_REGIONS, is_large, min_area};
 use super::spread::{FREE, Spread, WALL, spread};
 
@@ -37,15 +37,9 @@ pub(super) struct Seeds {
 }
 
 /// Labels each pixel of a picture.
-pub(super) fn fill(
-    canvas: &Canvas,
-    palette: &Palette,
-    found: &[Component],
-    ids: &[u32],
-    kinds: &[Kind],
-    ink: Option<&Ink>,
-) -> Areas {
-    let mut seeds = seeds(canvas, palette, found, ids, kinds, ink);
+pub(super) fn fill(seen: &Seen<'_>, kinds: &[Kind], ink: Option<&Ink>) -> Areas {
+    let canvas = seen.canvas;
+    let mut seeds = seeds(seen, kinds, ink);
     // Lines are divided between the regions that they separate, not taken by dark regions at their ends.
     let mut dark: Vec<(usize, u16)> = Vec::new();
     for (at, label) in seeds.labels.iter_mut().enumerate() {
@@ -70,15 +64,10 @@ pub(super) fn fill(
     }
 }
 
-fn seeds(
-    canvas: &Canvas,
-    palette: &Palette,
-    found: &[Component],
-    ids: &[u32],
-    kinds: &[Kind],
-    ink: Option<&Ink>,
-) -> Seeds {
-    let is_sliver = slivers(canvas, palette, found, ids, ink);
+fn seeds(seen: &Seen<'_>, kinds: &[Kind], ink: Option<&Ink>) -> Seeds {
+    let (canvas, palette) = (seen.canvas, seen.palette);
+    let (found, ids) = (seen.components, seen.ids);
+    let is_sliver = slivers(seen, ink);
     let mut colors = vec![canvas.background.map(f32::from)];
     let mut is_thin = vec![false];
     let mut by_component = vec![FREE; found.len()];
@@ -132,13 +121,9 @@ fn seeds(
 }
 
 /// By component, whether it is what shows between two lines: thin, along lines, its colour mixed of ink and a larger region's.
-fn slivers(
-    canvas: &Canvas,
-    palette: &Palette,
-    found: &[Component],
-    ids: &[u32],
-    ink: Option<&Ink>,
-) -> Vec<bool> {
+fn slivers(seen: &Seen<'_>, ink: Option<&Ink>) -> Vec<bool> {
+    let (canvas, palette) = (seen.canvas, seen.palette);
+    let (found, ids) = (seen.components, seen.ids);
     let mut lined = vec![0_usize; found.len()];
     let Some(ink) = ink else {
         return vec![false; found.len()];

@@ -1,5 +1,6 @@
 //! The ink: thin dark outlines.
 
+use super::Seen;
 use super::canvas::{Canvas, Color, mixture};
 use super::components::{Component, components};
 use super::palette::{Palette, SAME};
@@ -90,16 +91,11 @@ pub(super) fn is_line(ink: Option<&Ink>, at: usize) -> bool {
 }
 
 /// Finds the ink and parts it into lines and dark regions; `None` if there are no dark lines.
-pub(super) fn ink(
-    canvas: &Canvas,
-    palette: &Palette,
-    seeds: &[Component],
-    ids: &[u32],
-    kinds: &[Kind],
-) -> Option<Ink> {
-    let class = darkest(palette, seeds)?;
+pub(super) fn ink(seen: &Seen<'_>, kinds: &[Kind]) -> Option<Ink> {
+    let (canvas, palette) = (seen.canvas, seen.palette);
+    let class = darkest(palette, seen.components)?;
     let color = palette.colors[usize::from(class)];
-    let cover = cover(canvas, palette, seeds, ids, kinds, class);
+    let cover = cover(seen, kinds, class);
     let mut labels: Vec<u16> = cover
         .iter()
         .map(|cover| if *cover >= 128 { FREE } else { 0 })
@@ -140,14 +136,9 @@ fn darkest(palette: &Palette, seeds: &[Component]) -> Option<u16> {
 }
 
 /// How much of each pixel ink covers: all of those in its colour, and a share of those that mix it with a colour nearby.
-fn cover(
-    canvas: &Canvas,
-    palette: &Palette,
-    seeds: &[Component],
-    ids: &[u32],
-    kinds: &[Kind],
-    class: u16,
-) -> Vec<u8> {
+fn cover(seen: &Seen<'_>, kinds: &[Kind], class: u16) -> Vec<u8> {
+    let (canvas, palette) = (seen.canvas, seen.palette);
+    let (seeds, ids) = (seen.components, seen.ids);
     let ink = palette.colors[usize::from(class)].map(f32::from);
     let mut cover = vec![0; canvas.pixels.len()];
     for at in canvas.rows().flatten() {

@@ -24,9 +24,11 @@ use image::RgbaImage;
 use crate::geometry::{FillRule, Outline, resolve_overlaps};
 use borders::{Borders, Map};
 use canvas::{Canvas, Color, apart, mixture};
+use components::Component;
 use fill::Areas;
 use ink::Ink;
 use nesting::{Nesting, is_opaque};
+use palette::Palette;
 
 /// A dark line along the border of a region.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,6 +74,15 @@ pub(super) struct RasterView {
     pub lines: Vec<InnerLine>,
 }
 
+/// A picture, and its connected pixels of one class.
+struct Seen<'a> {
+    canvas: &'a Canvas,
+    palette: &'a Palette,
+    components: &'a [Component],
+    /// By pixel the index of its component.
+    ids: &'a [u32],
+}
+
 /// Finds the regions of a drawing in flat colours, with or without dark outlines. The background is no region: transparent
 /// pixels or, in an opaque picture, what joins the picture's border in its commonest colour.
 ///
@@ -80,9 +91,15 @@ pub(super) fn regions(picture: &RgbaImage) -> RasterView {
     let canvas = Canvas::new(picture);
     let palette = palette::palette(&canvas);
     let (found, ids) = components::components(&palette.classes, canvas.width);
-    let kinds = seeds::kinds(&canvas, &palette, &found, &ids);
-    let ink = ink::ink(&canvas, &palette, &found, &ids, &kinds);
-    let areas = fill::fill(&canvas, &palette, &found, &ids, &kinds, ink.as_ref());
+    let seen = Seen {
+        canvas: &canvas,
+        palette: &palette,
+        components: &found,
+        ids: &ids,
+    };
+    let kinds = seeds::kinds(&seen);
+    let ink = ink::ink(&seen, &kinds);
+    let areas = fill::fill(&seen, &kinds, ink.as_ref());
     let nesting = nesting::nesting(&areas.labels, canvas.width, areas.colors.len());
     view(&canvas, &areas, &nesting, ink.as_ref())
 }

@@ -1,8 +1,9 @@
 //! The components that become regions.
 
+use super::Seen;
 use super::canvas::{Canvas, Color, mixture};
 use super::components::Component;
-use super::palette::{CLEAR, NONE, Palette};
+use super::palette::{CLEAR, NONE};
 
 /// At most so many regions are kept, the largest: matching takes time with the cube of their number.
 pub(super) const MAX_REGIONS: usize = 400;
@@ -39,12 +40,8 @@ pub(super) fn is_large(component: &Component, min_area: usize) -> bool {
 }
 
 /// What each component of the palette's classes is.
-pub(super) fn kinds(
-    canvas: &Canvas,
-    palette: &Palette,
-    components: &[Component],
-    ids: &[u32],
-) -> Vec<Kind> {
+pub(super) fn kinds(seen: &Seen<'_>) -> Vec<Kind> {
+    let (canvas, components, ids) = (seen.canvas, seen.components, seen.ids);
     let min_area = min_area(canvas);
     // All of the padding is one component, that of the first pixel.
     let padding = ids.first().map_or(0, |id| *id as usize);
@@ -56,7 +53,7 @@ pub(super) fn kinds(
         _ => Kind::Rest,
     };
     let mut kinds: Vec<Kind> = components.iter().enumerate().map(kind).collect();
-    drop_fringes(canvas, palette, components, ids, &mut kinds);
+    drop_fringes(seen, &mut kinds);
     let mut regions: Vec<usize> = (0..kinds.len())
         .filter(|index| kinds[*index] == Kind::Region)
         .collect();
@@ -70,13 +67,9 @@ pub(super) fn kinds(
 /// Neighbours of a thin component, as pairs, with the number of its pixels between them.
 type Pairs = Vec<([u32; 2], usize)>;
 
-fn drop_fringes(
-    canvas: &Canvas,
-    palette: &Palette,
-    components: &[Component],
-    ids: &[u32],
-    kinds: &mut [Kind],
-) {
+fn drop_fringes(seen: &Seen<'_>, kinds: &mut [Kind]) {
+    let (canvas, palette) = (seen.canvas, seen.palette);
+    let (components, ids) = (seen.components, seen.ids);
     let is_thin: Vec<bool> = components
         .iter()
         .zip(kinds.iter())

@@ -19,10 +19,10 @@ pub(crate) enum Ends {
 /// A line through points, by the share of its length.
 #[derive(Debug, Clone)]
 pub(super) struct Contour {
-    points: Vec<DVec2>,
+    pub(super) points: Vec<DVec2>,
     /// The length up to each point, relative to the whole. A ring has one more for its end.
     at: Vec<f64>,
-    ends: Ends,
+    pub(super) ends: Ends,
 }
 
 impl Contour {
@@ -49,14 +49,6 @@ impl Contour {
             points.pop();
         }
         Some(Self { points, at, ends })
-    }
-
-    pub(super) fn ends(&self) -> Ends {
-        self.ends
-    }
-
-    pub(super) fn points(&self) -> &[DVec2] {
-        &self.points
     }
 
     /// The places of the vertices, from 0 to 1, ascending.

@@ -79,7 +79,7 @@ pub(super) fn correspond(a: &Contour, b: &Contour, cuts: &[[f64; 2]]) -> Map {
     }
     Map {
         knots: best.1,
-        ends: a.ends(),
+        ends: a.ends,
     }
 }
 
@@ -98,7 +98,7 @@ impl Affine {
 
 /// The map of a contour's box to the unit square.
 fn unit(contour: &Contour) -> Affine {
-    let points = contour.points();
+    let points = &contour.points;
     let first = points.first().copied().unwrap_or_default();
     let (low, high) =
         (points.iter()).fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
@@ -115,7 +115,7 @@ fn unit(contour: &Contour) -> Affine {
 fn affine([a, b]: [&Contour; 2], to_unit: [Affine; 2], knots: &[[f64; 2]]) -> Option<Affine> {
     let map = Map {
         knots: knots.to_vec(),
-        ends: a.ends(),
+        ends: a.ends,
     };
     let each = (0..SAMPLES).map(|i| {
         let place = i as f64 / SAMPLES as f64;
@@ -173,7 +173,7 @@ impl Samples {
         let mut places: Vec<f64> = (0..last).map(|i| from + i as f64 * step).collect();
         let mut sharpest = vec![0.0; last];
         for (corner, turn) in contour.corners() {
-            let from_start = match contour.ends() {
+            let from_start = match contour.ends {
                 Ends::Joined => (corner - from).rem_euclid(1.0),
                 Ends::Free => corner - from,
             };
@@ -212,7 +212,7 @@ impl Samples {
 
 /// The cost of the best map and its knots.
 fn knots(contours: [&Contour; 2], to_unit: [Affine; 2], cuts: &[[f64; 2]]) -> (f64, Vec<[f64; 2]>) {
-    let ends = contours[0].ends();
+    let ends = contours[0].ends;
     let (Some(first), Ends::Joined) = (cuts.first(), ends) else {
         if ends == Ends::Free {
             let cuts = [&[[0.0; 2]], cuts, &[[1.0; 2]]].concat();

@@ -37,7 +37,7 @@ pub(super) fn unite(
     places.extend(cuts.iter().map(|cut| cut[home]));
     places.sort_by(f64::total_cmp);
     places.dedup_by(|b, a| *b - *a < SAME_PLACE);
-    if first.ends() == Ends::Joined
+    if first.ends == Ends::Joined
         && let [start, .., end] = places[..]
         && start + 1.0 - end < SAME_PLACE
     {

@@ -19,13 +19,13 @@ pub(super) fn draw(loaded: &Loaded, path: &Path, arguments: &Inspect, common: Co
     }
     let characters = &loaded.compiled.characters;
     if characters.is_empty() {
-        return fail(&format!(
+        return fail(format!(
             "`{}` has no character that is drawn from two sides, so there is nothing to match: put each side into a layer of its own, and write `Boy$View 0 0` in one and `Boy$View 45 0` in the other; `okoshi new boy --template boy` writes an example",
             loaded.path
         ));
     }
     let Some(picture) = picture_of_matches(characters) else {
-        return fail(&format!(
+        return fail(format!(
             "`{}` has too many views for one picture of their matching",
             loaded.path
         ));
@@ -36,7 +36,7 @@ pub(super) fn draw(loaded: &Loaded, path: &Path, arguments: &Inspect, common: Co
         .target(path, Naming::Given)
         .and_then(|target| target.write(|out| write_png(&picture, out)));
     if let Err(error) = written {
-        return fail(&error.to_string());
+        return fail(error);
     }
     if !common.quiet {
         let regions = characters.iter().map(|character| character.regions.len());

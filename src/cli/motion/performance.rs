@@ -37,30 +37,25 @@ pub(super) fn perform(
         });
     };
     let name = path.display().to_string();
-    let bytes = read_file(path).map_err(|error| fail(&error.to_string()))?;
-    let tracks = MarkTracks::from_bytes(&bytes).map_err(|error| {
-        let outcome = fail(&format!("`{name}`: {error}"));
-        eprintln!("  help: {}", error.help);
+    let refused = |message: &str, help: &str| {
+        let outcome = fail(message);
+        eprintln!("  help: {help}");
         outcome
-    })?;
-    let channels =
-        channels(arguments, &tracks, &prepared.clip.skeleton).map_err(|[message, help]| {
-            let outcome = fail(&format!("`{name}`: {message}"));
-            eprintln!("  help: {help}");
-            outcome
-        })?;
+    };
+    let bytes = read_file(path).map_err(fail)?;
+    let tracks = MarkTracks::from_bytes(&bytes)
+        .map_err(|error| refused(&format!("`{name}`: {error}"), &error.help))?;
+    let channels = channels(arguments, &tracks, &prepared.clip.skeleton)
+        .map_err(|[message, help]| refused(&format!("`{name}`: {message}"), &help))?;
     let emphasized = match &arguments.emphasize {
         Some(wanted) => {
             let is_it =
                 |channel: &JointChannel| same_name(&tracks.marks[channel.mark].name, wanted);
             let found = channels.iter().position(is_it);
-            if found.is_none() {
+            Some(found.ok_or_else(|| {
                 let message = format!("--emphasize {wanted}: no joint has this mark");
-                let outcome = fail(&message);
-                eprintln!("  help: write --mark {wanted}=JOINT for it");
-                return Err(outcome);
-            }
-            found
+                refused(&message, &format!("write --mark {wanted}=JOINT for it"))
+            })?)
         }
         None => None,
     };
@@ -143,10 +138,8 @@ fn channels(
                     .to_owned(),
             ]);
         }
-        let mut joints = Vec::new();
-        for name in &marked.joints {
-            joints.push(joint(name)?);
-        }
+        let joints = marked.joints.iter().map(|name| joint(name));
+        let mut joints: Vec<_> = joints.collect::<Result<_, _>>()?;
         channels.push(JointChannel {
             mark,
             joint: joints.remove(0),

@@ -5,7 +5,8 @@ use std::collections::VecDeque;
 use std::io;
 
 use super::movie::{Movie, MovieForm};
-use super::{Destination, Failure, Form, describe_picture, options};
+use super::{Destination, Form, describe_picture, of_drawing, options};
+use crate::cli::Failure;
 use crate::cli::args::Render;
 use crate::cli::progress::{counting, spinning};
 use crate::render::{
@@ -112,14 +113,13 @@ pub(super) fn strip(
     output: &Destination,
 ) -> Result<String, Failure> {
     let options = options(arguments, Form::Png);
-    let target = output.single().map_err(Failure::written)?;
+    let target = output.single()?;
     let image = counting("drawing", cells, |done| {
         film.film_strip(&options, cells, done)
     })
-    .map_err(|error| Failure::of(arguments, &error))?;
-    let written = target.write(|out| write_png(&image, out));
-    written.map_err(Failure::written)?;
-    let picture = describe_picture(options.size, film.triangles());
+    .map_err(|error| of_drawing(arguments, &error))?;
+    target.write(|out| write_png(&image, out))?;
+    let picture = describe_picture(options.size, film.triangles);
     let name = output.path.display();
     Ok(format!("{name}: {cells} moments, {picture} each"))
 }
@@ -133,13 +133,13 @@ pub(super) fn numbered(
     let options = options(arguments, Form::Png);
     let pictures = held_frames(film, arguments)?;
     let frames: u32 = pictures.iter().map(|picture| picture.frames).sum();
-    output.check_numbered(frames).map_err(Failure::written)?;
+    output.check_numbered(frames)?;
     counting("drawing", pictures.len() as u32, |done| {
         let mut number = 0;
         let mut left = pictures.iter().zip(1..);
         film.shooting(&options)?.draw(times(&pictures), |image| {
             let mut png = Vec::new();
-            write_png(&image, &mut png).map_err(|error| Failure(error.to_string()))?;
+            write_png(&image, &mut png)?;
             let Some((picture, drawn)) = left.next() else {
                 return Ok(());
             };
@@ -147,14 +147,13 @@ pub(super) fn numbered(
                 number += 1;
                 output
                     .numbered(number, frames)
-                    .and_then(|target| target.write(|out| out.write_all(&png)))
-                    .map_err(Failure::written)?;
+                    .and_then(|target| target.write(|out| out.write_all(&png)))?;
             }
             done(drawn);
             Ok::<(), Failure>(())
         })
     })?;
-    let picture = describe_picture(options.size, film.triangles());
+    let picture = describe_picture(options.size, film.triangles);
     Ok(format!("{}: {picture} each", output.range(frames)))
 }
 
@@ -168,7 +167,7 @@ pub(super) fn movie(
     let options = options(arguments, Form::Movie(form));
     let pictures = held_frames(film, arguments)?;
     let count = pictures.len() as u32;
-    let target = output.single().map_err(Failure::written)?;
+    let target = output.single()?;
     let movie = Movie {
         form,
         size: options.size,
@@ -177,7 +176,7 @@ pub(super) fn movie(
     };
     // Pictures that the colours of a GIF are chosen from are rendered before the others.
     let early = RefCell::new(VecDeque::new());
-    counting("drawing", count, |done| {
+    counting("drawing", count, |done| -> Result<(), Failure> {
         let shooting = film.shooting(&options)?;
         let colors = || {
             let mut early = early.borrow_mut();
@@ -191,7 +190,7 @@ pub(super) fn movie(
             let samples: Vec<&Image> = early.iter().map(|(_, image)| image).collect();
             Ok(Palette::new(samples, options.background))
         };
-        movie.write(&target, colors, |push| {
+        Ok(movie.write(&target, colors, |push| {
             let mut early = early.take();
             let is_early = |index: &usize| early.iter().any(|(other, _)| other == index);
             let late: Vec<usize> = (0..pictures.len())
@@ -221,10 +220,10 @@ pub(super) fn movie(
             early
                 .iter()
                 .try_for_each(|(index, image)| show(*index, image))
-        })
+        })?)
     })?;
     let seconds = rounded(pictures.iter().map(|picture| picture.seconds).sum());
-    let picture = describe_picture(options.size, film.triangles());
+    let picture = describe_picture(options.size, film.triangles);
     let name = output.path.display();
     Ok(format!(
         "{name}: {count} pictures in {seconds} seconds, {picture} each"
@@ -232,9 +231,9 @@ pub(super) fn movie(
 }
 
 /// The pictures to draw.
-fn held_frames(film: &Film<'_>, arguments: &Render) -> Result<Vec<HeldFrame>, Failure> {
+fn held_frames(film: &Film<'_>, arguments: &Render) -> Result<Vec<HeldFrame>, String> {
     film.held_frames(arguments.fps.unwrap_or(FPS))
-        .map_err(|error| Failure::of(arguments, &error))
+        .map_err(|error| of_drawing(arguments, &error))
 }
 
 /// The times of the pictures, in seconds of the clip.

@@ -2,9 +2,8 @@
 
 use std::io;
 
-use super::Failure;
 use super::video::{self, Container, VideoFormat};
-use crate::disk::Target;
+use crate::disk::{Target, WriteError};
 use crate::export::Output;
 use crate::render::{AnimationWriter, Image, Palette};
 
@@ -50,9 +49,9 @@ impl Movie {
         target: &Target,
         palette: impl FnOnce() -> io::Result<Palette>,
         draw: impl FnOnce(Push<'_>) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), WriteError> {
         let size = self.size;
-        let written = match self.form {
+        match self.form {
             MovieForm::Gif => {
                 target.write(|out| animate(AnimationWriter::gif(out, size, palette()?)?, draw))
             }
@@ -65,15 +64,14 @@ impl Movie {
                     size,
                     rate: self.rate,
                 };
-                let scratch = target.scratch().map_err(Failure::written)?;
+                let scratch = target.scratch()?;
                 target.write(|out| {
                     video::encode(format, scratch, out, |encoder| {
                         draw(&mut |image, _, frames| encoder.push(image, frames))
                     })
                 })
             }
-        };
-        written.map_err(Failure::written)
+        }
     }
 }
 

@@ -8,8 +8,8 @@ use crate::disk::Scratch;
 use crate::export::Output;
 use crate::render::Image;
 
-/// The program that encodes videos.
-const FFMPEG: &str = "ffmpeg";
+/// The program that encodes and decodes videos.
+pub(in crate::cli) const FFMPEG: &str = "ffmpeg";
 /// The most lines of ffmpeg's errors that a message shows.
 const MAX_ERROR_LINES: usize = 3;
 /// The most bytes of its errors that are kept.
@@ -156,7 +156,7 @@ impl Encoder {
 }
 
 /// The beginning of what ffmpeg writes to its stderr, which is read to its end.
-fn read_errors(errors: ChildStderr) -> String {
+pub(in crate::cli) fn read_errors(errors: ChildStderr) -> String {
     let mut told = Vec::new();
     let mut errors = errors.take(MAX_ERROR_BYTES);
     // What could be read is shown.

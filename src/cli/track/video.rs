@@ -7,13 +7,10 @@ use std::process::{Child, Command, Stdio};
 use image::{Rgb, RgbImage};
 
 use super::clip::{ClipFrame, Look, check_size};
+use crate::cli::render::video::{FFMPEG, read_errors};
 
-/// The program that decodes videos.
-const FFMPEG: &str = "ffmpeg";
 /// The longest header line, in bytes.
 const MAX_HEADER: u64 = 4 << 10;
-/// The most bytes of ffmpeg's errors that are kept.
-const MAX_ERROR_BYTES: u64 = 64 << 10;
 
 /// Ends ffmpeg with this value.
 struct Decoder(Child);
@@ -55,16 +52,8 @@ pub(super) fn read(file: &Path, look: Look<'_>) -> Result<(), String> {
         .stderr(Stdio::piped())
         .spawn();
     let mut decoder = Decoder(child.map_err(|error| not_started(file, &error))?);
-    let errors = decoder.0.stderr.take().map(|errors| {
-        std::thread::spawn(move || {
-            let mut text = Vec::new();
-            let mut errors = errors.take(MAX_ERROR_BYTES);
-            // What could be read is shown.
-            let _ = errors.read_to_end(&mut text);
-            let _ = io::copy(&mut errors.into_inner(), &mut io::sink());
-            String::from_utf8_lossy(&text).into_owned()
-        })
-    });
+    let errors = decoder.0.stderr.take();
+    let errors = errors.map(|errors| std::thread::spawn(move || read_errors(errors)));
     let frames = match decoder.0.stdout.take() {
         Some(stream) => stream_frames(file, BufReader::new(stream), look)?,
         None => 0,

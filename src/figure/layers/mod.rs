@@ -237,7 +237,7 @@ impl Layers {
 
     /// Whether a part is lifted by others.
     pub(super) fn is_lifted(&self, part: PartId) -> bool {
-        self.places[part].is_some_and(|body| self.pile.bodies()[body].lay.is_some())
+        self.places[part].is_some_and(|body| self.pile.bodies[body].lay.is_some())
     }
 
     /// A part's place in the pile, if that makes its surface.

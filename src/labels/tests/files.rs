@@ -175,7 +175,7 @@ fn shuffled(clip: &Clip, seed: u64) -> (Clip, TiVec<JointId, JointId>) {
             start..next
         })
         .collect();
-    let values = (0..clip.frames())
+    let values = (0..clip.frames)
         .flat_map(|frame| {
             let row = clip.row(frame);
             order

@@ -3,6 +3,7 @@
 use super::Checker;
 use crate::diagnostic::{Code, Diagnostic, has_one_near_word, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Name};
+use crate::lang::did_you_mean;
 use crate::lang::evaluate::{EvaluationError, Lookup, evaluate};
 use crate::lang::keyword::colors::{self, COLORS};
 use crate::lang::keyword::kinds::Kind;
@@ -86,7 +87,17 @@ impl Checker<'_> {
                 Ok(value) => values.push(value),
                 Err(ArgumentError::Invalid) => {
                     if matches!(parameter.takes, Takes::Names) {
-                        return self.not_a_name(callee, parameter, &arguments[..=index], values);
+                        // In `Follow Rarm Colr 1 0 0` the number shows that the name before it was meant to be a keyword.
+                        if let [.., name, _] = &arguments[..=index]
+                            && let ArgumentKind::Word(word) = &name.kind
+                            && suggestions::is_misspelled_keyword(word, true)
+                        {
+                            values.pop();
+                            self.unknown_keyword(name, word);
+                            return (!values.is_empty()).then_some(values);
+                        }
+                        self.wrong_type(callee, parameter, argument);
+                        return None;
                     }
                     valid = false;
                     values.push(ArgumentValue::Number(0.));
@@ -118,8 +129,7 @@ impl Checker<'_> {
                 None
             }
             (Takes::Choice(choices), ArgumentKind::Word(word)) => {
-                let names = choices.iter().map(|choice| choice.name);
-                return self.word(callee, argument, word, names);
+                return self.word(callee, argument, word, choices.iter().map(|own| own.name));
             }
             (Takes::SignedAxis, ArgumentKind::Word(word)) => {
                 let names = vocabulary::AXES.iter().map(|axis| axis.name);
@@ -127,16 +137,13 @@ impl Checker<'_> {
             }
             (Takes::ColorName, ArgumentKind::Word(word)) => match colors::color(word) {
                 Some(color) => Some(ArgumentValue::Color(color, word.to_ascii_lowercase())),
-                None => {
-                    let names = COLORS.iter().copied();
-                    return self.word(callee, argument, word, names);
-                }
+                None => return self.word(callee, argument, word, COLORS.iter().copied()),
             },
             (Takes::Hex, ArgumentKind::Hex(digits)) => match hex(digits) {
-                Some(color) => Some(ArgumentValue::Color(
-                    color,
-                    format!("#{}", digits.to_ascii_lowercase()),
-                )),
+                Some(color) => {
+                    let written = format!("#{}", digits.to_ascii_lowercase());
+                    Some(ArgumentValue::Color(color, written))
+                }
                 None => {
                     self.bad_hex(argument, digits);
                     return Err(ArgumentError::Invalid);
@@ -210,14 +217,9 @@ impl Checker<'_> {
         } else {
             format!("a number from -{MAX_NUMBER} to {MAX_NUMBER}")
         };
-        self.diagnostics.push(
-            Diagnostic::new(
-                Code::OutOfRange,
-                self.text.span(argument.range.clone()),
-                message,
-            )
-            .label(format!("expected {expected}")),
-        );
+        let diagnostic = self.diagnostic(Code::OutOfRange, &argument.range, message);
+        self.diagnostics
+            .push(diagnostic.label(format!("expected {expected}")));
         Err(ArgumentError::Invalid)
     }
 
@@ -256,21 +258,17 @@ impl Checker<'_> {
         word: &str,
         names: impl Iterator<Item = &'w str> + Clone,
     ) {
-        let span = self.text.span(argument.range.clone());
         let what = match callee.keyword {
             Keyword::Shape => "not a kind of `Shape`".to_owned(),
             Keyword::Color | Keyword::Mark => "not a colour".to_owned(),
             _ => format!("not a value for `{}`", callee.name),
         };
-        let diagnostic = Diagnostic::new(Code::UnknownWord, span, format!("`{word}` is {what}"));
+        let message = format!("`{word}` is {what}");
+        let diagnostic = self.diagnostic(Code::UnknownWord, &argument.range, message);
         let all: Vec<_> = names.clone().map(|name| format!("`{name}`")).collect();
         let diagnostic = match nearest_word(word, names.clone()) {
             Some(near) => {
-                let diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
-                    format!("Write `{near}`"),
-                    span,
-                    self.text.escape_at(argument.range.start, near),
-                );
+                let diagnostic = did_you_mean(diagnostic, self.text, &argument.range, near);
                 if has_one_near_word(word, names) {
                     diagnostic.safe()
                 } else {
@@ -285,28 +283,9 @@ impl Checker<'_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// Reports that the last of `arguments` is not a name. In `Follow Rarm Colr 1 0 0` the number shows that
-    /// the name before it was meant to be a keyword.
-    fn not_a_name(
-        &mut self,
-        callee: Callee<'_>,
-        parameter: &Parameter,
-        arguments: &[Argument],
-        mut values: Vec<ArgumentValue>,
-    ) -> Option<Vec<ArgumentValue>> {
-        if let [.., name, _] = arguments
-            && let ArgumentKind::Word(word) = &name.kind
-            && suggestions::is_misspelled_keyword(word, true)
-        {
-            values.pop();
-            let diagnostic = suggestions::unknown_keyword(self.text, name.range.clone(), word);
-            self.diagnostics.push(diagnostic);
-            return (!values.is_empty()).then_some(values);
-        }
-        if let Some(last) = arguments.last() {
-            self.wrong_type(callee, parameter, last);
-        }
-        None
+    fn unknown_keyword(&mut self, argument: &Argument, word: &str) {
+        let diagnostic = suggestions::unknown_keyword(self.text, argument.range.clone(), word);
+        self.diagnostics.push(diagnostic);
     }
 
     /// Reports too many arguments. Returns whether the attribute is complete without them.
@@ -322,18 +301,14 @@ impl Checker<'_> {
             return true;
         }
         let message = format!("`{}` has too many arguments", callee.name);
-        self.diagnostics.push(
-            Diagnostic::new(
-                Code::ArgumentCount,
-                self.text.span(first.range.start..last.range.end),
-                message,
-            )
-            .label(match excess.len() {
-                1 => "one too many".to_owned(),
-                count => format!("{count} too many"),
-            })
-            .help(format!("write `{}`", callee.usage())),
-        );
+        let range = first.range.start..last.range.end;
+        let diagnostic = self.diagnostic(Code::ArgumentCount, &range, message);
+        let diagnostic = diagnostic.label(match excess.len() {
+            1 => "one too many".to_owned(),
+            count => format!("{count} too many"),
+        });
+        self.diagnostics
+            .push(diagnostic.help(format!("write `{}`", callee.usage())));
         false
     }
 
@@ -353,9 +328,7 @@ impl Checker<'_> {
             };
             if is_keyword {
                 lower_case = Some(word.starts_with(char::is_lowercase));
-                let diagnostic =
-                    suggestions::unknown_keyword(self.text, argument.range.clone(), word);
-                self.diagnostics.push(diagnostic);
+                self.unknown_keyword(argument, word);
             }
         }
     }
@@ -366,12 +339,9 @@ impl Checker<'_> {
             .last()
             .map_or(callee.range.end, |last| last.range.end);
         let message = format!("`{}` has too few arguments", callee.name);
-        let diagnostic = Diagnostic::new(
-            Code::ArgumentCount,
-            self.text.span(callee.range.start..end),
-            message,
-        )
-        .help(format!("write `{}`", callee.usage()));
+        let range = callee.range.start..end;
+        let diagnostic = self.diagnostic(Code::ArgumentCount, &range, message);
+        let diagnostic = diagnostic.help(format!("write `{}`", callee.usage()));
         self.diagnostics.push(match missing {
             Some(missing) => diagnostic.label(format!("`{}` is missing", missing.print())),
             None => diagnostic,
@@ -384,11 +354,8 @@ impl Checker<'_> {
         parameter: &Parameter,
         argument: &Argument,
     ) {
-        let written = self
-            .text
-            .as_str()
-            .get(argument.range.clone())
-            .unwrap_or_default();
+        let text = self.text.as_str();
+        let written = text.get(argument.range.clone()).unwrap_or_default();
         let shown: String = written.chars().take(40).collect();
         let span = self.text.span(argument.range.clone());
         let message = format!("`{shown}` is not what `{}` needs here", callee.name);
@@ -414,14 +381,11 @@ impl Checker<'_> {
     fn bad_hex(&mut self, argument: &Argument, digits: &str) {
         let shown: String = digits.chars().take(20).collect();
         let message = format!("`#{shown}` is not a colour");
+        let diagnostic = self.diagnostic(Code::ArgumentType, &argument.range, message);
         self.diagnostics.push(
-            Diagnostic::new(
-                Code::ArgumentType,
-                self.text.span(argument.range.clone()),
-                message,
-            )
-            .label("expected 3, 4, 6 or 8 digits from 0 to f")
-            .help("write a colour as `#rrggbb`, for example `#ff8800`"),
+            diagnostic
+                .label("expected 3, 4, 6 or 8 digits from 0 to f")
+                .help("write a colour as `#rrggbb`, for example `#ff8800`"),
         );
     }
 }

@@ -5,6 +5,7 @@ use super::arguments::{ArgumentValue, Callee};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::{Argument, ArgumentKind, Attribute};
 use crate::lang::evaluate::Lookup;
+use crate::lang::fixed_by_writing;
 use crate::lang::keyword::kinds::{Kind, Rule};
 use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, kinds};
@@ -17,16 +18,12 @@ use crate::lang::value::{
 impl Checker<'_> {
     /// The value of an attribute, and its arguments as text.
     pub(super) fn value(&mut self, attribute: &Attribute) -> Option<(Value, Vec<String>)> {
+        let forms = attribute.keyword.row().forms;
         let callee = Callee {
             name: attribute.keyword.name(),
             kind: None,
             range: &attribute.keyword_range,
-            parameters: attribute
-                .keyword
-                .row()
-                .forms
-                .first()
-                .map_or(0, |form| form.parameters.len()),
+            parameters: forms.first().map_or(0, |form| form.parameters.len()),
             keyword: attribute.keyword,
         };
         if attribute.keyword == Keyword::Shape {
@@ -100,22 +97,13 @@ impl Checker<'_> {
         if bytes.iter().all(|value| *value <= 1.) {
             return false;
         }
-        let digits: String = bytes
-            .iter()
-            .map(|value| format!("{value:02x}", value = *value as u8))
-            .collect();
+        let digits = bytes.iter().map(|value| format!("{:02x}", *value as u8));
+        let color = format!("#{}", digits.collect::<String>());
         let range = first.range.start..last.range.end;
-        let span = self.text.span(range.clone());
         let message = "red, green and blue go from 0 to 1, not from 0 to 255";
-        self.diagnostics.push(
-            Diagnostic::new(Code::OutOfRange, span, message)
-                .fix(
-                    format!("Write `#{digits}`"),
-                    span,
-                    self.text.escape_at(range.start, &format!("#{digits}")),
-                )
-                .safe(),
-        );
+        let diagnostic = self.diagnostic(Code::OutOfRange, &range, message);
+        self.diagnostics
+            .push(fixed_by_writing(diagnostic, self.text, &range, &color).safe());
         true
     }
 
@@ -125,14 +113,9 @@ impl Checker<'_> {
             return self.check_handedness(axes, attribute);
         }
         let message = "`Axes` uses one axis twice";
-        self.diagnostics.push(
-            Diagnostic::new(
-                Code::OutOfRange,
-                self.text.span(attribute.range.clone()),
-                message,
-            )
-            .help("use each of x, y and z once: `%Axes +x +y +z`"),
-        );
+        let diagnostic = self.diagnostic(Code::OutOfRange, &attribute.range, message);
+        self.diagnostics
+            .push(diagnostic.help("use each of x, y and z once: `%Axes +x +y +z`"));
         None
     }
 
@@ -144,23 +127,16 @@ impl Checker<'_> {
             return Some(());
         }
         let message = "these `Axes` would mirror the model";
-        let mut diagnostic = Diagnostic::new(
-            Code::OutOfRange,
-            self.text.span(attribute.range.clone()),
-            message,
-        )
-        .help("reverse one of the three directions, for example from `+z` to `-z`");
+        let diagnostic = self.diagnostic(Code::OutOfRange, &attribute.range, message);
+        let mut diagnostic =
+            diagnostic.help("reverse one of the three directions, for example from `+z` to `-z`");
         if let Some(front) = attribute.arguments.last() {
             let written = &self.text.as_str()[front.range.clone()];
             let reversed = match written.strip_prefix('-') {
                 Some(axis) => format!("+{axis}"),
                 None => format!("-{}", written.trim_start_matches('+')),
             };
-            diagnostic = diagnostic.fix(
-                format!("Write `{reversed}`"),
-                self.text.span(front.range.clone()),
-                reversed,
-            );
+            diagnostic = fixed_by_writing(diagnostic, self.text, &front.range, &reversed);
         }
         self.diagnostics.push(diagnostic);
         None
@@ -190,7 +166,22 @@ impl Checker<'_> {
         if let KindArguments::Numbers(numbers) = &arguments {
             self.check_angles(kind, numbers, parameters)?;
             let parameters = &parameters[..values.len().min(parameters.len())];
-            self.check_thickness(kind, numbers, attribute, parameters);
+            let thin = kind.rules.iter().any(|rule| match rule {
+                Rule::Ascending => false,
+                Rule::Distinct => matches!(numbers[..], [z0, z1, ..] if z0 == z1),
+                Rule::NonZero(index) => numbers.get(*index) == Some(&0.),
+            });
+            if thin {
+                let range = match (parameters.first(), parameters.last()) {
+                    (Some(first), Some(last)) => first.range.start..last.range.end,
+                    _ => attribute.range.clone(),
+                };
+                let message = format!("this `{}` has no thickness", kind.name);
+                let help =
+                    "write `Shape flat` for a thin sheet, or `Shape none` for no solid at all";
+                let diagnostic = self.diagnostic(Code::ZeroThickness, &range, message);
+                self.diagnostics.push(diagnostic.help(help));
+            }
         }
         let has = |letter: char| has_flag(attribute, letter);
         let shape = Shape {
@@ -207,13 +198,8 @@ impl Checker<'_> {
     }
 
     /// The first angle of a rounding must be smaller than the second.
-    fn check_angles(
-        &mut self,
-        kind: &Kind,
-        numbers: &[f64],
-        parameters: &[Argument],
-    ) -> Option<()> {
-        let ([a0, a1, ..], [first, second, ..]) = (numbers, parameters) else {
+    fn check_angles(&mut self, kind: &Kind, numbers: &[f64], of: &[Argument]) -> Option<()> {
+        let ([a0, a1, ..], [first, second, ..]) = (numbers, of) else {
             return Some(());
         };
         if a0 < a1 || !kind.rules.contains(&Rule::Ascending) {
@@ -237,33 +223,6 @@ impl Checker<'_> {
         }
         self.diagnostics.push(diagnostic);
         None
-    }
-
-    /// Warns about a solid without thickness.
-    fn check_thickness(
-        &mut self,
-        kind: &Kind,
-        numbers: &[f64],
-        attribute: &Attribute,
-        parameters: &[Argument],
-    ) {
-        let thin = kind.rules.iter().any(|rule| match rule {
-            Rule::Ascending => false,
-            Rule::Distinct => matches!(numbers, [z0, z1, ..] if z0 == z1),
-            Rule::NonZero(index) => numbers.get(*index) == Some(&0.),
-        });
-        if !thin {
-            return;
-        }
-        let range = match (parameters.first(), parameters.last()) {
-            (Some(first), Some(last)) => first.range.start..last.range.end,
-            _ => attribute.range.clone(),
-        };
-        let message = format!("this `{}` has no thickness", kind.name);
-        self.diagnostics.push(
-            Diagnostic::new(Code::ZeroThickness, self.text.span(range), message)
-                .help("write `Shape flat` for a thin sheet, or `Shape none` for no solid at all"),
-        );
     }
 }
 

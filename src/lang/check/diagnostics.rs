@@ -5,9 +5,19 @@ use std::ops::Range;
 use super::{Checker, takes_a_name};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Attribute;
+use crate::lang::fixed_by_writing;
 use crate::lang::keyword::{AttributeString, Keyword};
 
 impl Checker<'_> {
+    pub(super) fn diagnostic(
+        &self,
+        code: Code,
+        range: &Range<usize>,
+        message: impl Into<String>,
+    ) -> Diagnostic {
+        Diagnostic::new(code, self.text.span(range.clone()), message)
+    }
+
     pub(super) fn not_allowed(&mut self, attribute: &Attribute, string: AttributeString) {
         let name = attribute.keyword.name();
         let here = match string {
@@ -15,28 +25,23 @@ impl Checker<'_> {
             AttributeString::Legend => "in a legend",
             AttributeString::Defaults => "in a `%` string",
         };
-        let span = self.text.span(attribute.keyword_range.clone());
         let places = attribute.keyword.row().allowed.places();
         let message = format!("`{name}` is not allowed {here}");
-        self.diagnostics.push(
-            Diagnostic::new(Code::NotAllowedHere, span, message)
-                .help(format!("`{name}` is allowed {places}")),
-        );
+        let diagnostic = self.diagnostic(Code::NotAllowedHere, &attribute.keyword_range, message);
+        let help = format!("`{name}` is allowed {places}");
+        self.diagnostics.push(diagnostic.help(help));
     }
 
     pub(super) fn given_twice(&mut self, later: &Attribute, earlier: &Attribute) {
         let name = later.keyword.name();
         let related = self.text.span(earlier.range.clone());
         let message = format!("`{name}` is given twice");
+        let diagnostic = self.diagnostic(Code::GivenTwice, &later.keyword_range, message);
         self.diagnostics.push(
-            Diagnostic::new(
-                Code::GivenTwice,
-                self.text.span(later.keyword_range.clone()),
-                message,
-            )
-            .label("this one counts")
-            .related(related, "this one is ignored")
-            .help("delete one of them"),
+            diagnostic
+                .label("this one counts")
+                .related(related, "this one is ignored")
+                .help("delete one of them"),
         );
     }
 
@@ -58,8 +63,7 @@ impl Checker<'_> {
         let name = attribute.keyword.name();
         let flags = attribute.keyword.row().flags;
         let message = format!("`{name}` has no flag `-{letter}`");
-        let mut diagnostic =
-            Diagnostic::new(Code::UnknownFlag, self.text.span(range.clone()), message);
+        let mut diagnostic = self.diagnostic(Code::UnknownFlag, &range, message);
         let word: String = attribute.flags.iter().map(|(letter, _)| *letter).collect();
         if flags.is_empty() {
             // Directly after a keyword, `-w` is read as flags.
@@ -69,21 +73,15 @@ impl Checker<'_> {
             };
             let sign = self.text.as_str().get(all.clone());
             if sign.is_some_and(|written| written.starts_with('-')) {
-                diagnostic = diagnostic
-                    .help(format!(
-                        "if `{word}` is a variable, write it in parentheses: `(-{word})`"
-                    ))
-                    .fix(
-                        format!("Write `(-{word})`"),
-                        self.text.span(all.clone()),
-                        self.text.escape_at(all.start, &format!("(-{word})")),
-                    );
+                diagnostic = diagnostic.help(format!(
+                    "if `{word}` is a variable, write it in parentheses: `(-{word})`"
+                ));
+                diagnostic = fixed_by_writing(diagnostic, self.text, &all, &format!("(-{word})"));
             }
         } else {
-            let known: Vec<_> = flags
-                .iter()
-                .map(|flag| format!("`-{}` {}", flag.letter, flag.summary))
-                .collect();
+            let known = flags.iter();
+            let known = known.map(|flag| format!("`-{}` {}", flag.letter, flag.summary));
+            let known: Vec<_> = known.collect();
             diagnostic = diagnostic.help(format!("its flags are: {}", known.join("; ")));
         }
         self.diagnostics.push(diagnostic);

@@ -1,56 +1,36 @@
 //! Rows of the table: settings of the whole drawing.
 
-use super::signature::{Bounds, Form, POINT, Parameter, Takes, number};
+use super::signature::{Bounds, Form, POINT, Parameter, Takes, choice, number, parameter};
 use super::{Row, vocabulary};
 
-static CENTIMETERS: [Parameter; 1] = [number(
-    "s",
-    Bounds::POSITIVE,
-    "centimetres per drawing unit",
-)];
 static DIRECTIONS: [Parameter; 3] = [
-    Parameter {
-        name: "right",
-        summary: "the world axis of the drawing's right",
-        takes: Takes::SignedAxis,
-    },
-    Parameter {
-        name: "up",
-        summary: "the world axis of the drawing's up",
-        takes: Takes::SignedAxis,
-    },
-    Parameter {
-        name: "front",
-        summary: "the world axis that points towards the viewer",
-        takes: Takes::SignedAxis,
-    },
+    parameter(
+        "right",
+        Takes::SignedAxis,
+        "the world axis of the drawing's right",
+    ),
+    parameter(
+        "up",
+        Takes::SignedAxis,
+        "the world axis of the drawing's up",
+    ),
+    parameter(
+        "front",
+        Takes::SignedAxis,
+        "the world axis that points towards the viewer",
+    ),
 ];
-static GROUND_WORD: [Parameter; 1] = [Parameter {
-    name: "where",
-    summary: "what lies at the world's origin",
-    takes: Takes::Choice(&vocabulary::GROUND),
-}];
 static DEFINITION: [Parameter; 2] = [
-    Parameter {
-        name: "name",
-        summary: "the new variable",
-        takes: Takes::Variable,
-    },
+    parameter("name", Takes::Variable, "the new variable"),
     number("value", Bounds::ANY, "its value"),
 ];
-static BIND_WORD: [Parameter; 1] = [Parameter {
-    name: "rule",
-    summary: "how strings find their parts",
-    takes: Takes::Choice(&vocabulary::BIND),
-}];
-static STROKES_WORD: [Parameter; 1] = [Parameter {
-    name: "which",
-    summary: "what becomes a part",
-    takes: Takes::Choice(&vocabulary::STROKES),
-}];
 
 pub(super) static SCALE: Row = Row {
-    forms: &[Form::new(&CENTIMETERS, &[1])],
+    forms: &[Form::one(&number(
+        "s",
+        Bounds::POSITIVE,
+        "centimetres per drawing unit",
+    ))],
     default: "1",
     summary: "the size of the model: one drawing unit is `s` centimetres",
     long: "With `Scale 1`, a figure that is 170 units high in the drawing becomes 1.7 metres high. \
@@ -71,7 +51,14 @@ pub(super) static AXES: Row = Row {
 };
 
 pub(super) static GROUND: Row = Row {
-    forms: &[Form::new(&GROUND_WORD, &[1]), Form::new(&POINT, &[2])],
+    forms: &[
+        Form::one(&choice(
+            "where",
+            &vocabulary::GROUND,
+            "what lies at the world's origin",
+        )),
+        Form::new(&POINT, &[2]),
+    ],
     default: "bottom",
     summary: "what lies at the world's origin",
     long: "`bottom` is the middle of the figures' lower edge, so that they stand on the ground. \
@@ -93,7 +80,11 @@ pub(super) static LET: Row = Row {
 };
 
 pub(super) static BIND: Row = Row {
-    forms: &[Form::new(&BIND_WORD, &[1])],
+    forms: &[Form::one(&choice(
+        "rule",
+        &vocabulary::BIND,
+        "how strings find their parts",
+    ))],
     default: "meant",
     summary: "how a string finds its part",
     long: "`meant`: a string that is not grouped with its part belongs to the part that it lies on, \
@@ -105,7 +96,11 @@ pub(super) static BIND: Row = Row {
 };
 
 pub(super) static STROKES: Row = Row {
-    forms: &[Form::new(&STROKES_WORD, &[1])],
+    forms: &[Form::one(&choice(
+        "which",
+        &vocabulary::STROKES,
+        "what becomes a part",
+    ))],
     default: "lines on parts",
     summary: "which strokes are built",
     long: "A line without a fill that is drawn on a part is ink: it lies on the part's surface and \

@@ -1,6 +1,6 @@
 //! The kinds of `Shape`.
 
-use super::signature::{Bounds, Form, Parameter, Restriction, Takes, number};
+use super::signature::{Bounds, Form, Parameter, Restriction, Takes, number, parameter};
 
 /// What the table says about a kind of `Shape`.
 #[derive(Debug)]
@@ -77,26 +77,6 @@ static ANGLES: [Parameter; 2] = [A0, A1];
 static ROUND: [Parameter; 3] = [A0, A1, R];
 static DEPTHS: [Parameter; 2] = [Z0, Z1];
 static CONE: [Parameter; 3] = [Z0, Z1, TOP];
-static HEIGHT: [Parameter; 1] = [number(
-    "h",
-    Bounds::NOT_NEGATIVE,
-    "height of the highest point, in drawing units",
-)];
-static TURN: [Parameter; 1] = [number(
-    "degrees",
-    Bounds::new(0., 360., Restriction::MinExclusive),
-    "how far it is turned about the axis",
-)];
-static FILE: [Parameter; 1] = [Parameter {
-    name: "file.glb",
-    summary: "a model in the drawing's folder",
-    takes: Takes::File,
-}];
-static DEPTH: [Parameter; 1] = [number(
-    "z",
-    Bounds::ANY,
-    "depth towards the viewer, in drawing units",
-)];
 
 /// All kinds, in the order of the reference.
 pub static KINDS: [Kind; 12] = [
@@ -183,7 +163,14 @@ pub static KINDS: [Kind; 12] = [
     },
     Kind {
         name: "inflate",
-        form: Form::new(&HEIGHT, &[0, 1]),
+        form: Form::new(
+            &[number(
+                "h",
+                Bounds::NOT_NEGATIVE,
+                "height of the highest point, in drawing units",
+            )],
+            &[0, 1],
+        ),
         default: "as high as it comes out round, at most half the part's smaller extent",
         numbers: &[],
         rules: &[Rule::NonZero(0)],
@@ -199,7 +186,14 @@ pub static KINDS: [Kind; 12] = [
     },
     Kind {
         name: "lathe",
-        form: Form::new(&TURN, &[0, 1]),
+        form: Form::new(
+            &[number(
+                "degrees",
+                Bounds::new(0., 360., Restriction::MinExclusive),
+                "how far it is turned about the axis",
+            )],
+            &[0, 1],
+        ),
         default: "360",
         numbers: &[360.],
         rules: &[],
@@ -214,7 +208,11 @@ pub static KINDS: [Kind; 12] = [
     },
     Kind {
         name: "model",
-        form: Form::new(&FILE, &[1]),
+        form: Form::one(&parameter(
+            "file.glb",
+            Takes::File,
+            "a model in the drawing's folder",
+        )),
         default: "",
         numbers: &[],
         rules: &[],
@@ -227,7 +225,14 @@ pub static KINDS: [Kind; 12] = [
     },
     Kind {
         name: "flat",
-        form: Form::new(&DEPTH, &[0, 1]),
+        form: Form::new(
+            &[number(
+                "z",
+                Bounds::ANY,
+                "depth towards the viewer, in drawing units",
+            )],
+            &[0, 1],
+        ),
         default: "0",
         numbers: &[0.],
         rules: &[],

@@ -1,67 +1,31 @@
 //! Rows of the table: motion, and figures on a stage.
 
-use super::signature::{Bounds, Form, NAMES, POINT, Parameter, Restriction, Takes, number};
-use super::{Allowed, Flag, Row, vocabulary};
+use super::signature::{
+    Bounds, Form, POINT, Parameter, Restriction, Takes, choice, number, parameter,
+};
+use super::{Allowed, Row, flag, vocabulary};
 
-const BVH: Parameter = Parameter {
-    name: "file",
-    summary: "a file in the drawing's folder",
-    takes: Takes::File,
-};
-const UP: Parameter = Parameter {
-    name: "up",
-    summary: "the axis of the file that points up, where okoshi does not find it",
-    takes: Takes::SignedAxis,
-};
+const BVH: Parameter = parameter("file", Takes::File, "a file in the drawing's folder");
+const UP: Parameter = parameter(
+    "up",
+    Takes::SignedAxis,
+    "the axis of the file that points up, where okoshi does not find it",
+);
 static FILE_CLIP: [Parameter; 2] = [BVH, UP];
 static NAMED_CLIP: [Parameter; 3] = [
     BVH,
-    Parameter {
-        name: "clip",
-        summary: "the name of the clip",
-        takes: Takes::Text,
-    },
+    parameter("clip", Takes::Text, "the name of the clip"),
     UP,
 ];
-static BUILT_IN_CLIP: [Parameter; 1] = [Parameter {
-    name: "clip",
-    summary: "a clip that comes along",
-    takes: Takes::Choice(&vocabulary::CLIPS),
-}];
 static FRAMES: [Parameter; 2] = [
     number("omit", Bounds::COUNT, "drawings to leave out"),
     number("hold", Bounds::COUNT, "frames to hold"),
 ];
-static STIFFNESS: [Parameter; 1] = [number(
-    "stiffness",
-    Bounds::POSITIVE,
-    "1 is like hair, 4 swings twice as fast",
-)];
-static CARRY_WORD: [Parameter; 1] = [Parameter {
-    name: "what",
-    summary: "what the limb takes over",
-    takes: Takes::Choice(&vocabulary::CARRY),
-}];
-static MARK_NAME: [Parameter; 1] = [Parameter {
-    name: "colour",
-    summary: "the CSS name of the mark's colour",
-    takes: Takes::ColorName,
-}];
-static MARK_HEX: [Parameter; 1] = [Parameter {
-    name: "hex",
-    summary: "the mark's colour",
-    takes: Takes::Hex,
-}];
-static FOLLOWED: [Parameter; 1] = [Parameter {
-    name: "name",
-    summary: "a part, or a joint of the motion",
-    takes: Takes::Names,
-}];
-const TRACK: Parameter = Parameter {
-    name: "file",
-    summary: "a track made by `okoshi track`, in the drawing's folder",
-    takes: Takes::File,
-};
+const TRACK: Parameter = parameter(
+    "file",
+    Takes::File,
+    "a track made by `okoshi track`, in the drawing's folder",
+);
 const FRAME: Bounds = Bounds::new(1., 1e6, Restriction::Integer);
 const INPUT_KEY: Parameter = number(
     "input-key",
@@ -76,28 +40,20 @@ const MOTION_KEY: Parameter = number(
 static TRACK_AND_KEYS: [Parameter; 3] = [TRACK, INPUT_KEY, MOTION_KEY];
 static TRACK_MARK_AND_KEYS: [Parameter; 4] = [
     TRACK,
-    Parameter {
-        name: "mark",
-        summary: "the name of the mark whose part is emphasised",
-        takes: Takes::Text,
-    },
+    parameter(
+        "mark",
+        Takes::Text,
+        "the name of the mark whose part is emphasised",
+    ),
     INPUT_KEY,
     MOTION_KEY,
 ];
-static FACTOR: [Parameter; 1] = [number("factor", Bounds::POSITIVE, "1 is the size as drawn")];
-static SPEED: [Parameter; 1] = [number(
-    "speed",
-    Bounds::POSITIVE,
-    "in drawing units per second",
-)];
-static SECONDS: [Parameter; 1] = [number(
-    "seconds",
-    Bounds::NOT_NEGATIVE,
-    "when the pose is reached",
-)];
 
 pub(super) static BONE: Row = Row {
-    forms: &[Form::new(&NAMES, &[])],
+    forms: &[Form::new(
+        &[parameter("name", Takes::Names, "one name or several")],
+        &[],
+    )],
     default: "matched by name and position",
     summary: "the joints of the motion that drive the part",
     long: "A motion file has joints of its own; okoshi matches them with the parts by name and \
@@ -108,7 +64,14 @@ pub(super) static BONE: Row = Row {
 };
 
 pub(super) static SWING: Row = Row {
-    forms: &[Form::new(&STIFFNESS, &[0, 1])],
+    forms: &[Form::new(
+        &[number(
+            "stiffness",
+            Bounds::POSITIVE,
+            "1 is like hair, 4 swings twice as fast",
+        )],
+        &[0, 1],
+    )],
     default: "off",
     summary: "the part swings while the figure moves: hair, a tail, a cape",
     long: "The part lags behind what it hangs on and overshoots, like a weight on a spring, but it \
@@ -120,7 +83,11 @@ pub(super) static SWING: Row = Row {
 };
 
 pub(super) static CARRY: Row = Row {
-    forms: &[Form::new(&CARRY_WORD, &[1])],
+    forms: &[Form::one(&choice(
+        "what",
+        &vocabulary::CARRY,
+        "what the limb takes over",
+    ))],
     default: "direction; change for spread wings, and three or more pairs of legs",
     summary: "what a limb takes over from the motion",
     long: "`direction`: the arm or leg points where the actor's does, however it is drawn. `change`: \
@@ -131,7 +98,14 @@ pub(super) static CARRY: Row = Row {
 };
 
 pub(super) static MARK: Row = Row {
-    forms: &[Form::new(&MARK_NAME, &[1]), Form::new(&MARK_HEX, &[1])],
+    forms: &[
+        Form::one(&parameter(
+            "colour",
+            Takes::ColorName,
+            "the CSS name of the mark's colour",
+        )),
+        Form::one(&parameter("hex", Takes::Hex, "the mark's colour")),
+    ],
     summary: "the coloured mark that performs the part",
     long: "A puppet of the figure, cut out of paper, carries coloured marks, and somebody moves it by \
            hand before a camera. A part with `Mark` is performed by the mark of that colour: \
@@ -144,7 +118,14 @@ pub(super) static MARK: Row = Row {
 };
 
 pub(super) static FOLLOW: Row = Row {
-    forms: &[Form::new(&FOLLOWED, &[])],
+    forms: &[Form::new(
+        &[parameter(
+            "name",
+            Takes::Names,
+            "a part, or a joint of the motion",
+        )],
+        &[],
+    )],
     summary: "joints that are edited together with this one",
     long: "A performance makes the movement of a part with `Mark` smaller where another mark is \
            emphasised. The parts named here, or joints of the motion, are treated in the same way: \
@@ -158,17 +139,18 @@ pub(super) static MOTION: Row = Row {
     forms: &[
         Form::new(&FILE_CLIP, &[1, 2]),
         Form::new(&NAMED_CLIP, &[2, 3]),
-        Form::new(&BUILT_IN_CLIP, &[1]),
+        Form::one(&choice(
+            "clip",
+            &vocabulary::CLIPS,
+            "a clip that comes along",
+        )),
     ],
     flags: &[
-        Flag {
-            letter: 'i',
-            summary: "in place: the figure does not travel over the ground",
-        },
-        Flag {
-            letter: 'l',
-            summary: "a loop: the best cycle of the motion, with its ends blended",
-        },
+        flag('i', "in place: the figure does not travel over the ground"),
+        flag(
+            'l',
+            "a loop: the best cycle of the motion, with its ends blended",
+        ),
     ],
     allowed: Allowed::PartAndDrawing,
     summary: "a motion for the figure",
@@ -209,7 +191,11 @@ pub(super) static STAND: Row = Row {
 };
 
 pub(super) static SIZE: Row = Row {
-    forms: &[Form::new(&FACTOR, &[1])],
+    forms: &[Form::one(&number(
+        "factor",
+        Bounds::POSITIVE,
+        "1 is the size as drawn",
+    ))],
     default: "1",
     summary: "makes the figure larger or smaller on the stage",
     long: "2 makes it twice as large, 0.5 half as large.",
@@ -218,7 +204,11 @@ pub(super) static SIZE: Row = Row {
 };
 
 pub(super) static WALK: Row = Row {
-    forms: &[Form::new(&SPEED, &[1])],
+    forms: &[Form::one(&number(
+        "speed",
+        Bounds::POSITIVE,
+        "in drawing units per second",
+    ))],
     summary: "makes the string's line a path that the named figure walks",
     long: "Draw a line, and write the figure's name and its speed beside it. The speed is in \
            drawing units per second.",
@@ -227,7 +217,11 @@ pub(super) static WALK: Row = Row {
 };
 
 pub(super) static POSE: Row = Row {
-    forms: &[Form::new(&SECONDS, &[1])],
+    forms: &[Form::one(&number(
+        "seconds",
+        Bounds::NOT_NEGATIVE,
+        "when the pose is reached",
+    ))],
     summary: "makes the string's layer a key pose",
     long: "Copy the figure to a layer of its own and move its parts there: that is the figure's \
            pose at the given second.",
@@ -241,22 +235,10 @@ pub(super) static PERFORM: Row = Row {
         Form::new(&TRACK_MARK_AND_KEYS, &[2, 4]),
     ],
     flags: &[
-        Flag {
-            letter: 't',
-            summary: "the motion keeps its own timing",
-        },
-        Flag {
-            letter: 'e',
-            summary: "no emphasis: the other joints move as far as before",
-        },
-        Flag {
-            letter: 'c',
-            summary: "no camera",
-        },
-        Flag {
-            letter: 'r',
-            summary: "the figure moves instead of a camera",
-        },
+        flag('t', "the motion keeps its own timing"),
+        flag('e', "no emphasis: the other joints move as far as before"),
+        flag('c', "no camera"),
+        flag('r', "the figure moves instead of a camera"),
     ],
     allowed: Allowed::PartAndDrawing,
     default: "as recorded",

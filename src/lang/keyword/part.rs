@@ -1,9 +1,9 @@
 //! Rows of the table: the shape, position and material of a part.
 
 use super::signature::{
-    Bounds, COLOR_NAME, DISTANCE, FILE, Form, HEX, POINT, Parameter, Restriction, Takes, number,
+    Bounds, DISTANCE, Form, POINT, Parameter, Restriction, Takes, choice, number, parameter,
 };
-use super::{Flag, Row, vocabulary};
+use super::{Row, flag, vocabulary};
 
 static RGBA: [Parameter; 4] = [
     number("r", Bounds::FRACTION, "red"),
@@ -15,36 +15,6 @@ static RGBA: [Parameter; 4] = [
         "opacity: 0 is transparent, 1 is opaque",
     ),
 ];
-static KIND: [Parameter; 1] = [Parameter {
-    name: "kind",
-    summary: "how the part gets its thickness",
-    takes: Takes::Kind,
-}];
-static ORIGIN_WORD: [Parameter; 1] = [Parameter {
-    name: "where",
-    summary: "the point",
-    takes: Takes::Choice(&vocabulary::ORIGIN),
-}];
-static DEGREES: [Parameter; 1] = [number(
-    "degrees",
-    Bounds::ANY,
-    "counter-clockwise from the drawing's right",
-)];
-static STEPS: [Parameter; 1] = [number(
-    "n",
-    Bounds::new(1., 256., Restriction::Integer),
-    "steps per half turn",
-)];
-static CREASE: [Parameter; 1] = [number(
-    "degrees",
-    Bounds::new(0., 180., Restriction::None),
-    "the angle between two faces",
-)];
-static SPREAD: [Parameter; 1] = [number(
-    "factor",
-    Bounds::NOT_NEGATIVE,
-    "0 is none, 1 is the usual distance",
-)];
 static FACTOR: [Parameter; 1] = [number("factor", Bounds::FRACTION, "0 is none, 1 is full")];
 static RGB: [Parameter; 3] = [
     number("r", Bounds::FRACTION, "red"),
@@ -55,8 +25,16 @@ static RGB: [Parameter; 3] = [
 pub(super) static COLOR: Row = Row {
     forms: &[
         Form::new(&RGBA, &[3, 4]),
-        Form::new(&HEX, &[1]),
-        Form::new(&COLOR_NAME, &[1]),
+        Form::one(&parameter(
+            "hex",
+            Takes::Hex,
+            "the colour; the seventh and eighth digit give the opacity",
+        )),
+        Form::one(&parameter(
+            "colour",
+            Takes::ColorName,
+            "the colour's CSS name",
+        )),
     ],
     default: "the shape's own fill",
     summary: "the part's colour",
@@ -69,20 +47,24 @@ pub(super) static COLOR: Row = Row {
 };
 
 pub(super) static SHAPE: Row = Row {
-    forms: &[Form::new(&KIND, &[1])],
+    forms: &[Form::one(&parameter(
+        "kind",
+        Takes::Kind,
+        "how the part gets its thickness",
+    ))],
     flags: &[
-        Flag {
-            letter: 's',
-            summary: "a second, mirrored copy on the other side of the drawing plane that moves with the first",
-        },
-        Flag {
-            letter: 'c',
-            summary: "the part turns about its centre, short for `Origin center`",
-        },
-        Flag {
-            letter: 'd',
-            summary: "a second, mirrored copy that moves independently, with copies of all attached parts",
-        },
+        flag(
+            's',
+            "a second, mirrored copy on the other side of the drawing plane that moves with the first",
+        ),
+        flag(
+            'c',
+            "the part turns about its centre, short for `Origin center`",
+        ),
+        flag(
+            'd',
+            "a second, mirrored copy that moves independently, with copies of all attached parts",
+        ),
     ],
     default: "default",
     summary: "how the flat outline becomes a solid",
@@ -108,7 +90,11 @@ pub(super) static OFFSET: Row = Row {
 };
 
 pub(super) static STACK: Row = Row {
-    forms: &[Form::new(&SPREAD, &[1])],
+    forms: &[Form::one(&number(
+        "factor",
+        Bounds::NOT_NEGATIVE,
+        "0 is none, 1 is the usual distance",
+    ))],
     default: "1",
     summary: "how far the order of drawing spreads parts in depth",
     long: "What is drawn later lies in front: an arm that is drawn over the trunk is moved towards \
@@ -120,7 +106,10 @@ pub(super) static STACK: Row = Row {
 };
 
 pub(super) static ORIGIN: Row = Row {
-    forms: &[Form::new(&ORIGIN_WORD, &[1]), Form::new(&POINT, &[2])],
+    forms: &[
+        Form::one(&choice("where", &vocabulary::ORIGIN, "the point")),
+        Form::new(&POINT, &[2]),
+    ],
     default: "the part's centre or one of its two ends, whichever is nearest to the parent's centre; of a limb the end at its parent",
     summary: "the point about which the part turns",
     long: "A part turns about its origin: an arm about the shoulder, a wheel about its hub. okoshi \
@@ -133,7 +122,11 @@ pub(super) static ORIGIN: Row = Row {
 };
 
 pub(super) static AXIS: Row = Row {
-    forms: &[Form::new(&DEGREES, &[1])],
+    forms: &[Form::one(&number(
+        "degrees",
+        Bounds::ANY,
+        "counter-clockwise from the drawing's right",
+    ))],
     default: "the outline's long direction",
     summary: "the direction of the part's axis",
     long: "`roundv`, `roundh`, `conev`, `coneh` and `lathe` depend on the part's axis, which is \
@@ -143,7 +136,11 @@ pub(super) static AXIS: Row = Row {
 };
 
 pub(super) static SEGMENTS: Row = Row {
-    forms: &[Form::new(&STEPS, &[1])],
+    forms: &[Form::one(&number(
+        "n",
+        Bounds::new(1., 256., Restriction::Integer),
+        "steps per half turn",
+    ))],
     default: "16",
     summary: "how finely a rounding is divided",
     long: "The number of steps in half a turn of a rounding. 16 looks round; 4 gives the \
@@ -155,7 +152,11 @@ pub(super) static SEGMENTS: Row = Row {
 };
 
 pub(super) static SMOOTH: Row = Row {
-    forms: &[Form::new(&CREASE, &[1])],
+    forms: &[Form::one(&number(
+        "degrees",
+        Bounds::new(0., 180., Restriction::None),
+        "the angle between two faces",
+    ))],
     default: "30",
     summary: "the largest angle at which an edge is shaded smooth",
     long: "Where two faces meet at less than this angle they are shaded as one smooth surface; \
@@ -202,7 +203,11 @@ pub(super) static ALPHA: Row = Row {
 };
 
 pub(super) static TEXTURE: Row = Row {
-    forms: &[Form::new(&FILE, &[1])],
+    forms: &[Form::one(&parameter(
+        "file",
+        Takes::File,
+        "a file in the drawing's folder",
+    ))],
     summary: "an image on the part",
     long: "The image (PNG, JPEG, GIF or WebP) covers the part's bounding box as seen from the \
            front; on terrain it covers each tile. It replaces the part's fill; `Color` tints it. \

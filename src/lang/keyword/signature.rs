@@ -154,6 +154,11 @@ impl Form {
         Self { parameters, counts }
     }
 
+    /// One argument, which must be given.
+    pub(super) const fn one(parameter: &'static Parameter) -> Self {
+        Self::new(std::slice::from_ref(parameter), &[1])
+    }
+
     /// The largest number of arguments.
     pub fn max_arguments(&self) -> usize {
         match self.parameters.last() {
@@ -172,6 +177,15 @@ impl Form {
 
     /// The printed form: `r g b [a]`.
     pub fn print(&self) -> String {
+        self.print_with(Parameter::print, ["[", "]"])
+    }
+
+    /// The same with other words for its parameters, and other brackets around those that can be left out.
+    pub(crate) fn print_with(
+        &self,
+        print: fn(&Parameter) -> String,
+        [opening, closing]: [&str; 2],
+    ) -> String {
         let mut out = String::new();
         let mut open = 0;
         for (index, parameter) in self.parameters.iter().enumerate() {
@@ -179,13 +193,12 @@ impl Form {
                 out.push(' ');
             }
             if self.counts.contains(&index) {
-                out.push('[');
+                out.push_str(opening);
                 open += 1;
             }
-            out.push_str(&parameter.print());
+            out.push_str(&print(parameter));
         }
-        out.extend(std::iter::repeat_n(']', open));
-        out
+        out + &closing.repeat(open)
     }
 }
 
@@ -209,31 +222,6 @@ impl Parameter {
 /// The forms of a keyword without arguments.
 pub(super) const NO_ARGUMENTS: &[Form] = &[Form::new(&[], &[0])];
 
-/// A file of the drawing.
-pub(super) static FILE: [Parameter; 1] = [Parameter {
-    name: "file",
-    summary: "a file in the drawing's folder",
-    takes: Takes::File,
-}];
-/// A colour in hexadecimal digits.
-pub(super) static HEX: [Parameter; 1] = [Parameter {
-    name: "hex",
-    summary: "the colour; the seventh and eighth digit give the opacity",
-    takes: Takes::Hex,
-}];
-/// A colour by name.
-pub(super) static COLOR_NAME: [Parameter; 1] = [Parameter {
-    name: "colour",
-    summary: "the colour's CSS name",
-    takes: Takes::ColorName,
-}];
-/// A list of names.
-pub(super) static NAMES: [Parameter; 1] = [Parameter {
-    name: "name",
-    summary: "one name or several",
-    takes: Takes::Names,
-}];
-
 /// A point of the drawing.
 pub(super) static POINT: [Parameter; 2] = [
     number("x", Bounds::ANY, "to the right, in drawing units"),
@@ -247,32 +235,25 @@ pub(super) static DISTANCE: [Parameter; 1] = [number(
 )];
 
 pub(super) const fn number(name: &'static str, bounds: Bounds, summary: &'static str) -> Parameter {
+    parameter(name, Takes::Number(bounds), summary)
+}
+
+pub(super) const fn choice(
+    name: &'static str,
+    words: &'static [Word],
+    summary: &'static str,
+) -> Parameter {
+    parameter(name, Takes::Choice(words), summary)
+}
+
+pub(super) const fn parameter(
+    name: &'static str,
+    takes: Takes,
+    summary: &'static str,
+) -> Parameter {
     Parameter {
         name,
         summary,
-        takes: Takes::Number(bounds),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bounds_are_described_in_words() {
-        for (bounds, words) in [
-            (Bounds::ANY, "a number"),
-            (Bounds::FRACTION, "a number from 0 to 1"),
-            (Bounds::POSITIVE, "a number above 0"),
-            (Bounds::NOT_NEGATIVE, "a number of at least 0"),
-            (
-                Bounds::new(1., 256., Restriction::Integer),
-                "a whole number from 1 to 256",
-            ),
-        ] {
-            assert_eq!(bounds.describe(), words);
-        }
-        assert!(!Bounds::POSITIVE.contains(0.) && Bounds::POSITIVE.contains(1e-9));
-        assert!(!Bounds::COUNT.contains(1.5) && !Bounds::ANY.contains(f64::NAN));
+        takes,
     }
 }

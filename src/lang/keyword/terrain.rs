@@ -1,31 +1,14 @@
 //! Rows of the table: terrain.
 
-use super::signature::{Bounds, Form, Parameter, Restriction, Takes, number};
+use super::signature::{Bounds, Form, Restriction, choice, number};
 use super::{Allowed, Row, vocabulary};
 
-static SIZE: [Parameter; 1] = [number(
-    "size",
-    Bounds::POSITIVE,
-    "side of a tile, in drawing units",
-)];
-static TILE_WORD: [Parameter; 1] = [Parameter {
-    name: "tile",
-    summary: "what the tiles are",
-    takes: Takes::Choice(&vocabulary::TILE),
-}];
-static RADIUS: [Parameter; 1] = [number(
-    "r",
-    Bounds::new(0., 0.5, Restriction::None),
-    "size of the bevel, in tiles",
-)];
-static FACTOR: [Parameter; 1] = [number(
-    "factor",
-    Bounds::NOT_NEGATIVE,
-    "height of the ridge divided by depth of the roof",
-)];
-
 pub(super) static TILES: Row = Row {
-    forms: &[Form::new(&SIZE, &[1])],
+    forms: &[Form::one(&number(
+        "size",
+        Bounds::POSITIVE,
+        "side of a tile, in drawing units",
+    ))],
     summary: "makes the string's group a map of tiles",
     long: "The group or layer that contains the string is read as a map, drawn as in role-playing \
            games, and becomes a landscape of blocks. `size` is the side of a tile in drawing units.",
@@ -34,7 +17,11 @@ pub(super) static TILES: Row = Row {
 };
 
 pub(super) static TILE: Row = Row {
-    forms: &[Form::new(&TILE_WORD, &[1])],
+    forms: &[Form::one(&choice(
+        "tile",
+        &vocabulary::TILE,
+        "what the tiles are",
+    ))],
     allowed: Allowed::Legend,
     default: "chosen by the paint's colour",
     summary: "what tiles of this paint are",
@@ -45,7 +32,11 @@ pub(super) static TILE: Row = Row {
 };
 
 pub(super) static BEVEL: Row = Row {
-    forms: &[Form::new(&RADIUS, &[1])],
+    forms: &[Form::one(&number(
+        "r",
+        Bounds::new(0., 0.5, Restriction::None),
+        "size of the bevel, in tiles",
+    ))],
     default: "0",
     summary: "bevels the corners of the ground",
     long: "Cuts the corners of a landscape's ground by `r` tiles, so that it looks less like boxes.",
@@ -54,7 +45,11 @@ pub(super) static BEVEL: Row = Row {
 };
 
 pub(super) static ROOF: Row = Row {
-    forms: &[Form::new(&FACTOR, &[1])],
+    forms: &[Form::one(&number(
+        "factor",
+        Bounds::NOT_NEGATIVE,
+        "height of the ridge divided by depth of the roof",
+    ))],
     default: "0.7071",
     summary: "how steep the roofs of a landscape are",
     long: "The height of the ridge divided by the depth of the roof. With 0.5 the model looks \

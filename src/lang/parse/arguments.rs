@@ -9,6 +9,7 @@ use super::names::shorten;
 use super::{Parser, lexical, suggestions};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Expression, Function};
+use crate::lang::did_you_mean;
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::vocabulary::FUNCTIONS;
@@ -125,18 +126,14 @@ impl Parser<'_> {
                 let at = whole.len() - rest;
                 let range = at..at + name.len();
                 let message = format!("`{}` is not a function", shorten(&name));
-                let mut diagnostic =
+                let diagnostic =
                     Diagnostic::new(Code::UnknownWord, self.span(range.clone()), message)
                         .help(format!("the functions are {}", function_names()));
                 let names = FUNCTIONS.iter().map(|row| row.name);
-                if let Some(near) = nearest_word(&name, names) {
-                    diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
-                        format!("Write `{near}`"),
-                        self.span(range),
-                        near,
-                    );
+                match nearest_word(&name, names) {
+                    Some(near) => did_you_mean(diagnostic, self.text, &self.range(range), near),
+                    None => diagnostic,
                 }
-                diagnostic
             }
             ExpressionError::ArgumentCount(function, from, to) => {
                 let row = function.row();

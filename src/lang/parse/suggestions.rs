@@ -8,6 +8,7 @@ use crate::diagnostic::{Code, Diagnostic, has_one_near_word};
 use crate::lang::ast::{Argument, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::{Keyword, colors, kinds, vocabulary};
+use crate::lang::{did_you_mean, fixed_by_writing};
 use crate::source::{Span, Text};
 
 /// Whether `word`, found while looking for the next attribute, is a misspelled keyword.
@@ -22,29 +23,20 @@ pub(in crate::lang) fn unknown_keyword(
     range: Range<usize>,
     found: &str,
 ) -> Diagnostic {
-    let span = text.span(range.clone());
     let shown = shorten(found);
     let message = format!("`{shown}` is not a keyword");
-    let diagnostic = Diagnostic::new(Code::UnknownKeyword, span, message);
-    let write = |diagnostic: Diagnostic, better: &str| {
-        diagnostic.fix(
-            format!("Write `{better}`"),
-            span,
-            text.escape_at(range.start, better),
-        )
-    };
+    let diagnostic = Diagnostic::new(Code::UnknownKeyword, text.span(range.clone()), message);
     let (head, tail) = found
         .split_once([':', '=', ',', ';'])
         .unwrap_or((found, ""));
     if let Some(keyword) = Keyword::from_name(head) {
         let better = format!("{} {tail}", keyword.name());
         let diagnostic = diagnostic.label("put only a space after a keyword");
-        return write(diagnostic, better.trim_end()).safe();
+        return fixed_by_writing(diagnostic, text, &range, better.trim_end()).safe();
     }
     let owner = owner_of(found);
     if let (None, Some((keyword, _))) = (owner, Keyword::nearest(found)) {
-        let name = keyword.name();
-        let diagnostic = write(diagnostic.label(format!("did you mean `{name}`?")), name);
+        let diagnostic = did_you_mean(diagnostic, text, &range, keyword.name());
         let names = Keyword::ALL.iter().map(|keyword| keyword.name());
         return if has_one_near_word(found, names) {
             diagnostic.safe()
@@ -56,7 +48,7 @@ pub(in crate::lang) fn unknown_keyword(
         Some(owner) => {
             let better = format!("{} {found}", owner.name());
             let label = format!("this is a value for `{}`", owner.name());
-            write(diagnostic.label(label), &better)
+            fixed_by_writing(diagnostic.label(label), text, &range, &better)
         }
         None if lexical::is(found, lexical::number) => {
             diagnostic.label("a number needs a keyword before it")

@@ -74,20 +74,7 @@ fn rule_name(keyword: Keyword) -> String {
 }
 
 fn print(form: &Form) -> String {
-    let mut out = String::new();
-    let mut open = 0;
-    for (index, parameter) in form.parameters.iter().enumerate() {
-        if index > 0 {
-            out.push(' ');
-        }
-        if form.counts.contains(&index) {
-            out.push_str("[ ");
-            open += 1;
-        }
-        out.push_str(&term(parameter));
-    }
-    out.push_str(&" ]".repeat(open));
-    out
+    form.print_with(term, ["[ ", " ]"])
 }
 
 fn term(parameter: &Parameter) -> String {

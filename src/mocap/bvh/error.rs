@@ -7,7 +7,8 @@ use crate::mocap::Clip;
 use super::MAX_NOTES;
 
 /// Why a file cannot be read, and where.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("line {line}, column {column}: {message}")]
 pub struct Error {
     /// The line, counted from 1.
     pub line: usize,
@@ -23,28 +24,31 @@ pub struct Error {
 
 impl Error {
     /// An error at a byte of a line.
-    pub(super) fn at(line: usize, text: &[u8], byte: usize, message: String, help: &str) -> Self {
+    pub(super) fn at(
+        line: usize,
+        text: &[u8],
+        byte: usize,
+        message: impl Into<String>,
+        help: &str,
+    ) -> Self {
+        Self::behind([line, column(text, byte)], message, help)
+    }
+
+    /// An error at a line and column.
+    pub(super) fn behind(
+        [line, column]: [usize; 2],
+        message: impl Into<String>,
+        help: &str,
+    ) -> Self {
         Self {
             line,
-            column: column(text, byte),
-            message,
+            column,
+            message: message.into(),
             help: help.to_owned(),
             partial: None,
         }
     }
 }
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "line {}, column {}: {}",
-            self.line, self.column, self.message
-        )
-    }
-}
-
-impl std::error::Error for Error {}
 
 /// A problem that was corrected while reading.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -5,10 +5,10 @@ use glam::DVec3;
 use crate::mocap::{Axis, Channel};
 
 use super::MAX_CHANNELS;
-use super::error::{Error, Notes, quoted};
-use super::hierarchy::{HierarchyParser, Line, limit, unexpected};
+use super::error::{Error, quoted};
+use super::hierarchy::{HierarchyParser, limit, unexpected};
 use super::number::{explain, parse_word};
-use super::tokens::{Token, Tokens};
+use super::tokens::{Line, Token};
 
 /// The channels, by their names in the file.
 pub(super) const CHANNELS: [(&str, Channel); 6] = [
@@ -24,23 +24,14 @@ pub(super) const CHANNELS: [(&str, Channel); 6] = [
 const FIELDS: [&str; 4] = ["JOINT", "End", "OFFSET", "ROOT"];
 
 impl HierarchyParser {
-    pub(super) fn offset(
-        &mut self,
-        line: Line<'_>,
-        keyword: Token<'_>,
-        tokens: &mut Tokens<'_>,
-        notes: &mut Notes,
-    ) -> Result<(), Error> {
+    pub(super) fn offset(&mut self, line: &mut Line<'_>, keyword: Token<'_>) -> Result<(), Error> {
         let mut offset = DVec3::ZERO;
         for axis in 0..3 {
-            let Some(word) = tokens
-                .peek()
-                .filter(|word| !matches!(word.text, b"{" | b"}"))
-            else {
+            let Some(word) = line.tokens.peek().filter(Token::is_word) else {
                 let message = format!("OFFSET has {axis} numbers, but it takes 3");
-                return Err(line.error(tokens.at(), message, "write OFFSET with x, y and z"));
+                return Err(line.error(line.tokens.at, message, "write OFFSET with x, y and z"));
             };
-            tokens.next();
+            line.tokens.next();
             offset[axis] = parse_word(word.text).ok_or_else(|| {
                 let (message, help) = explain(word.text);
                 line.error(word.at, message, help)
@@ -51,18 +42,13 @@ impl HierarchyParser {
         };
         match open.offset {
             None => open.offset = Some(offset),
-            Some(before) if before == offset => notes.add(
-                line.number,
-                "a second OFFSET with the same numbers: ignored",
-            ),
+            Some(before) if before == offset => {
+                line.note("a second OFFSET with the same numbers: ignored");
+            }
             Some(_) => {
                 let help =
                     "A joint has one OFFSET. Is the beginning of a joint missing before this one?";
-                return Err(line.error(
-                    keyword.at,
-                    "a second OFFSET, unlike the first".to_owned(),
-                    help,
-                ));
+                return Err(line.error(keyword.at, "a second OFFSET, unlike the first", help));
             }
         }
         Ok(())
@@ -70,26 +56,19 @@ impl HierarchyParser {
 
     pub(super) fn channels(
         &mut self,
-        line: Line<'_>,
+        line: &mut Line<'_>,
         keyword: Token<'_>,
-        tokens: &mut Tokens<'_>,
-        notes: &mut Notes,
     ) -> Result<(), Error> {
-        let count = tokens
-            .next()
-            .filter(|word| !matches!(word.text, b"{" | b"}"));
+        let count = line.tokens.next().filter(Token::is_word);
         let stated =
             count.and_then(|word| std::str::from_utf8(word.text).ok()?.parse::<usize>().ok());
         let Some(stated) = stated else {
-            let at = count.map_or(tokens.at(), |word| word.at);
+            let at = count.map_or(line.tokens.at, |word| word.at);
             let help = "CHANNELS is followed by their number and their names";
-            return Err(line.error(at, "CHANNELS has no count".to_owned(), help));
+            return Err(line.error(at, "CHANNELS has no count", help));
         };
         let mut channels = Vec::new();
-        while let Some(word) = tokens
-            .peek()
-            .filter(|word| !matches!(word.text, b"{" | b"}"))
-        {
+        while let Some(word) = line.tokens.peek().filter(Token::is_word) {
             let known = CHANNELS.iter().find(|(name, _)| word.is(name));
             // Line breaks are spaces to some programs: the next field may be on the same line.
             if known.is_none()
@@ -98,7 +77,7 @@ impl HierarchyParser {
             {
                 break;
             }
-            tokens.next();
+            line.tokens.next();
             let Some((_, channel)) = known else {
                 let message = format!("{} is not a channel", quoted(word.text));
                 let help = "the channels are Xposition, Yposition, Zposition, Xrotation, Yrotation and Zrotation";
@@ -111,16 +90,6 @@ impl HierarchyParser {
             let help = "correct the count or the names; a frame has one number for each of them";
             return Err(line.error(count.map_or(keyword.at, |word| word.at), message, help));
         }
-        self.set_channels(line, keyword, channels, notes)
-    }
-
-    fn set_channels(
-        &mut self,
-        line: Line<'_>,
-        keyword: Token<'_>,
-        channels: Vec<Channel>,
-        notes: &mut Notes,
-    ) -> Result<(), Error> {
         let Some(open) = self.open.last_mut() else {
             return Err(unexpected(line, keyword));
         };
@@ -132,22 +101,15 @@ impl HierarchyParser {
                 return Ok(());
             }
             let help = "only joints have channels; make it a JOINT, or remove the line";
-            return Err(line.error(keyword.at, "CHANNELS in an `End Site`".to_owned(), help));
+            return Err(line.error(keyword.at, "CHANNELS in an `End Site`", help));
         }
         if open.channels {
             if joint.channels == channels {
-                notes.add(
-                    line.number,
-                    "a second CHANNELS with the same names: ignored",
-                );
+                line.note("a second CHANNELS with the same names: ignored");
                 return Ok(());
             }
             let help = "A joint has one line of CHANNELS. Is the beginning of a joint missing before this one?";
-            return Err(line.error(
-                keyword.at,
-                "second CHANNELS, unlike the first".to_owned(),
-                help,
-            ));
+            return Err(line.error(keyword.at, "second CHANNELS, unlike the first", help));
         }
         self.width += channels.len();
         if self.width > MAX_CHANNELS {

@@ -110,7 +110,13 @@ impl FrameReader {
             if self.values.len() > MAX_NUMBERS {
                 let message =
                     format!("the clip has more than {MAX_NUMBERS} numbers, which is the limit");
-                return Err(self.error(before, b"", 0, message, "cut the clip into shorter ones"));
+                return Err(Error::at(
+                    before,
+                    b"",
+                    0,
+                    message,
+                    "cut the clip into shorter ones",
+                ));
             }
             if let Some(bad) = &chunk.bad {
                 let line = before + bad.line;
@@ -123,7 +129,7 @@ impl FrameReader {
                     return Ok(Progress::Nothing);
                 }
                 let (message, help) = explain(word);
-                return Err(self.error(
+                return Err(Error::at(
                     line,
                     &text[bad.start..],
                     bad.word.start - bad.start,
@@ -146,21 +152,11 @@ impl FrameReader {
         if self.part == 0 {
             return Ok(());
         }
-        let message = format!(
-            "{} numbers, but a frame of this skeleton has {}",
-            self.part, self.width
-        );
-        Err(Error {
-            line: self.last[0],
-            column: self.last[1],
-            message,
-            help: CUT.to_owned(),
-            partial: None,
-        })
-    }
-
-    fn error(&self, line: usize, text: &[u8], at: usize, message: String, help: &str) -> Error {
-        Error::at(line, text, at, message, help)
+        Err(Error::behind(
+            self.last,
+            wrong_count(self.part, self.width),
+            CUT,
+        ))
     }
 
     /// Allocates memory: first for the stated number of frames, and if that was wrong, in growing steps.
@@ -202,16 +198,9 @@ impl FrameReader {
             if let Err(wrong) = self.row(row.count) {
                 let text = &text[row.start..];
                 let error = match (wrong, self.first) {
-                    (Wrong::First, Some([line, column, count])) => Error {
-                        line,
-                        column,
-                        message: format!(
-                            "{count} numbers, but a frame of this skeleton has {}",
-                            self.width
-                        ),
-                        help: CUT.to_owned(),
-                        partial: None,
-                    },
+                    (Wrong::First, Some([line, column, count])) => {
+                        Error::behind([line, column], wrong_count(count, self.width), CUT)
+                    }
                     (Wrong::First, None) => self.count_error(line, text, row.count, self.width),
                     (Wrong::Due(due), _) => self.count_error(line, text, row.count, due),
                 };
@@ -271,12 +260,10 @@ impl FrameReader {
 
     fn count_error(&self, line: usize, text: &[u8], count: usize, due: usize) -> Error {
         let message = if self.breaks.len() > 1 && due != self.width {
-            format!(
-                "{count} numbers, but {due} are due in this line of a frame of {}",
-                self.width
-            )
+            let width = self.width;
+            format!("{count} numbers, but {due} are due in this line of a frame of {width}")
         } else {
-            format!("{count} numbers, but a frame of this skeleton has {due}")
+            wrong_count(count, due)
         };
         let help = match (self.breaks.len() > 1, count < due) {
             (true, _) => {
@@ -298,8 +285,12 @@ impl FrameReader {
         } else {
             word_at(text, due)
         };
-        self.error(line, text, at, message, &help)
+        Error::at(line, text, at, message, &help)
     }
+}
+
+fn wrong_count(count: usize, width: usize) -> String {
+    format!("{count} numbers, but a frame of this skeleton has {width}")
 }
 
 /// How to fix a frame that is too short.

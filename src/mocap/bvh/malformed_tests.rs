@@ -15,7 +15,7 @@ fn refused(
     assert!(error.message.contains(words), "{error}, not {words}");
     assert_eq!((error.line, error.column), (line, column), "{error}");
     assert_eq!(
-        error.partial.map_or(0, |clip| clip.frames()),
+        error.partial.map_or(0, |clip| clip.frames),
         frames,
         "{words}"
     );
@@ -328,7 +328,7 @@ fn exceeded_limits_are_reported() {
         changed("Frames: 3", "Frames: 999999999999")
             .unwrap()
             .clip
-            .frames(),
+            .frames,
         3
     );
     let mut nameless = "HIERARCHY\n".to_owned();

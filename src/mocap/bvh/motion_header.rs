@@ -2,7 +2,7 @@
 
 use super::error::{Error, Notes, quoted};
 use super::number::{explain, parse_word};
-use super::tokens::{Token, Tokens};
+use super::tokens::{Line, Token};
 
 /// The frame time, in seconds, if a file states none that makes sense: the rate of most files that do not come from a capture
 /// system.
@@ -29,79 +29,68 @@ pub(super) enum Next {
 }
 
 impl MotionHeader {
-    /// Parses a line, starting at a byte.
-    pub(super) fn line(
-        &mut self,
-        number: usize,
-        text: &[u8],
-        from: usize,
-        notes: &mut Notes,
-    ) -> Result<Next, Error> {
-        let mut tokens = Tokens::of_motion(text, from);
+    /// Parses a line, or the rest of one.
+    pub(super) fn line(&mut self, line: &mut Line<'_>) -> Result<Next, Error> {
+        let from = line.tokens.at;
         let mut begins = from == 0;
-        while let Some(word) = tokens.next() {
+        while let Some(word) = line.tokens.next() {
             // Behind the frame time a number is a mistake, unless line breaks are spaces to the program that wrote the file.
             let is_one_line = from > 0 && self.frame_time.is_some();
             let begins_frames = std::mem::take(&mut begins) || is_one_line;
             if word.is("frames") {
-                self.frames(number, tokens.next(), notes);
+                self.frames(line);
             } else if word.is("frametime") {
-                self.frame_time(number, text, tokens.next(), notes)?;
+                self.frame_time(line)?;
             } else if word.is("frame") {
-                match tokens.peek() {
-                    Some(time) if time.is("time") => {
-                        tokens.next();
-                        self.frame_time(number, text, tokens.next(), notes)?;
-                    }
-                    _ => self.frames(number, tokens.next(), notes),
+                if line.tokens.peek().is_some_and(|time| time.is("time")) {
+                    line.tokens.next();
+                    self.frame_time(line)?;
+                } else {
+                    self.frames(line);
                 }
             } else if word.is("motion") {
-                notes.add(number, "a second MOTION: ignored");
+                line.note("a second MOTION: ignored");
             } else if begins_frames && begins_frame(word) {
                 return Ok(Next::Frames(word.at));
             } else {
                 let message = format!("{} is not expected here", quoted(word.text));
                 let help = "after MOTION come `Frames:`, `Frame Time:`, and then the frames, each on a line of its own";
-                return Err(Error::at(number, text, word.at, message, help));
+                return Err(line.error(word.at, message, help));
             }
         }
         Ok(Next::Head)
     }
 
-    fn frames(&mut self, line: usize, word: Option<Token<'_>>, notes: &mut Notes) {
+    fn frames(&mut self, line: &mut Line<'_>) {
+        let word = line.tokens.next();
         if self.frames.is_some() {
-            return notes.add(line, "a second number of frames: ignored");
+            return line.note("a second number of frames: ignored");
         }
         let number = word.and_then(|word| parse_word(word.text));
         let count = number
             .filter(|count| *count >= 0.0 && count.fract() == 0.0)
             .map(|count| count as usize);
         if count.is_none() {
-            notes.add(line, "no number of frames is given: they are counted");
+            line.note("no number of frames is given: they are counted");
         }
-        self.frames = Some((line, count));
+        self.frames = Some((line.number, count));
     }
 
-    fn frame_time(
-        &mut self,
-        line: usize,
-        text: &[u8],
-        word: Option<Token<'_>>,
-        notes: &mut Notes,
-    ) -> Result<(), Error> {
+    fn frame_time(&mut self, line: &mut Line<'_>) -> Result<(), Error> {
+        let word = line.tokens.next();
         if self.frame_time.is_some() {
-            notes.add(line, "a second frame time: ignored");
+            line.note("a second frame time: ignored");
             return Ok(());
         }
         if let Some(word) = word.filter(|word| word.text.contains(&b',')) {
             let (message, help) = explain(word.text);
-            return Err(Error::at(line, text, word.at, message, help));
+            return Err(line.error(word.at, message, help));
         }
         let given = word.and_then(|word| parse_word(word.text));
         let sensible = given.filter(|time| SENSIBLE.contains(time));
         if sensible.is_none() {
             let found = word.map_or_else(|| "nothing".to_owned(), |word| quoted(word.text));
-            notes.add(line, format!("the frame time is {found}: taken as 1/30 s"));
+            line.note(format!("the frame time is {found}: taken as 1/30 s"));
         }
         self.frame_time = Some(sensible.unwrap_or(DEFAULT_FRAME_TIME));
         Ok(())

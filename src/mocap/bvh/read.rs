@@ -10,7 +10,7 @@ use super::frames::{FrameReader, Progress};
 use super::hierarchy::HierarchyParser;
 use super::line_reader::LineReader;
 use super::motion_header::{MotionHeader, Next};
-use super::tokens::is_space;
+use super::tokens::{Line, is_space};
 
 /// The contents of a file, and what was corrected in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +53,7 @@ pub fn read(input: impl Read) -> Result<Reading, Error> {
             break None;
         };
         remember(&mut last, number, text);
-        next = header.line(number, text, 0, &mut notes)?;
+        next = header.line(&mut Line::of_motion(number, text, 0, &mut notes))?;
     };
     header.finish(begins.unwrap_or(last[0]), &mut notes);
 
@@ -62,19 +62,12 @@ pub fn read(input: impl Read) -> Result<Reading, Error> {
     let stated_line = header.frames_line(last[0]);
     let read = read.and_then(|()| match header.stated() {
         Some(stated @ 1..) if reader.values.is_empty() && skeleton.channel_count() > 0 => {
-            Err(Error {
-                line: last[0],
-                column: last[1],
-                message: format!("the file ends before the first of {stated} frames"),
-                help: "the file was cut off here".to_owned(),
-                partial: None,
-            })
+            let message = format!("the file ends before the first of {stated} frames");
+            Err(Error::behind(last, message, "the file was cut off here"))
         }
         Some(stated) if stated != reader.frames() => {
-            let message = format!(
-                "Frames says {stated}, but there are {}: these are taken",
-                reader.frames()
-            );
+            let found = reader.frames();
+            let message = format!("Frames says {stated}, but there are {found}: these are taken");
             notes.add(stated_line, message);
             Ok(())
         }
@@ -83,14 +76,14 @@ pub fn read(input: impl Read) -> Result<Reading, Error> {
     let clip = Clip::new(Arc::new(skeleton), header.seconds(), reader.values);
     match read {
         Ok(()) => {
-            if clip.frames() == 0 {
+            if clip.frames == 0 {
                 notes.add(last[0], "the clip has no frames");
             }
             let notes = notes.done();
             Ok(Reading { clip, notes })
         }
         Err(error) => Err(Error {
-            partial: (clip.frames() > 0).then(|| Box::new(clip)),
+            partial: (clip.frames > 0).then(|| Box::new(clip)),
             ..error
         }),
     }
@@ -105,19 +98,14 @@ fn hierarchy<R: Read>(
     let mut parser = HierarchyParser::default();
     while let Some((number, text)) = source.line()? {
         remember(last, number, text);
-        if let Some(behind) = parser.line(number, text, notes)? {
+        if let Some(behind) = parser.line(&mut Line::of_hierarchy(number, text, notes))? {
             let mut header = MotionHeader::default();
-            let next = header.line(number, text, behind, notes)?;
-            return Ok((parser.skeleton(), header, next));
+            let next = header.line(&mut Line::of_motion(number, text, behind, notes))?;
+            return Ok((parser.skeleton, header, next));
         }
     }
-    Err(Error {
-        line: last[0],
-        column: last[1],
-        message: "the file ends before MOTION".to_owned(),
-        help: "the file was cut off here, or is empty".to_owned(),
-        partial: None,
-    })
+    let help = "the file was cut off here, or is empty";
+    Err(Error::behind(*last, "the file ends before MOTION", help))
 }
 
 fn frames<R: Read>(

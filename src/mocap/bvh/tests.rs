@@ -103,7 +103,7 @@ fn real_files_are_read_whole() {
             "{name}"
         );
         assert_eq!(
-            (skeleton.channel_count(), clip.frames()),
+            (skeleton.channel_count(), clip.frames),
             (width, frames),
             "{name}"
         );
@@ -279,15 +279,15 @@ fn blocks_of_a_large_file_meet() {
         assert!(text.len() > 9 << 20);
         let Reading { clip, notes } = read_bytes(text.as_bytes()).unwrap();
         assert_eq!(notes, []);
-        assert_eq!(clip.frames(), 400_000);
-        for frame in 0..clip.frames() {
+        assert_eq!(clip.frames, 400_000);
+        for frame in 0..clip.frames {
             assert_eq!(clip.row(frame)[0], frame as f64);
         }
         // An error far behind the first blocks has the right line, and comes with the frames before it.
         let bad = text.replace(&format!("{end}250000 0 0 "), &format!("{end}250000 0 x "));
         let error = read_bytes(bad.as_bytes()).unwrap_err();
         assert_eq!((error.line, error.column), (250_020, 10), "{error}");
-        assert_eq!(error.partial.unwrap().frames(), 250_000);
+        assert_eq!(error.partial.unwrap().frames, 250_000);
     }
 }
 
@@ -355,7 +355,7 @@ fn mistakes_in_the_motion_header_are_corrected() {
         ("      OFFSET 0 1 0\n", "", 11),
     ] {
         let Reading { clip, notes } = changed(from, to).unwrap();
-        assert_eq!(clip.frames(), 3, "{to}");
+        assert_eq!(clip.frames, 3, "{to}");
         assert_eq!(notes.len(), 1, "{notes:?}");
         assert_eq!(notes[0].line, line, "{notes:?}");
     }
@@ -366,7 +366,7 @@ fn mistakes_in_the_motion_header_are_corrected() {
         .unwrap()
         .to_owned();
     let Reading { clip, notes } = read_bytes(none.as_bytes()).unwrap();
-    assert_eq!((clip.frames(), notes.len()), (0, 1));
+    assert_eq!((clip.frames, notes.len()), (0, 1));
 }
 
 #[test]
@@ -375,7 +375,7 @@ fn several_roots_and_joints_without_channels_are_read() {
     let Reading { clip, notes } = read_bytes(two.as_bytes()).unwrap();
     let prop = &clip.skeleton.joints.raw[2];
     assert_eq!((prop.parent, prop.ends.len(), notes.len()), (None, 2, 0));
-    assert_eq!(clip.frames(), 3);
+    assert_eq!(clip.frames, 3);
     assert_eq!(
         read_bytes(&written(&clip, Decimals::All)).unwrap().clip,
         clip

@@ -1,5 +1,7 @@
 //! Splits a line of the hierarchy into tokens.
 
+use super::error::{Error, Notes};
+
 /// Whether a byte separates words of a line.
 pub(super) fn is_space(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | 0x0B | 0x0C)
@@ -15,6 +17,11 @@ pub(super) struct Token<'a> {
 }
 
 impl Token<'_> {
+    /// Whether it is no brace.
+    pub(super) fn is_word(&self) -> bool {
+        !matches!(self.text, b"{" | b"}")
+    }
+
     /// Whether it is this keyword, in any letter case.
     pub(super) fn is(self, keyword: &str) -> bool {
         self.text.eq_ignore_ascii_case(keyword.as_bytes())
@@ -25,9 +32,59 @@ impl Token<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct Tokens<'a> {
     line: &'a [u8],
-    at: usize,
+    pub(super) at: usize,
     alone: &'static [u8],
     skipped: &'static [u8],
+}
+
+/// A line that is being parsed, and where notes on it go.
+pub(super) struct Line<'a> {
+    pub number: usize,
+    pub text: &'a [u8],
+    pub tokens: Tokens<'a>,
+    pub notes: &'a mut Notes,
+}
+
+impl<'a> Line<'a> {
+    /// A line of the hierarchy: braces are separate tokens.
+    pub(super) fn of_hierarchy(number: usize, text: &'a [u8], notes: &'a mut Notes) -> Self {
+        let tokens = Tokens::of_hierarchy(text);
+        Self {
+            number,
+            text,
+            tokens,
+            notes,
+        }
+    }
+
+    /// A line of the motion's header, starting at a byte: colons are skipped.
+    pub(super) fn of_motion(
+        number: usize,
+        text: &'a [u8],
+        at: usize,
+        notes: &'a mut Notes,
+    ) -> Self {
+        let tokens = Tokens {
+            line: text,
+            at,
+            alone: b"",
+            skipped: b":",
+        };
+        Self {
+            number,
+            text,
+            tokens,
+            notes,
+        }
+    }
+
+    pub(super) fn error(&self, at: usize, message: impl Into<String>, help: &str) -> Error {
+        Error::at(self.number, self.text, at, message, help)
+    }
+
+    pub(super) fn note(&mut self, message: impl Into<String>) {
+        self.notes.add(self.number, message);
+    }
 }
 
 impl<'a> Tokens<'a> {
@@ -39,21 +96,6 @@ impl<'a> Tokens<'a> {
             alone: b"{}",
             skipped: b"",
         }
-    }
-
-    /// The tokens of a line of the motion's header, starting at a byte: colons are skipped.
-    pub(super) fn of_motion(line: &'a [u8], at: usize) -> Self {
-        Self {
-            line,
-            at,
-            alone: b"",
-            skipped: b":",
-        }
-    }
-
-    /// Where the search for the next token begins.
-    pub(super) fn at(&self) -> usize {
-        self.at
     }
 
     fn skip(&mut self) {

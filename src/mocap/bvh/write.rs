@@ -44,7 +44,7 @@ pub fn write(
     decimals: Decimals,
     out: &mut (impl Write + Send + ?Sized),
 ) -> io::Result<()> {
-    let frames: Vec<u32> = (0..clip.frames() as u32).collect();
+    let frames: Vec<u32> = (0..clip.frames as u32).collect();
     write_frames(clip, &frames, decimals, out)
 }
 

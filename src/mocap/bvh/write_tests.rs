@@ -167,7 +167,7 @@ proptest! {
             _ => format!("{value:e}"),
         };
         let row = |frame: usize| clip.row(frame).iter().map(number).collect::<Vec<_>>().join(" ");
-        let rows: String = (0..clip.frames()).map(|frame| row(frame) + "\n").collect();
+        let rows: String = (0..clip.frames).map(|frame| row(frame) + "\n").collect();
         prop_assert!(text.ends_with(rows.as_bytes()));
         let six = read_bytes(&written(&clip, Decimals::Six)).unwrap().clip;
         for (a, b) in six.values().iter().zip(clip.values()) {

@@ -22,7 +22,7 @@ pub(crate) fn damped(clip: &Clip, ratios: &TiSlice<JointId, Option<f64>>) -> Cli
         let columns = start..start + joint.channels.len();
         start = columns.end;
         let ratio = ratios.get(id).copied().flatten();
-        let Some(ratio) = ratio.filter(|ratio| *ratio != 1.0 && clip.frames() > 1) else {
+        let Some(ratio) = ratio.filter(|ratio| *ratio != 1.0 && clip.frames > 1) else {
             continue;
         };
         let first = &clip.row(0)[columns.clone()];
@@ -40,7 +40,7 @@ pub(crate) fn damped(clip: &Clip, ratios: &TiSlice<JointId, Option<f64>>) -> Cli
         }
         let rotation =
             |frame: usize| Clip::local(joint, &clip.row(frame)[columns.clone()]).rotation;
-        let mut turns: Vec<DQuat> = (0..clip.frames()).map(rotation).collect();
+        let mut turns: Vec<DQuat> = (0..clip.frames).map(rotation).collect();
         damp(&mut turns, ratio);
         for (row, turn) in values.chunks_mut(width).zip(turns).skip(1) {
             track.set(turn, &mut row[columns.clone()]);

@@ -10,7 +10,6 @@ mod range;
 mod tests;
 mod time_map;
 
-use std::fmt;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -37,11 +36,13 @@ const ROUNDING_TOLERANCE: f64 = 1e-4;
 const RATES: std::ops::RangeInclusive<f64> = 0.1..=1e5;
 
 /// Why a clip cannot be resampled or cut.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
     /// An impossible frame rate.
+    #[error("{0} is not a possible frame rate: use {least} to {most} frames a second", least = RATES.start(), most = RATES.end())]
     Rate(f64),
     /// More frames than allowed.
+    #[error("{wanted} frames at that rate, but {most} are the limit for this skeleton")]
     Frames {
         /// How many there would be.
         wanted: f64,
@@ -49,10 +50,18 @@ pub enum Error {
         most: usize,
     },
     /// A text that is not a range of frames.
+    #[error(
+        "`{0}` is not a range of frames: write first:last, counted from 1, such as 10:48, 10: or :48"
+    )]
     NotARange(String),
     /// A range that ends before it begins: first, last.
+    #[error("the range {0}:{1} ends before it begins")]
     Backwards(usize, usize),
+    /// The frame before the first one.
+    #[error("there is no frame 0: the first is 1")]
+    FrameZero,
     /// A frame that does not exist.
+    #[error("there is no frame {frame}: the clip has {frames}")]
     NoFrame {
         /// The frame, counted from 1.
         frame: usize,
@@ -60,38 +69,6 @@ pub enum Error {
         frames: usize,
     },
 }
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Rate(fps) => write!(
-                f,
-                "{fps} is not a possible frame rate: use {} to {} frames a second",
-                RATES.start(),
-                RATES.end()
-            ),
-            Self::Frames { wanted, most } => write!(
-                f,
-                "{wanted} frames at that rate, but {most} are the limit for this skeleton"
-            ),
-            Self::NotARange(text) => {
-                write!(
-                    f,
-                    "`{text}` is not a range of frames: write first:last, counted from 1, such as 10:48, 10: or :48"
-                )
-            }
-            Self::Backwards(first, last) => {
-                write!(f, "the range {first}:{last} ends before it begins")
-            }
-            Self::NoFrame { frame: 0, .. } => write!(f, "there is no frame 0: the first is 1"),
-            Self::NoFrame { frame, frames } => {
-                write!(f, "there is no frame {frame}: the clip has {frames}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for Error {}
 
 /// The frame rate for a frame time.
 pub(crate) fn rate(frame_time: f64) -> f64 {
@@ -119,10 +96,10 @@ pub fn resample(clip: Clip, fps: f64) -> Result<Clip, Error> {
     let own = rate(clip.frame_time);
     let stays = (own / fps - 1.0).abs() <= RATE_TOLERANCE
         || (1.0 / clip.frame_time / fps - 1.0).abs() <= RATE_TOLERANCE;
-    if clip.frames() < 2 || !own.is_finite() || own <= 0.0 || stays {
+    if clip.frames < 2 || !own.is_finite() || own <= 0.0 || stays {
         return Ok(clip);
     }
-    let last = clip.frames() - 1;
+    let last = clip.frames - 1;
     let width = clip.skeleton.channel_count();
     let most = MAX_NUMBERS / width.max(1);
     let wanted = (last as f64 * fps / own + 1e-9).floor() + 1.0;
@@ -174,7 +151,7 @@ pub(crate) fn mixed(clip: &Clip, mixes: &[Mix]) -> Clip {
 /// A clip played along a map of time, at the same rate. Poses are interpolated as by [`resample`]; where a frame of the result is one of
 /// the clip, its angles are the very same but for whole turns.
 pub(crate) fn along(clip: &Clip, map: &TimeMap) -> Clip {
-    mixed(clip, map.places())
+    mixed(clip, &map.places)
 }
 
 /// The channels of a joint, and their numbers in some of the new frames.

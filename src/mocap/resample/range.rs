@@ -32,10 +32,7 @@ pub(crate) fn parse_range(text: &str) -> Result<Range, Error> {
         return Err(wrong());
     }
     if first == Some(0) || last == Some(0) {
-        return Err(Error::NoFrame {
-            frame: 0,
-            frames: 0,
-        });
+        return Err(Error::FrameZero);
     }
     let first = first.unwrap_or(1);
     match last {
@@ -50,10 +47,13 @@ pub(crate) fn parse_range(text: &str) -> Result<Range, Error> {
 /// # Errors
 /// [`Error::NoFrame`] for a frame after the clip's last, and for frame 0; [`Error::Backwards`].
 pub(crate) fn range(clip: &Clip, range: Range) -> Result<Clip, Error> {
-    let frames = clip.frames();
+    let frames = clip.frames;
     let last = range.last.unwrap_or(frames.max(range.first));
     for frame in [range.first, last] {
-        if !(1..=frames).contains(&frame) {
+        if frame == 0 {
+            return Err(Error::FrameZero);
+        }
+        if frame > frames {
             return Err(Error::NoFrame { frame, frames });
         }
     }

@@ -5,7 +5,8 @@ use super::Mix;
 /// A map from the frames of a result to places between the frames of a source: monotone and piecewise linear.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TimeMap {
-    places: Vec<Mix>,
+    /// Per frame of the result what it shows.
+    pub places: Vec<Mix>,
 }
 
 impl TimeMap {
@@ -38,11 +39,6 @@ impl TimeMap {
         Self { places }
     }
 
-    /// Per frame of the result what it shows.
-    pub fn places(&self) -> &[Mix] {
-        &self.places
-    }
-
     /// The number of frames of the result.
     pub fn frames(&self) -> usize {
         self.places.len()
@@ -69,7 +65,7 @@ mod tests {
     fn points_are_frames() {
         let map = TimeMap::through(&[[0, 0], [2, 6], [7, 9]]);
         let places: Vec<f64> = map
-            .places()
+            .places
             .iter()
             .map(|mix| mix.from as f64 + mix.t)
             .collect();
@@ -95,9 +91,9 @@ mod tests {
             let [last, end] = points[points.len() - 1];
             prop_assert_eq!(map.frames(), last + 1);
             for [frame, source] in points {
-                prop_assert_eq!((map.places()[frame].from, map.places()[frame].t), (source, 0.0));
+                prop_assert_eq!((map.places[frame].from, map.places[frame].t), (source, 0.0));
             }
-            for pair in map.places().windows(2) {
+            for pair in map.places.windows(2) {
                 prop_assert!(place(&pair[0]) <= place(&pair[1]));
                 prop_assert!(pair[1].to <= end && (0.0..1.0).contains(&pair[1].t));
             }

@@ -108,7 +108,7 @@ mod tests {
             (picture.sequence, picture.size, picture.time),
             (9, [20, 16], 12.5)
         );
-        assert_eq!(picture.frame().unwrap().size(), [20, 16]);
+        assert_eq!(picture.frame().unwrap().size, [20, 16]);
     }
 
     #[test]

@@ -199,7 +199,7 @@ impl Session {
         let at = at.clamp(DVec2::ZERO, size - 1.0);
         let mark = Mark::picked("", frame, at).map_err(|_| Refusal::Gray)?;
         let is_same = |other: &Mark| {
-            let difference = (mark.hue() - other.hue() + 180.0).rem_euclid(360.0) - 180.0;
+            let difference = (mark.hue - other.hue + 180.0).rem_euclid(360.0) - 180.0;
             difference.abs() < SAME_HUE
         };
         let index = self.marks.iter().position(is_same);
@@ -209,10 +209,10 @@ impl Session {
             return Err(Refusal::TooMany);
         }
         let name = match self.marks.get(index) {
-            Some(same) => same.name().to_owned(),
-            None => self.unused_name(hue_name(mark.hue())),
+            Some(same) => same.name.to_owned(),
+            None => self.unused_name(hue_name(mark.hue)),
         };
-        let mark = Mark::new(name, mark.color()).map_err(|_| Refusal::Gray)?;
+        let mark = Mark::new(name, mark.color).map_err(|_| Refusal::Gray)?;
         match self.marks.get_mut(index) {
             Some(same) => {
                 *same = mark;
@@ -241,9 +241,9 @@ impl Session {
     }
 
     fn rename(&mut self, mark: usize, name: String) -> Result<Vec<ToCamera>, Refusal> {
-        let color = self.marks.get(mark).ok_or(Refusal::NoMark)?.color();
+        let color = self.marks.get(mark).ok_or(Refusal::NoMark)?.color;
         let mut others = self.marks.iter().enumerate();
-        let is_taken = others.any(|(other, taken)| other != mark && taken.name() == name);
+        let is_taken = others.any(|(other, taken)| other != mark && taken.name == name);
         if is_taken || !is_name(&name) {
             return Err(Refusal::Name);
         }
@@ -272,7 +272,7 @@ impl Session {
         let live = self.live.as_ref().map(|live| live.learned.clone());
         let learned = learner.learned().or_else(|error| {
             let mark = self.marks.get(error.mark);
-            let name = mark.map_or("", Mark::name).to_owned();
+            let name = mark.map_or("", |mark| &mark.name).to_owned();
             live.ok_or(Refusal::NotFound(name))
         })?;
         let mut tracker = started(&learned, &recording.start);
@@ -286,14 +286,14 @@ impl Session {
         let mut track = tracks(&learned, times, &seen);
         // A mark may have been renamed since it was learned.
         for (track, mark) in track.marks.iter_mut().zip(&self.marks) {
-            mark.name().clone_into(&mut track.name);
+            mark.name.clone_into(&mut track.name);
         }
         Ok(track)
     }
 
     /// A name that no mark has: the hue's, or with a number.
     fn unused_name(&self, hue: &str) -> String {
-        let is_free = |name: &String| self.marks.iter().all(|mark| mark.name() != name);
+        let is_free = |name: &String| self.marks.iter().all(|mark| mark.name != *name);
         let numbered = (2..=MAX_MARKS + 1).map(|number| format!("{hue}{number}"));
         let mut names = std::iter::once(hue.to_owned()).chain(numbered);
         names.find(is_free).unwrap_or_else(|| hue.to_owned())
@@ -301,8 +301,8 @@ impl Session {
 
     fn facts(&self) -> ToCamera {
         let facts = |mark: &Mark| MarkFacts {
-            name: mark.name().to_owned(),
-            color: hex(mark.color()),
+            name: mark.name.to_owned(),
+            color: hex(mark.color),
         };
         ToCamera::Marks {
             marks: self.marks.iter().map(facts).collect(),

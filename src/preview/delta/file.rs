@@ -285,14 +285,8 @@ pub(super) fn same_fields(
     new: &Fields<'_>,
     wanted: impl Fn(&str) -> bool,
 ) -> bool {
-    let mut old = old.iter().filter(|(name, _)| wanted(name));
-    let mut new = new.iter().filter(|(name, _)| wanted(name));
-    loop {
-        match (old.next(), new.next()) {
-            (None, None) => return true,
-            (Some((name, value)), Some((new_name, new_value)))
-                if name == new_name && value.get() == new_value.get() => {}
-            _ => return false,
-        }
-    }
+    let old = old.iter().filter(|(name, _)| wanted(name));
+    let new = new.iter().filter(|(name, _)| wanted(name));
+    old.map(|(name, value)| (name, value.get()))
+        .eq(new.map(|(name, value)| (name, value.get())))
 }

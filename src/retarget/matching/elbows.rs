@@ -22,12 +22,12 @@ pub(crate) fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> 
             })
     };
     let arms: Vec<FigurePartId> = matching.parts.keys().filter(is_stretched).collect();
-    if arms.is_empty() || clip.frames() == 0 {
+    if arms.is_empty() || clip.frames == 0 {
         return Vec::new();
     }
-    let count = clip.frames().min(FRAMES);
+    let count = clip.frames.min(FRAMES);
     let poses: Vec<Pose> = (0..count)
-        .map(|index| clip.pose(index * clip.frames() / count))
+        .map(|index| clip.pose(index * clip.frames / count))
         .collect();
     let bent = arms.into_iter().filter_map(|part| {
         let matched = &matching.parts[part];

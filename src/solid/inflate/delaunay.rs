@@ -56,7 +56,8 @@ pub(super) struct Delaunay {
     edges: Vec<HalfEdge>,
     /// Per triangle, whether it lies in the outline; all of them until that is found out.
     is_inside: Vec<bool>,
-    has_pinches: bool,
+    /// Whether separate parts of the border meet in a point.
+    pub(super) has_pinches: bool,
     /// Half-edges whose neighbours may have to be flipped.
     open: Vec<u32>,
 }
@@ -229,11 +230,6 @@ impl Delaunay {
                 self.has_pinches |= std::mem::replace(start, true);
             }
         }
-    }
-
-    /// Whether separate parts of the border meet in a point.
-    pub(super) fn has_pinches(&self) -> bool {
-        self.has_pinches
     }
 
     /// Places of additional points, each with a point near it, so that every triangle in the outline has one off the border.

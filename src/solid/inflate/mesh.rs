@@ -116,7 +116,7 @@ fn numbered(delaunay: &Delaunay, vertices: &[Option<u32>]) -> Mesh {
     let mut number = vec![UNUSED; delaunay.len()];
     let mut mesh = Mesh {
         triangles: delaunay.inner().collect(),
-        has_pinches: delaunay.has_pinches(),
+        has_pinches: delaunay.has_pinches,
         ..Mesh::default()
     };
     for vertex in mesh.triangles.iter().flatten() {

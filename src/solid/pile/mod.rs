@@ -46,7 +46,7 @@ const MAX_TOLERANCE: f64 = 2.0;
 /// The solids of a drawing that lie over one another or that others lie on, back-most first.
 #[derive(Debug)]
 pub(crate) struct Pile {
-    bodies: Vec<Body>,
+    pub(crate) bodies: Vec<Body>,
     /// Per body a hash of its solid by itself.
     solids: Vec<u128>,
     /// Per body a hash of all that its surface is made from.
@@ -206,11 +206,6 @@ impl Pile {
             pile.keys.push(key);
         }
         pile
-    }
-
-    /// The bodies.
-    pub(crate) fn bodies(&self) -> &[Body] {
-        &self.bodies
     }
 
     /// A hash of all that the surface of a body is made from; those of earlier bodies, and of the solids by themselves, are known.

@@ -72,7 +72,15 @@ impl Faces<'_> {
             for span in spans {
                 down.push(FaceRun::new(span.y[0], slice.z, span.bottom));
                 if let Some(material) = span.top {
-                    top_runs(context, solids, number, slice, span.y[1], material, up);
+                    let plane = span.y[1];
+                    // Tops are at whole heights.
+                    let [level, _] = tiles([plane; 2]);
+                    let rows = slice.z[0] - level..slice.z[1] - level;
+                    let is = |visible| visible == Visible::Top(level);
+                    solids.drawn_materials(context, rows, is, |rows, drawn| {
+                        let along = [rows.start + level, rows.end + level];
+                        up.push(FaceRun::new(plane, along, drawn.unwrap_or(material)));
+                    });
                 }
             }
             let touches = |next: &&Slice| next.z[0] == slice.z[1];
@@ -81,7 +89,12 @@ impl Faces<'_> {
             let z = slice.z[1];
             difference(spans, next, |y| {
                 slices.sides(slice, y, |y, side| {
-                    front_runs(context, solids, number, z, y, side, front);
+                    let [bottom, top] = tiles(y);
+                    let is = |visible| visible == Visible::Front(z);
+                    solids.drawn_materials(context, z - top..z - bottom, is, |rows, drawn| {
+                        let along = [y[0].max(step(z - rows.end)), y[1].min(step(z - rows.start))];
+                        front.push(FaceRun::new(z, along, drawn.unwrap_or(side)));
+                    });
                 });
             });
             let touches = |last: &&Slice| last.z[1] == slice.z[0];
@@ -157,51 +170,6 @@ impl Faces<'_> {
             .iter_mut()
             .for_each(|mesher| mesher.finish(&mut self.rects));
     }
-}
-
-fn top_runs(
-    context: &MapContext,
-    solids: &Solids,
-    number: usize,
-    slice: &Slice,
-    plane: i32,
-    hidden: u8,
-    runs: &mut Vec<FaceRun>,
-) {
-    // Tops are at whole heights.
-    let [level, _] = tiles([plane; 2]);
-    let rows = slice.z[0] - level..slice.z[1] - level;
-    let is = |visible| visible == Visible::Top(level);
-    solids.drawn_materials(context, number, rows, is, |rows, material| {
-        let along = [rows.start + level, rows.end + level];
-        runs.push(FaceRun::new(plane, along, material.unwrap_or(hidden)));
-    });
-}
-
-fn front_runs(
-    context: &MapContext,
-    solids: &Solids,
-    number: usize,
-    plane: i32,
-    y: [i32; 2],
-    hidden: u8,
-    runs: &mut Vec<FaceRun>,
-) {
-    let is = |visible| visible == Visible::Front(plane);
-    let [bottom, top] = tiles(y);
-    solids.drawn_materials(
-        context,
-        number,
-        plane - top..plane - bottom,
-        is,
-        |rows, material| {
-            let along = [
-                y[0].max(step(plane - rows.end)),
-                y[1].min(step(plane - rows.start)),
-            ];
-            runs.push(FaceRun::new(plane, along, material.unwrap_or(hidden)));
-        },
-    );
 }
 
 /// The set difference of two lists of spans.

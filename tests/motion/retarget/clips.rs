@@ -45,7 +45,7 @@ pub(crate) struct Moving {
 
 impl Moving {
     pub(crate) fn of(clip: &Clip) -> Self {
-        let frames = (0..clip.frames()).map(|frame| {
+        let frames = (0..clip.frames).map(|frame| {
             let mut numbers = clip.row(frame);
             let joints = clip.skeleton.joints.iter().map(|joint| {
                 let (own, rest) = numbers.split_at(joint.channels.len());

@@ -54,7 +54,7 @@ struct Compared {
 /// Compares the parts that hang on a figure at all times that two motions share.
 fn compare(clip: impl Fn(f64) -> PreparedClip, feet: Feet) -> Compared {
     let mut clips = RATES.map(|(fps, _)| clip(fps));
-    let counts = clips.each_ref().map(|clip| clip.clip.frames());
+    let counts = clips.each_ref().map(|clip| clip.clip.frames);
     let moments = (counts[0] - 1) / RATES[0].1;
     let moments = moments.min((counts[1] - 1) / RATES[1].1);
     for (clip, (_, every)) in clips.iter_mut().zip(RATES) {

@@ -153,24 +153,24 @@ fn random_rigs_and_motions_give_finite_results() {
             let rig = rig(&clip, parts);
             let landmarks = Landmarks::of(&label_clip(&clip));
             let retargeted = retarget(&clip, &rig, &landmarks);
-            prop_assert_eq!(retargeted.grounded.len(), clip.frames());
+            prop_assert_eq!(retargeted.grounded.len(), clip.frames);
             for part in rig.parts.keys() {
                 if let Some(turns) = &retargeted.rotations[part] {
-                    prop_assert_eq!(turns.len(), clip.frames());
+                    prop_assert_eq!(turns.len(), clip.frames);
                     prop_assert!(turns.iter().all(|turn| (turn.length() - 1.0).abs() < 1e-9));
                     prop_assert!(turns.windows(2).all(|pair| pair[0].dot(pair[1]) >= 0.0));
                 }
                 if let Some(moves) = &retargeted.translations[part] {
                     prop_assert!(rig.parts[part].is_rooted);
-                    prop_assert_eq!(moves.len(), clip.frames());
+                    prop_assert_eq!(moves.len(), clip.frames);
                 }
             }
-            for frame in 0..clip.frames() {
+            for frame in 0..clip.frames {
                 for placed in placed(&rig, &retargeted, frame) {
                     prop_assert!(placed.position.is_finite() && placed.rotation.is_finite());
                 }
             }
-            Ok(clip.frames() > 1 && retargeted.rotations.iter().any(Option::is_some))
+            Ok(clip.frames > 1 && retargeted.rotations.iter().any(Option::is_some))
         },
     );
 }

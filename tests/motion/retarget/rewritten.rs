@@ -171,7 +171,7 @@ fn the_rest_pose_does_not_matter() {
         let falls = |clip: &Clip| matches!(play(clip, 2).1.rest, RestSource::Frame(_));
         let mut fallen = (1..20).map(fallen).filter(falls);
         let base = fallen.next().expect("most fall");
-        for (frame, clip_) in [(0, &clip), (clip.frames() - 1, &clip)] {
+        for (frame, clip_) in [(0, &clip), (clip.frames - 1, &clip)] {
             for (a, b) in clip_.pose(frame).iter().zip(base.pose(frame)) {
                 let size = clip_
                     .skeleton

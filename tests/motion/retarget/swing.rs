@@ -72,7 +72,7 @@ fn nothing_swings_farther_than_sixty_degrees() {
             assert_eq!(swung, again, "{file}: the same motion gives the same");
             let still = retarget(&prepared.clip, &stiff, &landmarks);
             let mut own = 0.0_f64;
-            for frame in 0..prepared.clip.frames() {
+            for frame in 0..prepared.clip.frames {
                 let [still, now] =
                     [(&stiff, &still), (&rig, &swung)].map(|(rig, clip)| placed(rig, clip, frame));
                 for part in &hanging {
@@ -129,7 +129,7 @@ fn tail_angles(degrees: &[f64]) -> Vec<f64> {
     let (clip, rig) = turning(degrees);
     let played = retarget(&clip, &rig, &Landmarks::default());
     let down = |frame: usize| placed(&rig, &played, frame).raw[1].rotation * DVec3::Y;
-    (0..clip.frames())
+    (0..clip.frames)
         .map(|frame| angle(DVec3::NEG_Y, down(frame)).copysign(down(frame).x))
         .collect()
 }

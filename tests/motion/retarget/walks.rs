@@ -29,7 +29,7 @@ fn thighs_face_forward_in_walks() {
             // In space, and seen from above: a swinging leg tips its front up or down.
             let mut worst = [0.0_f64; 2];
             let mut checked = 0;
-            for frame in 0..prepared.clip.frames() {
+            for frame in 0..prepared.clip.frames {
                 let pose = prepared.clip.pose(frame);
                 let [_, front] = body.left_and_front(&pose);
                 let front = body.drawn(&first, front);
@@ -52,7 +52,7 @@ fn thighs_face_forward_in_walks() {
                 }
             }
             assert!(
-                checked >= prepared.clip.frames(),
+                checked >= prepared.clip.frames,
                 "{file}: of two thighs only {checked} in all frames"
             );
             eprintln!("{file} {pieces}: thighs {worst:.1?}° from the front");
@@ -114,7 +114,7 @@ fn standing(
     let ground = ground.fold(f64::INFINITY, f64::min);
     let mut worst = [0.0_f64; 2];
     let mut checked = 0;
-    for frame in 0..clip.frames() {
+    for frame in 0..clip.frames {
         let now = placed(rig, retargeted, frame);
         if !retargeted.grounded[frame] {
             continue;
@@ -186,7 +186,7 @@ fn locked_feet_do_not_slide() {
             let ([slide, height], checked) = standing(&prepared.clip, rig, &landmarks, &retargeted);
             eprintln!(
                 "{file} {number}: {grounded} of {} grounded, slides {slide:.3} leg lengths a second, {:.2} % of the leg off the ground",
-                prepared.clip.frames(),
+                prepared.clip.frames,
                 height / LEG * 100.0
             );
             assert!(slide < 0.1, "{file}, figure {number}: slides {slide}");
@@ -194,7 +194,7 @@ fn locked_feet_do_not_slide() {
             // The zombie stumbles; everyone else has a foot on the ground most of the time.
             let quarters = if file.contains("zombie") { 1 } else { 3 };
             assert!(
-                4 * checked >= quarters * prepared.clip.frames(),
+                4 * checked >= quarters * prepared.clip.frames,
                 "{file}, figure {number}: only {checked} steps of {grounded} grounded frames"
             );
         }
@@ -214,7 +214,7 @@ fn walks_travel() {
     let body = Body::of(&prepared.clip, &landmarks, Facing::Viewer);
     let clip_way = body.drawn(
         &prepared.clip.pose(0),
-        pose(prepared.clip.frames() - 1) - pose(0),
+        pose(prepared.clip.frames - 1) - pose(0),
     );
     let due = clip_way * LEG / leg(&prepared.clip, &landmarks);
     eprintln!("walked {way}, the clip {due}");

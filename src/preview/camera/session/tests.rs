@@ -144,7 +144,7 @@ fn marks_are_chosen_once_and_have_names_of_their_own() {
     name(0, "blau").unwrap();
     assert!(session.handle(FromCamera::Remove { mark: 2 }).is_err());
     session.handle(FromCamera::Remove { mark: 0 }).unwrap();
-    assert_eq!(session.marks[0].name(), "blue");
+    assert_eq!(session.marks[0].name, "blue");
     session.handle(FromCamera::Record {}).unwrap();
     assert!(refused(pick(&mut session, red)).contains("before the recording"));
 }
