@@ -63,9 +63,9 @@ enum Outcome {
 
 /// Why a command ends early.
 enum Failure {
-    /// What is to be said about it.
+    /// An error message that is still to be printed.
     Message(String),
-    /// It was said already.
+    /// The message was printed already.
     Reported(Outcome),
 }
 

@@ -31,7 +31,7 @@ pub(crate) enum Naming {
 }
 
 impl Naming {
-    /// That of an output, of which a person may have named one.
+    /// How `output` was named, where the user named `named` or nothing.
     pub(crate) fn of(named: Option<&Path>, output: &Path) -> Self {
         match named {
             Some(named) if named == output => Self::Given,

@@ -23,7 +23,7 @@ pub(super) fn check(scene: &Scene) -> io::Result<()> {
         .try_for_each(|animation| check_animation(animation, &scene.nodes))
 }
 
-/// Refuses what has `fault`, said by `what`.
+/// An error whose message is `what`, if there is a fault.
 fn refuse<T: Into<String>>(fault: bool, what: impl FnOnce() -> T) -> io::Result<()> {
     if fault { Err(invalid(what())) } else { Ok(()) }
 }

@@ -206,7 +206,7 @@ fn parents(parts: &TiSlice<FigurePartId, FigurePart>) -> TiVec<FigurePartId, Opt
         .iter()
         .map(|part| part.parent.filter(|parent| parts.get(*parent).is_some()))
         .collect();
-    // Per part the first of the walk that visited it.
+    // For each part, the part at which the walk that visited it began.
     let mut seen: TiVec<FigurePartId, Option<FigurePartId>> = ti_vec![None; parts.len()];
     for start in parts.keys() {
         let mut part = start;

@@ -2,7 +2,8 @@
 //
 // The packages are fetched by name into the folder SCRATCH, and not installed: Debian packages with apt-get, npm packages with npm.
 // Every drawing is built, measured by GNU time, and every model validated; then silhouettes of 400 models are compared with resvg's
-// pictures of the drawings. Of half of them the worst are listed, to be looked at; the other half is held back, and only counted. With MOST=N, only N drawings are built, an even sample. A run that was interrupted continues where it was.
+// pictures of the drawings. Of half of them the worst are listed, to be looked at; the other half is held back, and only counted.
+// With MOST=N, only N drawings are built, an even sample. A run that was interrupted continues where it was.
 //
 // SCRATCH/corpus.json gets the results of each drawing, and docs/reliability.md the summary of a run over all packages. Exit status 1 if
 // a build crashes, fails, takes more than two seconds or gives an invalid model, or if much of a silhouette is missing without a finding.

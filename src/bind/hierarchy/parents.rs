@@ -267,7 +267,7 @@ pub(super) fn without_cycles(
     let Context {
         drawing, matched, ..
     } = context;
-    // Per part the first of the walk that visited it.
+    // For each part, the part at which the walk that visited it began.
     let mut seen: TiVec<PartId, Option<PartId>> = ti_vec![None; parents.len()];
     for start in parents.keys() {
         let mut part = start;

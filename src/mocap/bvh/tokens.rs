@@ -17,7 +17,7 @@ pub(super) struct Token<'a> {
 }
 
 impl Token<'_> {
-    /// Whether it is no brace.
+    /// Whether it is not a brace.
     pub(super) fn is_word(&self) -> bool {
         !matches!(self.text, b"{" | b"}")
     }
