@@ -9,7 +9,6 @@ use super::layout::{EDGE, Layout, NAME_LINE, PlacedPiece};
 use super::marks::PieceMark;
 use super::paper::{HOLE, MARK};
 use crate::geometry::Outline;
-use crate::mark_tracks::hex;
 use crate::source::escape_xml;
 use crate::svg::Excerpts;
 
@@ -237,4 +236,8 @@ fn number(value: f64) -> String {
     let rounded = (value * 1e3).round() / 1e3;
     // There is no -0 in SVG.
     format!("{}", rounded + 0.0)
+}
+
+fn hex([r, g, b]: [u8; 3]) -> String {
+    format!("#{r:02x}{g:02x}{b:02x}")
 }
