@@ -144,7 +144,8 @@ fn survey() {
         .collect();
     let rows = each(&samples, |(path, kind)| {
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
-        let sample = Sample::new(path, "", kind).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let sample =
+            Sample::without_outlines(path, kind).unwrap_or_else(|why| panic!("{name}: {why}"));
         (sample.is_right(LEAST), sample.row(&name, kind))
     });
     rows.iter().for_each(|(_, row)| println!("{row}"));
