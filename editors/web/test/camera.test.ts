@@ -190,7 +190,7 @@ camera("everything is done with the keyboard, and Escape releases the camera", a
   await page.keyboard.press("Enter");
   await status(page, "Click on each mark");
   await page.waitForFunction(() => document.querySelector<HTMLCanvasElement>(".camera-picture")!.width === 320);
-  // A picture is held in which the red mark is not in the middle, where the cross begins.
+  // A picture is held in which the middle, where the cross begins, is grey.
   const hold = async (held: boolean): Promise<void> => {
     await page.keyboard.press(" ");
     await page.waitForSelector(`.camera-dialog button[aria-label="Hold the picture still"][aria-pressed="${held}"]`);

@@ -36,7 +36,10 @@ function random(seed: number): () => number {
   };
 }
 
-/** A grey wall with patches of pale colours. */
+/** So many pixels around the middle of the picture have no patches. */
+const BARE = 20;
+
+/** A grey wall with patches of pale colours, but none in the middle. */
 function background(): Float32Array {
   const pixels = new Float32Array(3 * WIDTH * HEIGHT);
   for (let y = 0; y < HEIGHT; y++) for (let x = 0; x < WIDTH; x++) pixels.fill(120 + (60 * x) / WIDTH - (30 * y) / HEIGHT, 3 * (y * WIDTH + x), 3 * (y * WIDTH + x) + 3);
@@ -44,6 +47,8 @@ function background(): Float32Array {
   for (let patch = 0; patch < 40; patch++) {
     const [left, top, width, height] = [WIDTH * next(), HEIGHT * next(), 10 + 30 * next(), 10 + 30 * next()].map(Math.floor) as [number, number, number, number];
     const colour = [90 + 90 * next(), 90 + 90 * next(), 90 + 90 * next()];
+    const isNear = (middle: number, from: number, size: number): boolean => from - BARE < middle && middle < from + size + BARE;
+    if (isNear(WIDTH / 2, left, width) && isNear(HEIGHT / 2, top, height)) continue;
     for (let y = top; y < Math.min(top + height, HEIGHT); y++) for (let x = left; x < Math.min(left + width, WIDTH); x++) pixels.set(colour, 3 * (y * WIDTH + x));
   }
   return pixels;
