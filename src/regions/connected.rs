@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::sets::{join, number, root};
+use super::sets::{join, number};
 
 /// The least number of cells that a thread labels at once: with fewer, waking it takes longer.
 const LEAST_BAND: usize = 1 << 16;
@@ -66,7 +66,7 @@ fn joined(
     parents
 }
 
-/// Joins the cells of some lines, of which the first cell is `base`. Each cell's parent becomes its root, an index of the table.
+/// Joins the cells of some lines, of which the first cell is `base`. Each cell's parent becomes an index of the table.
 fn join_band(
     parents: &mut [u32],
     base: usize,
@@ -74,25 +74,23 @@ fn join_band(
     along: &impl Fn(usize) -> bool,
     across: &impl Fn(usize) -> bool,
 ) {
-    let mut place = 0;
-    for at in 0..parents.len() {
-        let cell = base + at;
-        let before = place > 0 && along(cell);
-        parents[at] = if before { parents[at - 1] } else { at as u32 };
-        // Usually the pair of cells before has joined the two lines already.
-        if at >= length && across(cell) {
-            let is_known = before && along(cell - length) && across(cell - 1);
-            if !is_known {
+    for start in (0..parents.len()).step_by(length) {
+        let mut was_above = false;
+        for at in start..start + length {
+            let cell = base + at;
+            let before = at > start && along(cell);
+            parents[at] = if before { parents[at - 1] } else { at as u32 };
+            let above = start > 0 && across(cell);
+            // Usually the pair of cells before has joined the two lines already.
+            if above && !(before && was_above && along(cell - length)) {
                 join(parents, at as u32, (at - length) as u32);
             }
+            was_above = above;
         }
-        place = if place + 1 == length { 0 } else { place + 1 };
     }
-    for at in 0..parents.len() {
-        parents[at] = root(parents, at as u32);
+    if base > 0 {
+        parents.iter_mut().for_each(|parent| *parent += base as u32);
     }
-    let base = base as u32;
-    parents.iter_mut().for_each(|parent| *parent += base);
 }
 
 #[cfg(test)]

@@ -51,14 +51,13 @@ struct Areas {
 impl Areas {
     /// Those of the products of one view's points with another's. They are antisymmetric.
     fn new(a: &[DVec2], b: &[DVec2], scale: f64) -> Self {
-        let of = a.iter().zip(b).flat_map(|(a0, b0)| {
+        let mut of = Vec::with_capacity(a.len() * a.len());
+        for (a0, b0) in a.iter().zip(b) {
             let each = a.iter().zip(b);
-            each.map(move |(a1, b1)| scale * (a0.perp_dot(*b1) + b0.perp_dot(*a1)))
-        });
-        Self {
-            count: a.len(),
-            of: of.collect(),
+            of.extend(each.map(|(a1, b1)| scale * (a0.perp_dot(*b1) + b0.perp_dot(*a1))));
         }
+        let count = a.len();
+        Self { count, of }
     }
 
     fn row(&self, i: usize) -> &[f64] {
