@@ -63,20 +63,7 @@ impl Segments {
                 let mut sums = vec![0.0; max_hold];
                 for (row, costs) in costs.chunks_mut(max_hold).enumerate() {
                     let most = max_hold.min(count - start - row);
-                    // Of the segments that begin with this frame.
-                    for last in 0..most {
-                        let row = &near[(row + last) * max_hold..][..=last];
-                        let mut own = 0.0;
-                        let mut least = f64::INFINITY;
-                        for drawing in 0..last {
-                            let apart = row[last - drawing];
-                            sums[drawing] += apart;
-                            own += apart;
-                            least = least.min(sums[drawing]);
-                        }
-                        sums[last] = own;
-                        costs[last] = least.min(own);
-                    }
+                    accumulate_costs(&near[row * max_hold..], max_hold, most, &mut sums, costs);
                 }
             });
         let mut segments = Self {
@@ -204,6 +191,29 @@ fn nearby_ssds(frames: Poses<'_>, start: usize, end: usize, max_hold: usize) -> 
         }
     }
     near
+}
+
+/// The costs of the segments of up to `most` frames that begin where `near` begins.
+fn accumulate_costs(
+    near: &[f64],
+    max_hold: usize,
+    most: usize,
+    sums: &mut [f64],
+    costs: &mut [f64],
+) {
+    for last in 0..most {
+        let row = &near[last * max_hold..][..=last];
+        let mut own = 0.0;
+        let mut least = f64::INFINITY;
+        for drawing in 0..last {
+            let apart = row[last - drawing];
+            sums[drawing] += apart;
+            own += apart;
+            least = least.min(sums[drawing]);
+        }
+        sums[last] = own;
+        costs[last] = least.min(own);
+    }
 }
 
 /// The frame of a segment that is its drawing: the one that must stay, else the best one; of equal ones the first.

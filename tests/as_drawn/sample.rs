@@ -34,19 +34,19 @@ pub(crate) struct Sample {
 impl Sample {
     /// Compares a drawing with its model, and both with resvg's picture under a style sheet; the reason if that is not possible.
     pub(crate) fn new(path: &Path, sheet: &str, kind: &str) -> Result<Self, String> {
-        let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let resolver = FolderResolver::new(folder);
-        let sheet = |_: &Compiled| sheet.to_owned();
-        Self::seen(&text, sheet, Some(folder), &resolver, kind, SIDE)
+        Self::read(path, |_| sheet.to_owned(), kind)
     }
 
     /// The same for a drawing that nobody has looked at, without the outlines that are not built, which `check` reports.
     pub(crate) fn without_outlines(path: &Path, kind: &str) -> Result<Self, String> {
+        Self::read(path, without_outlines, kind)
+    }
+
+    fn read(path: &Path, sheet: impl Fn(&Compiled) -> String, kind: &str) -> Result<Self, String> {
         let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let resolver = FolderResolver::new(folder);
-        Self::seen(&text, without_outlines, Some(folder), &resolver, kind, SIDE)
+        Self::seen(&text, sheet, Some(folder), &resolver, kind, SIDE)
     }
 
     /// Compares a drawing without links with its model, in pictures whose larger side has so many pixels.

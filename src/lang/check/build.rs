@@ -166,22 +166,7 @@ impl Checker<'_> {
         if let KindArguments::Numbers(numbers) = &arguments {
             self.check_angles(kind, numbers, parameters)?;
             let parameters = &parameters[..values.len().min(parameters.len())];
-            let thin = kind.rules.iter().any(|rule| match rule {
-                Rule::Ascending => false,
-                Rule::Distinct => matches!(numbers[..], [z0, z1, ..] if z0 == z1),
-                Rule::NonZero(index) => numbers.get(*index) == Some(&0.),
-            });
-            if thin {
-                let range = match (parameters.first(), parameters.last()) {
-                    (Some(first), Some(last)) => first.range.start..last.range.end,
-                    _ => attribute.range.clone(),
-                };
-                let message = format!("this `{}` has no thickness", kind.name);
-                let help =
-                    "write `Shape flat` for a thin sheet, or `Shape none` for no solid at all";
-                let diagnostic = self.diagnostic(Code::ZeroThickness, &range, message);
-                self.diagnostics.push(diagnostic.help(help));
-            }
+            self.check_thickness(kind, numbers, attribute, parameters);
         }
         let has = |letter: char| has_flag(attribute, letter);
         let shape = Shape {
@@ -223,6 +208,32 @@ impl Checker<'_> {
         }
         self.diagnostics.push(diagnostic);
         None
+    }
+
+    /// Warns about a solid without thickness.
+    fn check_thickness(
+        &mut self,
+        kind: &Kind,
+        numbers: &[f64],
+        attribute: &Attribute,
+        parameters: &[Argument],
+    ) {
+        let thin = kind.rules.iter().any(|rule| match rule {
+            Rule::Ascending => false,
+            Rule::Distinct => matches!(numbers, [z0, z1, ..] if z0 == z1),
+            Rule::NonZero(index) => numbers.get(*index) == Some(&0.),
+        });
+        if !thin {
+            return;
+        }
+        let range = match (parameters.first(), parameters.last()) {
+            (Some(first), Some(last)) => first.range.start..last.range.end,
+            _ => attribute.range.clone(),
+        };
+        let message = format!("this `{}` has no thickness", kind.name);
+        let help = "write `Shape flat` for a thin sheet, or `Shape none` for no solid at all";
+        let diagnostic = self.diagnostic(Code::ZeroThickness, &range, message);
+        self.diagnostics.push(diagnostic.help(help));
     }
 }
 
