@@ -20,7 +20,8 @@ pub(super) const LINKS: &[(&str, Contents)] = &[
     ("picture.png", |version| picture([0, 40][version])),
     ("front.png", |version| bird([20, 24][version])),
     ("side.png", |version| bird([28, 26][version])),
-    ("model.glb", model),
+    ("model.glb", |version| model(4 + version)),
+    ("other.glb", |version| model(7 + version)),
     ("motion.bvh", motion),
     ("marks.csv", marks),
 ];
@@ -85,10 +86,9 @@ fn bird(eye: u32) -> Vec<u8> {
     })
 }
 
-fn model(version: usize) -> Vec<u8> {
+fn model(width: usize) -> Vec<u8> {
     let drawing = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><rect width=\"{}\" height=\"6\"/></svg>",
-        4 + version
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><rect width=\"{width}\" height=\"6\"/></svg>"
     );
     let compiled = compile(&drawing, &Options::default(), &MemoryResolver::default());
     let model = to_memory(&GLB, &compiled.scene, None);

@@ -228,6 +228,8 @@ impl<'a> Bevel<'a> {
         }
     }
 
+    // A landscape with bevels calls this and the two below several times for every square.
+    #[inline]
     fn fan(&self, facing: Facing, square: Point, point: Point) -> Fan {
         let [across, along, _] = facing.axes();
         let has = |is_after: [bool; 2]| {
@@ -257,6 +259,7 @@ impl<'a> Bevel<'a> {
     }
 
     /// The position of a corner after insetting.
+    #[inline]
     fn place(&self, corner: &Corner) -> [f64; 3] {
         let mut place = steps::place(corner.point);
         if self.fixed.contains(&corner.point) {
@@ -300,6 +303,7 @@ impl<'a> Bevel<'a> {
         self.radius * side * towards.signum()
     }
 
+    #[inline]
     fn corner(&self, (facing, square): (Facing, Point), point: Point) -> Corner {
         Corner {
             fan: self.fan(facing, square, point),
