@@ -112,6 +112,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::LooksDifferent, "depth-buries"),
     (Code::Buried, "depth-buries"),
     (Code::BentArm, "motion-bent-arm"),
+    (Code::UnreadNames, "text-bare-names-too-far"),
 ];
 
 /// What okoshi prints for a diagnostic of a drawing.

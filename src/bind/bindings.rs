@@ -195,8 +195,10 @@ pub struct Part {
     pub host: Option<PartId>,
     /// Its area, drawing units.
     pub outline: Arc<Outline>,
-    /// Its axis, centre and ends. `Axis` replaces the measured axis.
+    /// The axis, centre and ends of its shape. `Axis` replaces the measured axis.
     pub measure: Measure,
+    /// Those of all shapes of its node together, if its own are not the node's.
+    pub of_group: Option<Box<Measure>>,
     /// Its string.
     pub string: Option<StringId>,
     /// Index of the legend of its paint.
@@ -214,6 +216,11 @@ impl Part {
     /// Whether it is the main part candidate of its node.
     pub fn is_candidate(&self) -> bool {
         self.main == self.index
+    }
+
+    /// The axis, centre and ends of its node.
+    pub fn node_measure(&self) -> &Measure {
+        self.of_group.as_deref().unwrap_or(&self.measure)
     }
 
     /// Whether the program chose its name.

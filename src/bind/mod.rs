@@ -56,6 +56,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         host: part.host,
         outline: part.outline,
         measure: tree.axes.turned(index).unwrap_or(part.measure),
+        of_group: tree.axes.of_group(index).map(Box::new),
         string: part.string,
         legend: attributes.legend_of_part[index],
         parent: tree.parents[index],

@@ -202,6 +202,11 @@ mod tests {
             "Isolationsmodus",
             "svg_12",
             "Layer_1-2",
+            "Objekt 2",
+            "Réunion",
+            "Linked Path Group",
+            "圆角矩形 1",
+            "角丸長方形 2",
         ] {
             assert_eq!(written_by_a_person(id), None, "{id}");
         }
@@ -227,6 +232,8 @@ mod tests {
             ("  two \n words ", "two words"),
             ("the \"big\" one", "the 'big' one"),
             ("hair_2", "hair_2"),
+            ("Linked arms", "Linked arms"),
+            ("Objekt", "Objekt"),
             ("hairHighlights_1_", "hairHighlights"),
             ("L arm", "L arm"),
             ("path to the house", "path to the house"),

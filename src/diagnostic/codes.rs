@@ -662,6 +662,17 @@ codes! {
     /// Split the arm into two shapes at the elbow, the second attached to the first: `Rarm@Ubody` and `Rforearm@Rarm`. Or leave
     /// it as it is.
     BentArm = "H413", "arm in one piece where the motion bends the elbow";
+    /// The drawing has no string, but words that could be names of its parts. They are read as names only if every text of
+    /// the drawing is a single word, no word is there twice, and each lies on its shape or at most one letter beside it, or is
+    /// grouped with it.
+    ///
+    /// ```text
+    /// the words Head, Arm and Leg, and a sentence about the figure
+    /// ```
+    ///
+    /// Put `#` before every text that is no name, and move the words onto their shapes. Or write one string with a sign, such as
+    /// `Head@Body`: then all texts are read.
+    UnreadNames = "H414", "words that may be names are not read";
 }
 
 impl Code {

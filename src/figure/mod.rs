@@ -62,11 +62,20 @@ impl LinkedModels {
     }
 }
 
+/// The frames of a part.
+#[derive(Debug, Clone, Copy)]
+struct PartFrames {
+    /// That of its node, if it is a main part.
+    node: Frame,
+    /// That of its shape, which its solid is made in.
+    solid: Frame,
+}
+
 /// The figures of a drawing, laid out: frames, hierarchy and depths.
 pub(crate) struct Figures<'a> {
     context: FigureContext<'a>,
     layers: Layers,
-    frames: TiVec<PartId, Frame>,
+    frames: TiVec<PartId, PartFrames>,
     parts_of_node: TiVec<PartId, Vec<PartId>>,
     tree: TiVec<NodeId, FigureNode>,
 }
@@ -104,8 +113,11 @@ impl<'a> Figures<'a> {
     ) -> Self {
         let context = FigureContext::new(drawing, bindings);
         let parts = bindings.parts.raw.par_iter().with_min_len(GRAIN);
-        let frames = parts.map(|part| Frame::new(&part.measure, part.origin));
-        let frames: TiVec<PartId, Frame> = frames.collect::<Vec<_>>().into();
+        let frames = parts.map(|part| PartFrames {
+            node: Frame::new(part.node_measure(), part.origin),
+            solid: Frame::new(&part.measure, part.origin),
+        });
+        let frames: TiVec<PartId, PartFrames> = frames.collect::<Vec<_>>().into();
         let (layers, buried) = Layers::arrange(&context, &frames, world, memo);
         let tree = tree::nodes(&context, &frames, &layers, diagnostics);
         copies::check(&context, diagnostics);
@@ -144,7 +156,7 @@ impl<'a> Figures<'a> {
         };
         FigureNodes {
             thicknesses: thicknesses.into(),
-            frames: self.frames,
+            frames: self.frames.into_iter().map(|frames| frames.node).collect(),
             parts_of_node: self.parts_of_node,
             nodes,
             node_of_part,
@@ -173,7 +185,7 @@ impl<'a> Figures<'a> {
         };
         for &part in &self.parts_of_node[main] {
             if models.has(part) {
-                let frames = [&self.frames[part], &self.frames[main]];
+                let frames = [&self.frames[part].solid, &self.frames[main].node];
                 let (_, both) = self.context.stand(main, part);
                 let depth = self.layers.offset(part);
                 let outline = &self.context.bindings.parts[part].outline;
@@ -316,12 +328,12 @@ impl<'a> FigureContext<'a> {
     /// The solid of a part by itself in the frame of its node, `[main, part]`, its plane at depth 0.
     fn natural(
         &self,
-        frames: &TiSlice<PartId, Frame>,
+        frames: &TiSlice<PartId, PartFrames>,
         world: &WorldTransform,
         [main, part]: [PartId; 2],
         profile: Profile,
     ) -> Solid {
-        let (own, node) = (&frames[part], &frames[main]);
+        let (own, node) = (&frames[part].solid, &frames[main].node);
         let mut options = self.options(part, &profile);
         options.placement = Placement {
             rotation: own.angle - node.angle,

@@ -5,10 +5,10 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::FigureContext;
+use super::PartFrames;
 use super::layers::Layers;
 use crate::bind::{PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::Frame;
 use crate::scene::NodeId;
 
 /// Limit of the nodes that `-d` adds: nested copies double each time.
@@ -44,7 +44,7 @@ struct Pending {
 /// The nodes of all main parts with the copies that `-d` makes, parents before children.
 pub(super) fn nodes(
     context: &FigureContext<'_>,
-    frames: &TiSlice<PartId, Frame>,
+    frames: &TiSlice<PartId, PartFrames>,
     layers: &Layers,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> TiVec<NodeId, FigureNode> {
@@ -134,18 +134,18 @@ fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
 
 fn node(
     context: &FigureContext<'_>,
-    frames: &TiSlice<PartId, Frame>,
+    frames: &TiSlice<PartId, PartFrames>,
     layers: &Layers,
     pending: Pending,
 ) -> FigureNode {
     let part = &context.bindings.parts[pending.part];
-    let own = &frames[pending.part];
+    let own = &frames[pending.part].node;
     let offset = layers.node_step(pending.part, part.parent);
     let depth = if pending.is_mirrored { -offset } else { offset };
     let (position, angle) = match part.parent {
         Some(parent) if pending.parent.is_some() => (
-            frames[parent].to_local(own.origin),
-            own.angle - frames[parent].angle,
+            frames[parent].node.to_local(own.origin),
+            own.angle - frames[parent].node.angle,
         ),
         _ => (own.origin, own.angle),
     };

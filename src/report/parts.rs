@@ -119,7 +119,7 @@ fn report<'a>(
     let (ends, origin, axis, center) = match subject.which {
         Which::Part(part) => {
             let part = &compiled.bindings.parts[part];
-            let measure = &part.measure;
+            let measure = part.node_measure();
             (measure.ends, part.origin, measure.axis, measure.center)
         }
         Which::Landscape(layer) => {

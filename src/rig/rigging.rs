@@ -17,10 +17,10 @@ use crate::retarget::{Rig, RigPart};
 /// A figure as it is drawn, its parts in the order of the group; drawing units, y up.
 pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure {
     let bindings = context.bindings;
-    let middle = |part: PartId| y_up(bindings.parts[part].measure.center);
+    let middle = |part: PartId| y_up(bindings.parts[part].node_measure().center);
     let part = |(place, &index): (FigurePartId, &PartId)| {
         let part = &bindings.parts[index];
-        let [one, other] = part.measure.ends.map(y_up);
+        let [one, other] = part.node_measure().ends.map(y_up);
         let nearer = |to: DVec2| {
             if one.distance_squared(to) <= other.distance_squared(to) {
                 [one, other]

@@ -1,19 +1,20 @@
 //! The joints of parts: where they turn.
 
 use glam::DVec2;
+use rustc_hash::FxHashMap;
 use typed_index_collections::TiSlice;
 
-use super::Axes;
+use super::limbs::Limbs;
 use super::names::Names;
+use super::{Axes, Context};
 use crate::anatomy::{self, Term};
 use crate::bind::attributes::PartAttributes;
 use crate::bind::bindings::PartId;
-use crate::bind::matching::Matched;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, distance_squared};
 use crate::lang::ast::Annotation;
 use crate::lang::value::Origin;
-use crate::svg::Drawing;
+use crate::memo::Memo;
 
 /// The least ratio of length to width for the hint that a part turns about its middle.
 const LONG: f64 = 2.0;
@@ -22,21 +23,26 @@ const EQUALLY_NEAR: f64 = 0.02;
 
 /// What joints depend on.
 pub(super) struct Joints<'a> {
-    pub(super) drawing: &'a Drawing,
-    pub(super) matched: &'a Matched,
+    pub(super) context: Context<'a>,
+    pub(super) limbs: &'a Limbs,
+    pub(super) memo: &'a Memo,
     pub(super) attributes: &'a PartAttributes,
     pub(super) names: &'a Names,
     pub(super) parents: &'a TiSlice<PartId, Option<PartId>>,
     pub(super) axes: &'a Axes,
+    /// What holds lines, by these.
+    pub(super) holders: &'a FxHashMap<PartId, PartId>,
 }
 
 impl Joints<'_> {
     fn measure(&self, part: PartId) -> &Measure {
-        self.axes.measure(self.matched, part)
+        self.axes.measure(self.context.matched, part)
     }
 
     fn chosen(&self, part: PartId) -> Option<Origin> {
-        self.attributes.attributes(self.matched, part).origin()
+        self.attributes
+            .attributes(self.context.matched, part)
+            .origin()
     }
 
     /// The joint of a main part (paper, section 3.5).
@@ -52,7 +58,14 @@ impl Joints<'_> {
             Some(Origin::Point([x, y])) => DVec2::new(x, y),
             None => match parent {
                 None => measure.center,
-                Some(parent) if self.is_hinged(index) => self.hinge(index, parent, [start, end]),
+                Some(parent) if self.holders.get(&index) == Some(&parent) => {
+                    let hold = &self.context.matched.parts[index].hold;
+                    hold.map_or(start, |hold| hold.at)
+                }
+                Some(parent) if self.is_hinged(index) => {
+                    let met = self.limbs.joint(self.context, [index, parent], self.memo);
+                    met.unwrap_or_else(|| self.hinge(index, parent, [start, end]))
+                }
                 Some(parent) => {
                     let candidates = [start, end, measure.center];
                     // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.
@@ -82,7 +95,7 @@ impl Joints<'_> {
     /// The end at which a limb is attached: the one that lies on its parent or nearer to its outline. Of ends that are equally near it
     /// is the upper one of what hangs, such as arms and legs, else the one nearer to the parent's centre, which is given first.
     fn hinge(&self, part: PartId, parent: PartId, [start, far]: [DVec2; 2]) -> DVec2 {
-        let outline = &self.matched.parts[parent].outline;
+        let outline = &self.context.matched.parts[parent].outline;
         let gap = |end: DVec2| distance_squared(outline, end).sqrt();
         let (near, other) = (gap(start), gap(far));
         let way = far - start;
@@ -98,12 +111,10 @@ impl Joints<'_> {
 
     /// Reports a long part beside its parent that turns about its middle, which is seldom meant.
     pub(super) fn turns_about_middle(&self, index: PartId, origin: DVec2) -> Option<Diagnostic> {
-        let Self {
-            drawing,
-            matched,
-            names,
-            ..
-        } = self;
+        let Self { context, names, .. } = self;
+        let Context {
+            drawing, matched, ..
+        } = *context;
         let measure = self.measure(index);
         let long = measure.half_along > LONG * measure.half_across;
         let (parent, string) = (self.parents[index]?, matched.string_of(index)?);

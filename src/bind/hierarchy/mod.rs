@@ -3,6 +3,7 @@
 mod contact;
 mod details;
 mod joints;
+mod limbs;
 mod names;
 mod parents;
 mod unnamed;
@@ -22,12 +23,13 @@ use super::describe::describe;
 use super::matching::{LayerId, Matched};
 use super::names::OwnName;
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
-use crate::geometry::{Measure, measure_along};
+use crate::geometry::{Measure, Outline, measure_along};
 use crate::index::par_keys;
 use crate::memo::{Bits, Long, Memo};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 use joints::Joints;
+use limbs::Limbs;
 use names::Names;
 
 /// The name of the virtual node that is the parent of parts without one.
@@ -59,13 +61,23 @@ pub(in crate::bind) struct Nodes {
     pub(in crate::bind) kind: TiVec<PartId, PartKind>,
 }
 
-/// The axes that `Axis` turns.
-pub(in crate::bind) struct Axes(FxHashMap<PartId, Measure>);
+/// The axes of parts that are not those of their main shapes as they are drawn.
+pub(in crate::bind) struct Axes {
+    /// Those that `Axis` turns.
+    turned: FxHashMap<PartId, Measure>,
+    /// Those of all shapes of a part together.
+    of_groups: FxHashMap<PartId, Measure>,
+}
 
 impl Axes {
-    /// The axis, center and ends of a part that `Axis` turns.
+    /// The axis, center and ends of a shape that `Axis` turns.
     pub(in crate::bind) fn turned(&self, part: PartId) -> Option<Measure> {
-        self.0.get(&part).copied()
+        self.turned.get(&part).copied()
+    }
+
+    /// The axis, center and ends of all shapes of a part together, where they are not those of its main shape.
+    pub(in crate::bind) fn of_group(&self, part: PartId) -> Option<Measure> {
+        self.of_groups.get(&part).copied()
     }
 
     /// The axis, center and ends of a part.
@@ -74,7 +86,9 @@ impl Axes {
         matched: &'a Matched,
         part: PartId,
     ) -> &'a Measure {
-        self.0.get(&part).unwrap_or(&matched.parts[part].measure)
+        let of_group = self.of_groups.get(&part);
+        let own = of_group.or_else(|| self.turned.get(&part));
+        own.unwrap_or(&matched.parts[part].measure)
     }
 }
 
@@ -118,7 +132,8 @@ pub(in crate::bind) fn build(
     };
     let mut names = Names::new(context, said, diagnostics);
     names.give_own(context);
-    let mut parents = automatic(context, &mut names, memo, diagnostics);
+    let holders = parents::holders(context);
+    let (mut parents, unnamed) = automatic(context, &mut names, &holders, memo);
     if by_contact {
         set(&mut parents, contact::parents(context, &names));
     }
@@ -129,14 +144,22 @@ pub(in crate::bind) fn build(
     );
     let parent_of_layer = parents::of_layers(context, &names, diagnostics);
     let parents = parents::without_cycles(context, &names, parents, diagnostics);
-    let axes = axes(context, attributes, &names, diagnostics);
+    if matched.annotated {
+        for parts in &unnamed {
+            unnamed::report(context, &names, &parents, by_contact, parts, diagnostics);
+        }
+    }
+    let limbs = Limbs::read(context, memo);
+    let axes = axes(context, attributes, &names, &limbs, diagnostics);
     let joints = Joints {
-        drawing,
-        matched,
+        context,
+        limbs: &limbs,
+        memo,
         attributes,
         names: &names,
         parents: &parents,
         axes: &axes,
+        holders: &holders,
     };
     let mains: Vec<PartId> = context.mains().collect();
     let found: Vec<(PartId, DVec2, Option<Diagnostic>)> = mains
@@ -172,16 +195,14 @@ fn set(parents: &mut TiSlice<PartId, Option<PartId>>, found: Vec<(PartId, Option
 }
 
 /// Names the parts without a name. Returns the parents of them and of the other parts without a string: the nearest named main
-/// parts (rule 5).
+/// parts (rule 5); and both kinds of parts without a string, those that labels and ids name first.
 fn automatic(
     context: Context<'_>,
     names: &mut Names,
+    holders: &FxHashMap<PartId, PartId>,
     memo: &Memo,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> TiVec<PartId, Option<PartId>> {
-    let Context {
-        drawing, matched, ..
-    } = context;
+) -> (TiVec<PartId, Option<PartId>>, [Vec<PartId>; 2]) {
+    let matched = context.matched;
     let (named, waiting): (Vec<PartId>, Vec<PartId>) = context
         .mains()
         .partition(|part| !names.of(*part).is_empty());
@@ -203,12 +224,10 @@ fn automatic(
     let carrying = parents::carrying(matched, names);
     for (part, parent) in by_element.iter().copied().zip(found.iter().copied()) {
         // A part that others are attached to must not hang on one of those.
-        parents[part] = parent.filter(|parent| {
+        let parent = parent.filter(|parent| {
             !carrying.contains(&part) || !parents::hangs_on(matched, names, &parents, *parent, part)
         });
-    }
-    if matched.annotated {
-        unnamed::report(drawing, matched, names, &parents, &by_element, diagnostics);
+        parents[part] = holders.get(&part).copied().or(parent);
     }
     let found = nearest(matched, carriers, &waiting, memo);
     let mut counter = 0;
@@ -221,12 +240,9 @@ fn automatic(
             }
         };
         names.give(part, name, NamedBy::Automatic);
-        parents[part] = parent;
+        parents[part] = holders.get(&part).copied().or(parent);
     }
-    if matched.annotated {
-        unnamed::report(drawing, matched, names, &parents, &waiting, diagnostics);
-    }
-    parents
+    (parents, [by_element, waiting])
 }
 
 /// The nearest of some parts to each of others.
@@ -274,6 +290,7 @@ fn axes(
     context: Context<'_>,
     attributes: &PartAttributes,
     names: &Names,
+    limbs: &Limbs,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Axes {
     let found: Vec<(PartId, Axis)> = par_keys(&context.matched.parts)
@@ -302,7 +319,21 @@ fn axes(
         },
         diagnostics,
     );
-    Axes(turned)
+    let set = |part: PartId| attributes.attributes(context.matched, part).axis();
+    Axes {
+        turned,
+        of_groups: limbs.measures(context, set),
+    }
+}
+
+/// The measures of an outline along an axis, degrees counter-clockwise from the drawing's right.
+fn measure_turned(outline: &Outline, degrees: f64) -> Option<Measure> {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let measure = measure_along(outline, DVec2::new(cos, -sin))?;
+    Some(Measure {
+        certain: true,
+        ..measure
+    })
 }
 
 /// A change to a part's axis, or a doubt about it.
@@ -331,12 +362,7 @@ fn axis(
         return None;
     }
     if let Some(degrees) = attributes.axis() {
-        let (sin, cos) = degrees.to_radians().sin_cos();
-        let measure = measure_along(&part.outline, DVec2::new(cos, -sin))?;
-        return Some(Axis::Turned(Measure {
-            certain: true,
-            ..measure
-        }));
+        return measure_turned(&part.outline, degrees).map(Axis::Turned);
     }
     let profile = || attributes.profile(drawing);
     let turns = !part.measure.certain && profile().is_some_and(|profile| profile.depends_on_axis());

@@ -6,10 +6,11 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 use super::names::Names;
 use super::{Context, ROOT};
 use crate::bind::bindings::{DrawingString, PartId, PartKind};
-use crate::bind::matching::{LayerId, LayerKind, Matched};
+use crate::bind::matching::{Hold, LayerId, LayerKind, Matched};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
+use crate::svg::ShapeId;
 
 /// Finds the parents that strings name.
 pub(super) fn of_strings(
@@ -38,6 +39,31 @@ fn named_parent(matched: &Matched, part: PartId, names: &Names) -> Option<PartId
         Annotation::Part(part) => names.by_name.get(&part.parent.as_ref()?.text).copied(),
         _ => None,
     }
+}
+
+/// The parts that hold lines, by the main parts that these lines are. Lines and what holds them do not hold each other in a circle: a
+/// line holds nothing.
+pub(super) fn holders(context: Context<'_>) -> FxHashMap<PartId, PartId> {
+    let Context { matched, nodes, .. } = context;
+    let held = context
+        .mains()
+        .filter_map(|part| Some((part, matched.parts[part].hold?)));
+    let held: Vec<(PartId, Hold)> = held.collect();
+    if held.is_empty() {
+        return FxHashMap::default();
+    }
+    let fills = matched
+        .parts
+        .iter_enumerated()
+        .filter(|(_, part)| !part.is_stroke);
+    let fills: FxHashMap<ShapeId, PartId> =
+        fills.map(|(index, part)| (part.shape, index)).collect();
+    let holder = |(part, hold): (PartId, Hold)| {
+        let main = nodes.main[*fills.get(&hold.by)?];
+        let is_main = nodes.kind[main] == PartKind::Main;
+        (is_main && main != part).then_some((part, main))
+    };
+    held.into_iter().filter_map(holder).collect()
 }
 
 /// The parts to which strings attach others.

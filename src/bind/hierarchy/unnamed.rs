@@ -2,21 +2,23 @@
 
 use typed_index_collections::TiSlice;
 
+use super::Context;
 use super::names::Names;
 use crate::bind::bindings::{NamedBy, PartId};
-use crate::bind::matching::Matched;
 use crate::diagnostic::{Code, Diagnostic, FEW, listed};
-use crate::svg::Drawing;
 
 /// Reports parts without a string: all those with automatic names, or all those that labels and ids name.
 pub(super) fn report(
-    drawing: &Drawing,
-    matched: &Matched,
+    context: Context<'_>,
     names: &Names,
     parents: &TiSlice<PartId, Option<PartId>>,
+    by_contact: bool,
     parts: &[PartId],
     diagnostics: &mut Vec<Diagnostic>,
 ) {
+    let Context {
+        drawing, matched, ..
+    } = context;
     let described = |part: &PartId| drawing.describe(matched.parts[*part].shape);
     let report = |part: PartId, message: String| {
         let element = &drawing.shapes[matched.parts[part].shape].element;
@@ -42,14 +44,19 @@ pub(super) fn report(
         return;
     }
     let ends = [parts[0], parts[parts.len() - 1]];
-    let [from, to] = ends.map(|part| names.of(part));
+    let [first, last] = ends.map(|part| names.of(part));
     let named = if names.of_part[parts[0]].by == NamedBy::Automatic {
-        format!("named `{from}` to `{to}`")
+        format!("named `{first}` to `{last}`")
     } else {
         "named by their labels or ids".to_owned()
     };
+    let to = if by_contact {
+        "to a part that it touches"
+    } else {
+        "to the nearest named part"
+    };
     let message = format!(
-        "{} shapes have no string: they are {named}, and each is attached to the nearest named part: {}",
+        "{} shapes have no string: they are {named}, and each is attached {to}: {}",
         parts.len(),
         listed(parts.iter().map(described))
     );

@@ -107,7 +107,7 @@ impl Question {
 }
 
 /// Points at equal distances along a stroke's centre line.
-fn along(stroke: &StrokeSource, tolerance: f64) -> Vec<DVec2> {
+pub(super) fn along(stroke: &StrokeSource, tolerance: f64) -> Vec<DVec2> {
     let mut segments: Vec<[DVec2; 2]> = Vec::new();
     stroke.middle_line(tolerance, |from, to| segments.push([from, to]));
     let total: f64 = segments.iter().map(|[from, to]| from.distance(*to)).sum();

@@ -20,6 +20,8 @@ const MAX_WIDTH: f64 = 0.25;
 const MIN_LENGTH: f64 = 1.0;
 /// How far from a string's box a leader begins at most, and how far from a shape it ends, font sizes.
 const REACH: f64 = 1.0;
+/// How far from a string's box a line begins at most that may be meant as its leader, font sizes.
+const FAR_REACH: f64 = 2.5;
 /// By what share a string's box is made wider: its width is an estimate, and most fonts are wider for some words.
 const WIDER: f64 = 0.15;
 /// How finely a leader is sampled to find how much of it lies on no shape, font sizes.
@@ -36,6 +38,8 @@ pub(in crate::bind) struct Leaders {
     pub(super) connected: Vec<(StringId, ShapeId)>,
     /// The shapes that are leaders, ascending.
     pub(super) shapes: Vec<ShapeId>,
+    /// Other thin lines that begin at a string, ascending: perhaps meant as leaders, but too far away, too short, or within one unit.
+    doubtful: Vec<ShapeId>,
 }
 
 impl Leaders {
@@ -67,14 +71,24 @@ impl Leaders {
                 continue;
             }
             let [a, b] = line.ends;
-            let (string, from, to) = match (strings.at(a), strings.at(b)) {
+            let at = |point| strings.at(point, REACH);
+            let (string, from, to) = match (at(a), at(b)) {
                 (Some(string), None) => (string, a, b),
                 (None, Some(string)) => (string, b, a),
                 // A line between two strings, or one that begins at none, leads from nothing.
-                _ => continue,
+                _ => {
+                    let near = |point| strings.at(point, FAR_REACH);
+                    if let Some(string) = near(a).xor(near(b))
+                        && is_thin(shape, strings.em(string))
+                    {
+                        leaders.doubtful.push(index);
+                    }
+                    continue;
+                }
             };
             let em = strings.em(string);
-            let is_leader = leads(shape, em, &fills)
+            let is_leader = is_thin(shape, em)
+                && leads(shape, em, &fills)
                 // A guide that only begins beside a string leads nowhere.
                 && fills.is_near(to, REACH * em)
                 && !in_one_unit(drawing, &fills, node_groups, [from, to]);
@@ -83,9 +97,16 @@ impl Leaders {
                 if bound.insert(string) {
                     leaders.points.insert(string, to);
                 }
+            } else if is_thin(shape, em) {
+                leaders.doubtful.push(index);
             }
         }
         leaders
+    }
+
+    /// Whether a line begins at a string as a leader does, although it leads nowhere.
+    pub(super) fn may_be_meant(&self, shape: ShapeId) -> bool {
+        self.doubtful.binary_search(&shape).is_ok()
     }
 }
 
@@ -106,14 +127,17 @@ impl Bindings {
     }
 }
 
-/// Whether a line is thin and long enough for a leader, and lies on no shape for long enough.
+/// Whether a line is thin enough for a leader.
+fn is_thin(shape: &Shape, em: f64) -> bool {
+    let mut stroke = shape.stroke.iter();
+    stroke.any(|stroke| stroke.width() <= MAX_WIDTH * em)
+}
+
+/// Whether a line is long enough for a leader, and lies on no shape for long enough.
 fn leads(shape: &Shape, em: f64, fills: &Fills<'_>) -> bool {
     let Some(stroke) = &shape.stroke else {
         return false;
     };
-    if stroke.width() > MAX_WIDTH * em {
-        return false;
-    }
     let mut edges = Vec::new();
     stroke.middle_line(SAMPLE * em, |a, b| edges.push((a, b, a.distance(b))));
     let length: f64 = edges.iter().map(|edge| edge.2).sum();
@@ -154,7 +178,7 @@ impl<'a> Labels<'a> {
                 && string.means_a_place()
             {
                 let label = &drawing.labels[label].0;
-                reach = reach.max(REACH * label.font_size);
+                reach = reach.max(FAR_REACH * label.font_size);
                 let (low, high) = label.position.bounds;
                 let wider = DVec2::new(WIDER * (high.x - low.x), 0.0);
                 boxes.push(indexed_box((low, high + wider), index));
@@ -175,8 +199,8 @@ impl<'a> Labels<'a> {
         }
     }
 
-    /// The string at the end of a line: the nearest, if it is near.
-    fn at(&self, point: DVec2) -> Option<StringId> {
+    /// The string at the end of a line: the nearest, if it is at most so many of its font sizes away.
+    fn at(&self, point: DVec2, reach: f64) -> Option<StringId> {
         let near = area_around((point, point), self.reach);
         let found = self.boxes.locate_in_envelope_intersecting(near);
         let near = found.filter_map(|found| {
@@ -184,7 +208,7 @@ impl<'a> Labels<'a> {
             let (low, high) = (DVec2::from(area.lower()), DVec2::from(area.upper()));
             let distance = point.distance(point.clamp(low, high));
             let string = found.data;
-            (distance <= REACH * self.em(string)).then_some((distance, string))
+            (distance <= reach * self.em(string)).then_some((distance, string))
         });
         near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
             .map(|(_, string)| string)

@@ -5,6 +5,7 @@ mod bare_names;
 mod binder;
 mod converted;
 mod fills;
+mod held;
 mod ink;
 mod kinds;
 mod layers;
@@ -18,6 +19,9 @@ mod stacking;
 mod strings;
 mod wrappers;
 
+pub(in crate::bind) use areas::united;
+pub(in crate::bind) use bare_names::is_bare_name;
+pub(in crate::bind) use held::Hold;
 pub(in crate::bind) use kinds::of_ink;
 pub(in crate::bind) use layers::group_of;
 pub use layers::in_layers_of_pixels;

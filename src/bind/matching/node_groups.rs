@@ -1,22 +1,34 @@
 //! Node groups: which shapes become one node of the hierarchy.
 //!
 //! A part has a source: the fill of a shape, or its stroke if that is built. All sources in a node group share a node, but ink
-//! goes with what it lies on; the back-most of the others is the main part candidate.
+//! goes with what it lies on; the back-most or the largest of the others is the main part candidate.
 
+use std::cell::LazyCell;
+use std::sync::Arc;
+
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
+use super::areas;
 use super::converted::ConvertedStrings;
+use super::fills::Fills;
+use super::held::{self, Hold};
 use super::ink;
 use super::layers::Layers;
 use super::leaders::Leaders;
 use super::parts::MatchedPart;
 use super::settings::Strokes;
+use super::stacking::ground_count;
 use super::strings::ReadString;
 use super::wrappers;
 use crate::bind::bindings::{PartId, StringHolder, StringId};
+use crate::geometry::area;
 use crate::memo::Memo;
 use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId};
+
+/// The least share of a node's area that its back-most part covers as its main part.
+const LEADS: f64 = 0.5;
 
 /// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
@@ -27,6 +39,8 @@ pub(super) struct PartSource {
     pub(super) is_stroke: bool,
     /// For ink, the shape on which it lies.
     pub(super) host: Option<ShapeId>,
+    /// For a line that begins on a shape, where it does.
+    pub(super) hold: Option<Hold>,
 }
 
 /// What a group means for the hierarchy.
@@ -182,6 +196,10 @@ impl NodeGroups {
         let mut common = inside(group);
         for (_, group) in rest {
             let chain = inside(*group);
+            // Ink of the node may be drawn in a group of its own, as in art with colours and lines in two layers.
+            if chain.is_empty() {
+                continue;
+            }
             let same = common.iter().zip(&chain).take_while(|(a, b)| a == b);
             let same = same.count();
             common.truncate(same);
@@ -228,14 +246,21 @@ fn sources(
     let is_ink = |shape: ShapeId| ink && is_free(shape);
     let is_host = |shape: ShapeId| !is_map(shape) && !backgrounds[shape];
     let hosts = ink::hosts(drawing, is_ink, is_host, memo);
+    let fills = LazyCell::new(|| {
+        let outlines = drawing.shapes.iter().map(|shape| &*shape.outline);
+        let ground = ground_count(outlines, drawing.page);
+        let above = drawing.shapes.keys().skip(ground);
+        Fills::of(drawing, above.filter(|shape| is_host(*shape)))
+    });
     let converted = ConvertedStrings::of(drawing);
     let mut sources = Vec::with_capacity(drawing.shapes.len());
-    let mut add = |shape, is_stroke, host| {
+    let mut add = |shape, is_stroke, host, hold| {
         sources.push(PartSource {
             index: sources.len(),
             shape,
             is_stroke,
             host,
+            hold,
         })
     };
     for (index, shape) in drawing.shapes.iter_enumerated() {
@@ -245,14 +270,21 @@ fn sources(
         }
         let has_stroke = shape.stroke.is_some();
         if !shape.outline.polygons.is_empty() {
-            add(index, false, None);
+            add(index, false, None, None);
             if has_stroke && borders && !is_map(index) {
-                add(index, true, Some(index));
+                add(index, true, Some(index), None);
             }
-        } else if has_stroke
-            && (described[index] || hosts[index].is_some() || (lines && is_free(index)))
-        {
-            add(index, true, hosts[index]);
+        } else if let Some(host) = hosts[index] {
+            add(index, true, Some(host), None);
+        } else if has_stroke {
+            let is_line = shape.line.is_some() && !leaders.may_be_meant(index);
+            let is_line = is_line && (is_ink(index) || described[index]);
+            let hold = is_line
+                .then(|| held::hold(drawing, index, &fills))
+                .flatten();
+            if described[index] || hold.is_some() || (lines && is_free(index)) {
+                add(index, true, None, hold);
+            }
         }
     }
     sources
@@ -321,19 +353,66 @@ fn roles(
         .collect()
 }
 
-/// Makes the back-most part of each node its main part candidate.
-pub(super) fn choose_mains(node_groups: &NodeGroups, parts: &mut TiSlice<PartId, MatchedPart>) {
-    let mut mains: FxHashMap<(Option<GroupId>, GroupId), PartId> = FxHashMap::default();
+/// The main part candidate of each node: its back-most part; or the largest, if that covers less than half of the node's area, as a hand
+/// does that is drawn before its sleeve.
+pub(super) fn choose_mains(
+    node_groups: &NodeGroups,
+    parts: &mut TiSlice<PartId, MatchedPart>,
+    memo: &Memo,
+) {
+    let node = |part: &MatchedPart| {
+        let group = node_groups.node_group[part.source]?;
+        Some((node_groups.container[part.source], group))
+    };
+    let mut members: FxHashMap<(Option<GroupId>, GroupId), Vec<PartId>> = FxHashMap::default();
+    for (index, part) in parts.iter_enumerated() {
+        if part.host.is_none()
+            && let Some(node) = node(part)
+        {
+            members.entry(node).or_default().push(index);
+        }
+    }
+    let mains: FxHashMap<_, PartId> = members
+        .par_iter()
+        .filter_map(|(node, members)| Some((*node, main_of(members, parts, memo)?)))
+        .collect();
     for index in parts.keys() {
-        let source = parts[index].source;
-        let main = match (parts[index].host, node_groups.node_group[source]) {
-            (Some(host), _) => parts[host].main,
-            (None, Some(group)) => *mains
-                .entry((node_groups.container[source], group))
-                .or_insert(index),
-            (None, None) => index,
+        let part = &parts[index];
+        let main = match part.host {
+            Some(host) => parts[host].main,
+            None => {
+                let main = node(part).and_then(|node| mains.get(&node).copied());
+                main.unwrap_or(index)
+            }
         };
-        parts[index].node_group = node_groups.node_group[source];
+        parts[index].node_group = node_groups.node_group[parts[index].source];
         parts[index].main = main;
     }
+}
+
+/// The main part candidate among the parts of a node, back-most first.
+fn main_of(
+    members: &[PartId],
+    parts: &TiSlice<PartId, MatchedPart>,
+    memo: &Memo,
+) -> Option<PartId> {
+    let first = *members.first()?;
+    let sizes = members.iter().map(|part| area(&parts[*part].outline));
+    let sizes: Vec<f64> = sizes.collect();
+    // Of equal ones the back-most.
+    let (largest, most) = members
+        .iter()
+        .zip(&sizes)
+        .rev()
+        .max_by(|a, b| a.1.total_cmp(b.1))?;
+    let own = sizes[0] / LEADS;
+    if own >= sizes.iter().sum() {
+        return Some(first);
+    }
+    let covers_less = own < *most || {
+        let outlines = members.iter().map(|part| Arc::clone(&parts[*part].outline));
+        let whole = areas::united(vec![outlines.collect()], memo);
+        whole.first().is_some_and(|whole| own < area(whole))
+    };
+    Some(if covers_less { *largest } else { first })
 }

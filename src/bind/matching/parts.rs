@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::held::Hold;
 use super::node_groups::PartSource;
 use crate::bind::bindings::{self, PartId, StringId};
 use crate::geometry::{Measure, Outline};
@@ -16,6 +17,8 @@ pub(in crate::bind) struct MatchedPart {
     pub(in crate::bind) is_stroke: bool,
     /// For ink, a stroke that lies on another part, that part, which comes before it.
     pub(in crate::bind) host: Option<PartId>,
+    /// For a line that begins on a shape, where it does.
+    pub(in crate::bind) hold: Option<Hold>,
     /// Its area, drawing units.
     pub(in crate::bind) outline: Arc<Outline>,
     /// Its axis, center and ends, as they are drawn.
@@ -42,6 +45,7 @@ impl MatchedPart {
             shape: source.shape,
             is_stroke: source.is_stroke,
             host: None,
+            hold: source.hold,
             outline,
             measure,
             string: None,

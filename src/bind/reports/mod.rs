@@ -39,5 +39,6 @@ pub(in crate::bind) fn all(
     off_page::far_away(drawing, matched, attributes, tree, &mut found);
     unseen::hidden(drawing, matched, &mut found);
     unseen::converted(drawing, &mut found);
+    unseen::names(drawing, matched, &mut found);
     found
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::bind::matching::Matched;
+use crate::bind::matching::{Matched, is_bare_name};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::lang::annotates;
 use crate::source::Text;
@@ -50,6 +50,42 @@ pub(super) fn hidden(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
         finding = finding.related(text.whole(), "a string in it");
     }
     diagnostics.push(finding);
+}
+
+/// The fewest words that may be names which are reported: one is a title or a signature.
+const FEWEST_NAMES: usize = 2;
+/// The most letters of a word that may be a name.
+const LONGEST_NAME: usize = 24;
+
+/// Reports words that may be names of parts, in a drawing whose texts are not read.
+pub(super) fn names(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
+    if matched.annotated {
+        return;
+    }
+    let texts = drawing.labels.iter().map(|(label, _)| &label.text);
+    // Letters by themselves are lettering along a curve.
+    let may_be_name = |text: &&Arc<Text>| {
+        let word = text.as_str().trim();
+        is_bare_name(word) && (2..=LONGEST_NAME).contains(&word.chars().count())
+    };
+    let words: Vec<&Arc<Text>> = texts.filter(may_be_name).collect();
+    if words.len() < FEWEST_NAMES || 2 * words.len() < drawing.labels.len() {
+        return;
+    }
+    let all = listed(
+        words
+            .iter()
+            .map(|word| format!("`{}`", word.as_str().trim())),
+    );
+    let message = format!(
+        "{} words may be names of parts, but are not read: {all}",
+        words.len()
+    );
+    diagnostics.push(
+        Diagnostic::new(Code::UnreadNames, words[0].whole(), message).help(
+            "move each word onto its shape, or group it with that, and put `#` before texts that are no names; or write a string with a sign, such as `Head@Body`",
+        ),
+    );
 }
 
 /// Reports texts that were strings until they were converted to paths.

@@ -10,7 +10,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::{Arrangement, Layers, NodeDepth};
 use crate::bind::PartId;
-use crate::geometry::Frame;
+use crate::figure::PartFrames;
 use crate::scene::WorldTransform;
 use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights};
 
@@ -26,7 +26,7 @@ const SAME: f64 = 0.01;
 /// All that lifting depends on.
 pub(super) struct Lifting<'a> {
     pub(super) arrangement: Arrangement<'a>,
-    pub(super) frames: &'a TiSlice<PartId, Frame>,
+    pub(super) frames: &'a TiSlice<PartId, PartFrames>,
     pub(super) world: &'a WorldTransform,
 }
 
@@ -107,7 +107,7 @@ impl Lifting<'_> {
             }
         }
         let overflows = || {
-            let own = self.frames[shape.part].drawing_about_center();
+            let own = self.frames[shape.part].solid.drawing_about_center();
             let place = |point: &DVec2| own.transform_point2(*point);
             let outline = shape
                 .outline
@@ -260,7 +260,7 @@ impl Lifting<'_> {
             [shape.main, shape.part],
             profile,
         );
-        let node = &self.frames[shape.main];
+        let node = &self.frames[shape.main].node;
         let to_plane =
             DAffine2::from_translation(node.origin * scale) * DAffine2::from_angle(node.angle);
         Body {

@@ -16,7 +16,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::FigureContext;
 use crate::bind::PartId;
-use crate::geometry::Frame;
+use crate::figure::PartFrames;
 use crate::memo::Memo;
 use crate::scene::WorldTransform;
 use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
@@ -135,7 +135,7 @@ impl Layers {
     /// How the parts lie, and which of them given depths hide or let float.
     pub(super) fn arrange(
         context: &FigureContext<'_>,
-        frames: &TiSlice<PartId, Frame>,
+        frames: &TiSlice<PartId, PartFrames>,
         world: &WorldTransform,
         memo: &Memo,
     ) -> (Self, Vec<Buried>) {
