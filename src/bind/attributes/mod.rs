@@ -267,8 +267,21 @@ impl Bindings {
     /// that is drawn there.
     pub fn profile(&self, drawing: &Drawing, part: PartId) -> Option<Profile> {
         let form = self.form(part);
-        let profile = self.attributes(form).profile(drawing);
+        let profile = self
+            .attributes(form)
+            .profile(self.plate_depth(drawing, form));
         profile.filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
+    }
+
+    /// How far a part that is a plate reaches to the front and to the back if its depths are not given, drawing units. A line is as deep as
+    /// it is wide.
+    fn plate_depth(&self, drawing: &Drawing, part: PartId) -> f64 {
+        let own = &self.parts[part];
+        let most = plate_depth(drawing);
+        match &drawing.shapes[own.shape].stroke {
+            Some(stroke) if own.is_stroke => most.min(0.5 * stroke.width()),
+            _ => most,
+        }
     }
 
     /// The factors of a part's material.
@@ -397,9 +410,10 @@ impl<'a> Attributes<'a> {
     }
 
     /// How an outline with these attributes gets its thickness; `None` for `Shape none`.
-    pub(in crate::bind) fn profile(&self, drawing: &Drawing) -> Option<Profile> {
+    /// `plate_depth` is how far a plate without depths reaches.
+    pub(in crate::bind) fn profile(&self, plate_depth: f64) -> Option<Profile> {
         let shape = self.shape();
-        Profile::new(shape.kind, shape.numbers(), plate_depth(drawing))
+        Profile::new(shape.kind, shape.numbers(), plate_depth)
     }
 
     /// `Offset`: towards the viewer, drawing units.
