@@ -113,6 +113,8 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::Buried, "depth-buries"),
     (Code::BentArm, "motion-bent-arm"),
     (Code::UnreadNames, "text-bare-names-too-far"),
+    (Code::UnusualSize, "figure-of-unusual-size"),
+    (Code::LinesLeftOut, "ink-outside-is-a-guide"),
 ];
 
 /// What okoshi prints for a diagnostic of a drawing.

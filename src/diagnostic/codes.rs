@@ -673,6 +673,24 @@ codes! {
     /// Put `#` before every text that is no name, and move the words onto their shapes. Or write one string with a sign, such as
     /// `Head@Body`: then all texts are read.
     UnreadNames = "H414", "words that may be names are not read";
+    /// A figure with arms or legs is taller than 4 m or smaller than 0.3 m, and no string says `Scale`. A drawing unit is
+    /// one centimetre, and drawing programs write millimetres, points or pixels, so that a knight of 1,050 pixels becomes 10.5 m tall.
+    ///
+    /// ```text
+    /// a figure 1,050 units tall, with a part `Rarm`
+    /// ```
+    ///
+    /// Write `%Scale 0.16`, or accept the fix, which computes the number for 1.7 m. `%Scale 1` says that the size is meant.
+    UnusualSize = "H415", "a figure of an unusual size";
+    /// Lines without a fill are not built: they neither lie on a shape nor begin on one, so they are taken for guides. Those
+    /// that are not wider than a 300th of the page are guides without a hint.
+    ///
+    /// ```text
+    /// a line that crosses the page, in a drawing with strings
+    /// ```
+    ///
+    /// Write `%Strokes lines` to build them, or `%Strokes none` to do without all lines.
+    LinesLeftOut = "H416", "lines left out";
 }
 
 impl Code {

@@ -123,7 +123,8 @@ impl Joints<'_> {
         // A hat or a foot lies across the end of its parent, and is meant to turn about its middle.
         let alike = !beside.certain
             || beside.axis.dot(measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
-        if !long || !alike || origin != measure.center || chosen() {
+        let scattered = || self.limbs.is_scattered(index);
+        if !long || !alike || origin != measure.center || chosen() || scattered() {
             return None;
         }
         let text = &string.text;

@@ -68,6 +68,12 @@ impl Limbs {
         Arc::clone(self.areas.get(&part).unwrap_or_else(own))
     }
 
+    /// Whether a part is several areas that do not touch, such as the windows of a car.
+    pub(super) fn is_scattered(&self, part: PartId) -> bool {
+        let area = self.areas.get(&part);
+        area.is_some_and(|area| area.polygons.len() > 1)
+    }
+
     /// The axis, centre and ends of the parts whose back-most shape is not their main one. `axis` is what `Axis` says of a part.
     pub(super) fn measures(
         &self,

@@ -95,7 +95,7 @@ impl<'a> Binder<'a> {
             }
             part_of_shape[part.shape].get_or_insert(index);
         }
-        node_groups::choose_mains(&node_groups, &mut parts, memo);
+        node_groups::choose_mains(drawing, &node_groups, &mut parts, memo);
         // A string of a whole node is one of its main part.
         for (group, back_most) in back_most.iter_mut_enumerated() {
             if let Some(part) = back_most
@@ -285,7 +285,7 @@ impl<'a> Binder<'a> {
         for members in members.values() {
             self.node_groups.open(members);
         }
-        node_groups::choose_mains(&self.node_groups, &mut self.parts, self.memo);
+        node_groups::choose_mains(self.drawing, &self.node_groups, &mut self.parts, self.memo);
     }
 
     /// Which strings may name a main part: those of its container, or all outside of containers; `None` if none may.

@@ -104,6 +104,11 @@ impl Leaders {
         leaders
     }
 
+    /// Whether a shape is a line that leads from a string to what it means.
+    pub(in crate::bind) fn leads(&self, shape: ShapeId) -> bool {
+        self.shapes.binary_search(&shape).is_ok()
+    }
+
     /// Whether a line begins at a string as a leader does, although it leads nowhere.
     pub(super) fn may_be_meant(&self, shape: ShapeId) -> bool {
         self.doubtful.binary_search(&shape).is_ok()
@@ -113,7 +118,7 @@ impl Leaders {
 impl Bindings {
     /// Whether a shape is a line that leads from a string to what it means.
     pub fn is_leader(&self, shape: ShapeId) -> bool {
-        self.leaders.shapes.binary_search(&shape).is_ok()
+        self.leaders.leads(shape)
     }
 
     /// The points on the page, user units, of which one is meant by a string's place: the end of its leader, or the beginning, the

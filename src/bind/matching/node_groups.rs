@@ -7,7 +7,7 @@ use std::cell::LazyCell;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::areas;
@@ -73,6 +73,32 @@ pub(in crate::bind) struct NodeGroups {
     pub(in crate::bind) backgrounds: TiVec<ShapeId, bool>,
     /// Per group: whether it is such a layer, with parts that strings can belong to.
     holds_parts: TiVec<GroupId, bool>,
+    /// The groups and shapes with strings of their own.
+    described: Described,
+}
+
+/// Groups and shapes with strings of their own.
+#[derive(Debug)]
+struct Described {
+    groups: TiVec<GroupId, bool>,
+    shapes: FxHashSet<ShapeId>,
+}
+
+impl Described {
+    fn read(drawing: &Drawing, strings: &TiSlice<StringId, ReadString>) -> Self {
+        let mut groups = ti_vec![false; drawing.groups.len()];
+        let mut shapes = FxHashSet::default();
+        for string in strings.iter().filter(|string| string.wants_part()) {
+            match string.holder {
+                StringHolder::Label(label) => groups[drawing.labels[label].1] = true,
+                StringHolder::Group(group) => groups[group] = true,
+                StringHolder::Shape(shape) => {
+                    shapes.insert(shape);
+                }
+            }
+        }
+        Self { groups, shapes }
+    }
 }
 
 impl NodeGroups {
@@ -107,6 +133,7 @@ impl NodeGroups {
             in_layer: vec![],
             backgrounds: wrappers.backgrounds,
             holds_parts: ti_vec![false; drawing.groups.len()],
+            described: Described::read(drawing, strings),
             sources: vec![],
             roles: roles(drawing, &counts, &layer, &wrappers.groups_nothing),
             parents,
@@ -215,6 +242,13 @@ impl NodeGroups {
         true
     }
 
+    /// Whether a shape has a string of its own within the group of a node, or is in an inner group that has one.
+    fn is_described(&self, drawing: &Drawing, shape: ShapeId, node: GroupId) -> bool {
+        let inner = self.chain(drawing.shapes[shape].group);
+        let mut inner = inner.take_while(|group| *group != node);
+        self.described.shapes.contains(&shape) || inner.any(|group| self.described.groups[group])
+    }
+
     /// The group of the tile layer to whose shapes strings in a group are restricted; `None` for strings outside of tile layers.
     pub(super) fn scope_of_layer(&self, group: GroupId) -> Option<GroupId> {
         self.layer[group].filter(|layer| self.holds_parts[*layer])
@@ -241,7 +275,7 @@ fn sources(
         let group = drawing.shapes[shape].group;
         layers.of_group(group).is_some()
     };
-    let is_leader = |shape: ShapeId| leaders.shapes.binary_search(&shape).is_ok();
+    let is_leader = |shape: ShapeId| leaders.leads(shape);
     let is_free = |shape: ShapeId| !described[shape] && !is_leader(shape) && !is_map(shape);
     let is_ink = |shape: ShapeId| ink && is_free(shape);
     let is_host = |shape: ShapeId| !is_map(shape) && !backgrounds[shape];
@@ -354,8 +388,9 @@ fn roles(
 }
 
 /// The main part candidate of each node: its back-most part; or the largest, if that covers less than half of the node's area, as a hand
-/// does that is drawn before its sleeve.
+/// does that is drawn before its sleeve, unless it has a string of its own.
 pub(super) fn choose_mains(
+    drawing: &Drawing,
     node_groups: &NodeGroups,
     parts: &mut TiSlice<PartId, MatchedPart>,
     memo: &Memo,
@@ -374,7 +409,11 @@ pub(super) fn choose_mains(
     }
     let mains: FxHashMap<_, PartId> = members
         .par_iter()
-        .filter_map(|(node, members)| Some((*node, main_of(members, parts, memo)?)))
+        .filter_map(|(node, members)| {
+            let (first, main) = (*members.first()?, main_of(members, parts, memo)?);
+            let is_described = node_groups.is_described(drawing, parts[main].shape, node.1);
+            Some((*node, if is_described { first } else { main }))
+        })
         .collect();
     for index in parts.keys() {
         let part = &parts[index];

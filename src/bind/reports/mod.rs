@@ -7,6 +7,7 @@ mod located;
 mod misplaced;
 mod off_page;
 mod outlines;
+mod size;
 mod unbound;
 mod uncertain;
 mod unseen;
@@ -36,6 +37,8 @@ pub(in crate::bind) fn all(
     uncertain::report(drawing, matched, &mut found);
     off_page::report(drawing, matched, tree, &mut found);
     outlines::report(drawing, matched, tree, &mut found);
+    outlines::lines(drawing, matched, &mut found);
+    size::report(drawing, matched, tree, &mut found);
     off_page::far_away(drawing, matched, attributes, tree, &mut found);
     unseen::hidden(drawing, matched, &mut found);
     unseen::converted(drawing, &mut found);
