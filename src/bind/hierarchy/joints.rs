@@ -14,7 +14,6 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, distance_squared};
 use crate::lang::ast::Annotation;
 use crate::lang::value::Origin;
-use crate::memo::Memo;
 
 /// The least ratio of length to width for the hint that a part turns about its middle.
 const LONG: f64 = 2.0;
@@ -24,8 +23,7 @@ const EQUALLY_NEAR: f64 = 0.02;
 /// What joints depend on.
 pub(super) struct Joints<'a> {
     pub(super) context: Context<'a>,
-    pub(super) limbs: &'a Limbs,
-    pub(super) memo: &'a Memo,
+    pub(super) limbs: &'a Limbs<'a>,
     pub(super) attributes: &'a PartAttributes,
     pub(super) names: &'a Names,
     pub(super) parents: &'a TiSlice<PartId, Option<PartId>>,
@@ -63,7 +61,7 @@ impl Joints<'_> {
                     hold.map_or(start, |hold| hold.at)
                 }
                 Some(parent) if self.is_hinged(index) => {
-                    let met = self.limbs.joint(self.context, [index, parent], self.memo);
+                    let met = self.limbs.joint([index, parent]);
                     met.unwrap_or_else(|| self.hinge(index, parent, [start, end]))
                 }
                 Some(parent) => {

@@ -1,6 +1,6 @@
 //! Parts drawn in several shapes: their axis, their ends, and where they meet what they hang on, are those of all shapes together.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -20,6 +20,9 @@ const MAX_OVERLAP: f64 = 0.45;
 /// Points of a limb are equally near to its parent if their distances differ by at most this share of the limb's length.
 const STRETCH: f64 = 0.02;
 
+/// The most points of a limb whose distances from its parent are compared.
+const MAX_POINTS: usize = 512;
+
 /// A limb and its parent.
 #[derive(Debug, PartialEq, Eq, Hash)]
 struct Meeting {
@@ -27,68 +30,70 @@ struct Meeting {
     parent: Same<Outline>,
 }
 
-/// The areas of the parts that are drawn in several shapes.
-#[derive(Debug, Default)]
-pub(super) struct Limbs {
-    /// Per main part the area of all its shapes.
-    areas: FxHashMap<PartId, Arc<Outline>>,
+/// The parts that are drawn in several shapes of one group.
+pub(super) struct Limbs<'a> {
+    context: Context<'a>,
+    memo: &'a Memo,
+    /// By their main parts.
+    groups: FxHashMap<PartId, Shapes>,
 }
 
-impl Limbs {
-    /// Unites the shapes of each node of which several were drawn as one group.
-    pub(super) fn read(context: Context<'_>, memo: &Memo) -> Self {
+/// The shapes of a part.
+#[derive(Default)]
+struct Shapes {
+    /// Back-most first.
+    parts: Vec<PartId>,
+    /// The area of all, once it has been asked for.
+    area: OnceLock<Arc<Outline>>,
+}
+
+impl<'a> Limbs<'a> {
+    pub(super) fn read(context: Context<'a>, memo: &'a Memo) -> Self {
         let matched = context.matched;
-        let mut shapes: FxHashMap<PartId, Vec<PartId>> = FxHashMap::default();
+        let mut groups: FxHashMap<PartId, Shapes> = FxHashMap::default();
         for (index, part) in matched.parts.iter_enumerated() {
             let is_drawn = part.host.is_none() && part.node_group.is_some();
             if is_drawn && matched.parts[part.main].node_group == part.node_group {
-                shapes.entry(part.main).or_default().push(index);
+                groups.entry(part.main).or_default().parts.push(index);
             }
         }
-        let is_one = |parts: &Vec<PartId>| (2..=MAX_SHAPES).contains(&parts.len());
-        let mut groups: Vec<(PartId, Vec<PartId>)> = shapes
-            .into_iter()
-            .filter(|(_, parts)| is_one(parts))
-            .collect();
-        groups.sort_unstable_by_key(|(main, _)| *main);
-        let outline = |part: &PartId| Arc::clone(&matched.parts[*part].outline);
-        let lists = groups
-            .iter()
-            .map(|(_, parts)| parts.iter().map(outline).collect());
-        let united = united(lists.collect(), memo);
-        let mains = groups.into_iter().map(|(main, _)| main);
+        groups.retain(|_, shapes| (2..=MAX_SHAPES).contains(&shapes.parts.len()));
         Self {
-            areas: mains.zip(united).collect(),
+            context,
+            memo,
+            groups,
         }
     }
 
-    /// The area of a part.
-    fn area(&self, context: Context<'_>, part: PartId) -> Arc<Outline> {
-        let own = || &context.matched.parts[part].outline;
-        Arc::clone(self.areas.get(&part).unwrap_or_else(own))
+    /// The area of a part in several shapes.
+    fn area_of_group(&self, part: PartId) -> Option<&Arc<Outline>> {
+        let shapes = self.groups.get(&part)?;
+        Some(shapes.area.get_or_init(|| {
+            let outlines = shapes.parts.iter().map(|part| self.outline(*part));
+            let mut areas = united(vec![outlines.cloned().collect()], self.memo);
+            areas.pop().unwrap_or_default()
+        }))
+    }
+
+    fn outline(&self, part: PartId) -> &'a Arc<Outline> {
+        &self.context.matched.parts[part].outline
     }
 
     /// Whether a part is several areas that do not touch, such as the windows of a car.
     pub(super) fn is_scattered(&self, part: PartId) -> bool {
-        let area = self.areas.get(&part);
+        let area = self.area_of_group(part);
         area.is_some_and(|area| area.polygons.len() > 1)
     }
 
     /// The axis, centre and ends of the parts whose back-most shape is not their main one. `axis` is what `Axis` says of a part.
     pub(super) fn measures(
         &self,
-        context: Context<'_>,
         axis: impl Fn(PartId) -> Option<f64> + Sync,
     ) -> FxHashMap<PartId, Measure> {
-        let mut back_most: FxHashMap<_, PartId> = FxHashMap::default();
-        for (index, part) in context.matched.parts.iter_enumerated() {
-            if part.host.is_none() {
-                back_most.entry(part.main).or_insert(index);
-            }
-        }
-        let is_in_front = |main: &PartId| back_most.get(main).is_some_and(|first| first != main);
-        let areas = self.areas.par_iter().filter(|(main, _)| is_in_front(main));
-        let measured = areas.filter_map(|(main, area)| {
+        let is_in_front = |(main, shapes): &(&PartId, &Shapes)| shapes.parts.first() != Some(*main);
+        let groups = self.groups.par_iter().filter(is_in_front);
+        let measured = groups.filter_map(|(main, _)| {
+            let area = self.area_of_group(*main)?;
             let measure = match axis(*main) {
                 Some(degrees) => measure_turned(area, degrees),
                 None => measure(area),
@@ -100,17 +105,15 @@ impl Limbs {
 
     /// Where a limb in several shapes meets its parent: the middle of their overlap, or of the stretch that is nearest to it.
     /// `None` for one in a single shape, and for one that lies on its parent along much of its length.
-    pub(super) fn joint(
-        &self,
-        context: Context<'_>,
-        [limb, parent]: [PartId; 2],
-        memo: &Memo,
-    ) -> Option<DVec2> {
+    pub(super) fn joint(&self, [limb, parent]: [PartId; 2]) -> Option<DVec2> {
+        let limb = self.area_of_group(limb)?;
+        let own = || self.outline(parent);
+        let parent = self.area_of_group(parent).unwrap_or_else(own);
         let meeting = Meeting {
-            limb: Same(Arc::clone(self.areas.get(&limb)?)),
-            parent: Same(self.area(context, parent)),
+            limb: Same(Arc::clone(limb)),
+            parent: Same(Arc::clone(parent)),
         };
-        memo.get(meeting, Meeting::place)
+        self.memo.get(meeting, Meeting::place)
     }
 }
 
@@ -128,7 +131,9 @@ impl Meeting {
             let (low, high) = along.fold(none, |(low, high), at| (low.min(at), high.max(at)));
             return (high - low <= MAX_OVERLAP * length).then_some(middle);
         }
-        let gaps = points(limb).map(|point| (point, distance_squared(parent, point).sqrt()));
+        let step = points(limb).count().div_ceil(MAX_POINTS).max(1);
+        let some = points(limb).step_by(step);
+        let gaps = some.map(|point| (point, distance_squared(parent, point).sqrt()));
         let gaps: Vec<(DVec2, f64)> = gaps.collect();
         let nearest = gaps.iter().map(|(_, gap)| *gap).min_by(f64::total_cmp)?;
         let near = gaps

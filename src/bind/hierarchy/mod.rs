@@ -154,7 +154,6 @@ pub(in crate::bind) fn build(
     let joints = Joints {
         context,
         limbs: &limbs,
-        memo,
         attributes,
         names: &names,
         parents: &parents,
@@ -290,7 +289,7 @@ fn axes(
     context: Context<'_>,
     attributes: &PartAttributes,
     names: &Names,
-    limbs: &Limbs,
+    limbs: &Limbs<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Axes {
     let found: Vec<(PartId, Axis)> = par_keys(&context.matched.parts)
@@ -322,7 +321,7 @@ fn axes(
     let set = |part: PartId| attributes.attributes(context.matched, part).axis();
     Axes {
         turned,
-        of_groups: limbs.measures(context, set),
+        of_groups: limbs.measures(set),
     }
 }
 
