@@ -267,21 +267,8 @@ impl Bindings {
     /// that is drawn there.
     pub fn profile(&self, drawing: &Drawing, part: PartId) -> Option<Profile> {
         let form = self.form(part);
-        let profile = self
-            .attributes(form)
-            .profile(self.plate_depth(drawing, form));
+        let profile = self.attributes(form).profile(drawing);
         profile.filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
-    }
-
-    /// How far a part that is a plate reaches to the front and to the back if its depths are not given, drawing units. A line is as deep as
-    /// it is wide.
-    fn plate_depth(&self, drawing: &Drawing, part: PartId) -> f64 {
-        let own = &self.parts[part];
-        let most = plate_depth(drawing);
-        match &drawing.shapes[own.shape].stroke {
-            Some(stroke) if own.is_stroke => most.min(0.5 * stroke.width()),
-            _ => most,
-        }
     }
 
     /// The factors of a part's material.
@@ -410,10 +397,9 @@ impl<'a> Attributes<'a> {
     }
 
     /// How an outline with these attributes gets its thickness; `None` for `Shape none`.
-    /// `plate_depth` is how far a plate without depths reaches.
-    pub(in crate::bind) fn profile(&self, plate_depth: f64) -> Option<Profile> {
+    pub(in crate::bind) fn profile(&self, drawing: &Drawing) -> Option<Profile> {
         let shape = self.shape();
-        Profile::new(shape.kind, shape.numbers(), plate_depth)
+        Profile::new(shape.kind, shape.numbers(), plate_depth(drawing))
     }
 
     /// `Offset`: towards the viewer, drawing units.

@@ -17,7 +17,7 @@ use rstar::{PointDistance, RTree};
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::attributes::{PartAttributes, plate_depth};
+use super::attributes::PartAttributes;
 use super::bindings::{NamedBy, PartId, PartKind};
 use super::describe::describe;
 use super::matching::{LayerId, Matched};
@@ -363,7 +363,7 @@ fn axis(
     if let Some(degrees) = attributes.axis() {
         return measure_turned(&part.outline, degrees).map(Axis::Turned);
     }
-    let profile = || attributes.profile(plate_depth(drawing));
+    let profile = || attributes.profile(drawing);
     let turns = !part.measure.certain && profile().is_some_and(|profile| profile.depends_on_axis());
     turns.then(|| {
         let name = context.describe(names, index);
