@@ -9,9 +9,6 @@ use crate::scene::WorldTransform;
 use crate::terrain::{LandscapeId, Layer};
 use crate::threads::GRAIN;
 
-/// Metres in a centimetre: one drawing unit is `Scale` centimetres.
-const CENTIMETER: f64 = 0.01;
-
 /// How a drawing with these tile layers lies in the world.
 pub fn world_transform(
     bindings: &Bindings,
@@ -23,7 +20,7 @@ pub fn world_transform(
             .ground
             .unwrap_or_else(|| middle_of_lower_edge(bindings, layers)),
         rotation: bindings.settings.axes,
-        scale: bindings.settings.scale * CENTIMETER,
+        scale: bindings.settings.meters(),
     }
 }
 

@@ -113,9 +113,13 @@ impl<'a> Figures<'a> {
     ) -> Self {
         let context = FigureContext::new(drawing, bindings);
         let parts = bindings.parts.raw.par_iter().with_min_len(GRAIN);
-        let frames = parts.map(|part| PartFrames {
-            node: Frame::new(part.node_measure(), part.origin),
-            solid: Frame::new(&part.measure, part.origin),
+        let frames = parts.map(|part| {
+            let solid = Frame::new(&part.measure, part.origin);
+            let of_group = part.of_group.as_deref();
+            PartFrames {
+                node: of_group.map_or(solid, |measure| Frame::new(measure, part.origin)),
+                solid,
+            }
         });
         let frames: TiVec<PartId, PartFrames> = frames.collect::<Vec<_>>().into();
         let (layers, buried) = Layers::arrange(&context, &frames, world, memo);

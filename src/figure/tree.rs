@@ -4,9 +4,8 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::FigureContext;
-use super::PartFrames;
 use super::layers::Layers;
+use super::{FigureContext, PartFrames};
 use crate::bind::{PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::NodeId;

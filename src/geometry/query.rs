@@ -52,11 +52,16 @@ pub(crate) fn distance_squared(outline: &Outline, point: DVec2) -> f64 {
 
 /// The square of the distance from a point to the nearest border; infinite if there is none.
 pub fn border_distance_squared(outline: &Outline, point: DVec2) -> f64 {
-    edges(outline).fold(f64::INFINITY, |nearest, [a, b]| {
-        let (edge, to) = (b - a, point - a);
-        let along = (to.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-        nearest.min((to - edge * along).length_squared())
+    edges(outline).fold(f64::INFINITY, |nearest, edge| {
+        nearest.min(edge_distance_squared(edge, point))
     })
+}
+
+/// The square of the distance from a point to an edge; not a number for an edge without length.
+pub(crate) fn edge_distance_squared([a, b]: [DVec2; 2], point: DVec2) -> f64 {
+    let (edge, to) = (b - a, point - a);
+    let along = (to.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
+    (to - edge * along).length_squared()
 }
 
 /// The lower and the upper corner of the bounding box; `None` without points.

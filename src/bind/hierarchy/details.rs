@@ -39,20 +39,13 @@ pub(super) fn join(
             members[part.main].push(index);
         }
     }
-    let units = members.iter_enumerated();
-    let mut units: Vec<(PartId, &[PartId])> = units
-        .filter(|(_, members)| !members.is_empty())
-        .map(|(main, members)| (main, members.as_slice()))
-        .collect();
     // In paint order, so that what a part lies on has found its own owner.
-    units.sort_unstable_by_key(|(_, members)| members[0]);
-    for (main, members) in units {
+    for (main, members) in members.iter_enumerated() {
         let is_free = nodes.kind[main] == PartKind::Main && matched.parts[main].string.is_none();
-        if !is_free || stacking.is_ground(main) || counts(main) {
+        if members.is_empty() || !is_free || stacking.is_ground(main) || counts(main) {
             continue;
         }
-        let owner = owner(&nodes, stacking, members).filter(|owner| *owner != main);
-        let Some(owner) = owner else {
+        let Some(owner) = owner(&nodes, stacking, members) else {
             continue;
         };
         for &part in members {

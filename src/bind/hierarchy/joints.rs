@@ -28,8 +28,8 @@ pub(super) struct Joints<'a> {
     pub(super) names: &'a Names,
     pub(super) parents: &'a TiSlice<PartId, Option<PartId>>,
     pub(super) axes: &'a Axes,
-    /// What holds lines, by these.
-    pub(super) holders: &'a FxHashMap<PartId, PartId>,
+    /// What holds lines, and where, by these.
+    pub(super) holders: &'a FxHashMap<PartId, (PartId, DVec2)>,
 }
 
 impl Joints<'_> {
@@ -49,22 +49,24 @@ impl Joints<'_> {
         let center = |parent: PartId| self.measure(parent).center;
         let parent = self.parents[index];
         let [start, end] = sorted_ends(measure, parent.map(center));
+        let held = self.holders.get(&index);
+        let held = held.filter(|(holder, _)| parent == Some(*holder));
         match self.chosen(index) {
             Some(Origin::Center) => measure.center,
             Some(Origin::Start) => start,
             Some(Origin::End) => end,
             Some(Origin::Point([x, y])) => DVec2::new(x, y),
-            None => match parent {
-                None => measure.center,
-                Some(parent) if self.holders.get(&index) == Some(&parent) => {
-                    let hold = &self.context.matched.parts[index].hold;
-                    hold.map_or(start, |hold| hold.at)
-                }
-                Some(parent) if self.is_hinged(index) => {
-                    let met = self.limbs.joint([index, parent]);
+            None => match (parent, held) {
+                (None, _) => measure.center,
+                (_, Some((_, at))) => *at,
+                (Some(parent), None) if is_hinged(self.names, self.parents, index) => {
+                    // On the axis, so that the limb points along it.
+                    let on_axis = |at: DVec2| (at - measure.center).dot(measure.axis);
+                    let met = self.limbs.joint([index, parent]).map(on_axis);
+                    let met = met.map(|along| measure.center + along * measure.axis);
                     met.unwrap_or_else(|| self.hinge(index, parent, [start, end]))
                 }
-                Some(parent) => {
+                (Some(parent), None) => {
                     let candidates = [start, end, measure.center];
                     // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.
                     let near = |p: &DVec2| p.distance_squared(center(parent));
@@ -75,19 +77,6 @@ impl Joints<'_> {
                 }
             },
         }
-    }
-
-    /// Whether a part is by its name a limb, which never turns about its middle.
-    fn is_hinged(&self, index: PartId) -> bool {
-        let terms = anatomy::terms(self.names.of(index));
-        // 足 is a leg, or a foot if it is attached to a leg.
-        let is_foot = terms.contains(&Term::LegOrFoot)
-            && self.parents[index].is_some_and(|parent| {
-                let above = anatomy::terms(self.names.of(parent));
-                let says = |wanted| above.contains(&wanted);
-                (says(Term::Leg) || says(Term::Shin)) && !says(Term::LegOrFoot)
-            });
-        anatomy::is_hinged(&terms) && !is_foot
     }
 
     /// The end at which a limb is attached: the one that lies on its parent or nearer to its outline. Of ends that are equally near it
@@ -121,8 +110,7 @@ impl Joints<'_> {
         // A hat or a foot lies across the end of its parent, and is meant to turn about its middle.
         let alike = !beside.certain
             || beside.axis.dot(measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
-        let scattered = || self.limbs.is_scattered(index);
-        if !long || !alike || origin != measure.center || chosen() || scattered() {
+        if !long || !alike || origin != measure.center || chosen() {
             return None;
         }
         let text = &string.text;
@@ -163,6 +151,23 @@ impl Joints<'_> {
         }
         Some(diagnostic)
     }
+}
+
+/// Whether a part is by its name a limb, which never turns about its middle.
+pub(super) fn is_hinged(
+    names: &Names,
+    parents: &TiSlice<PartId, Option<PartId>>,
+    part: PartId,
+) -> bool {
+    let terms = anatomy::terms(names.of(part));
+    // 足 is a leg, or a foot if it is attached to a leg.
+    let is_foot = terms.contains(&Term::LegOrFoot)
+        && parents[part].is_some_and(|parent| {
+            let above = anatomy::terms(names.of(parent));
+            let says = |wanted| above.contains(&wanted);
+            (says(Term::Leg) || says(Term::Shin)) && !says(Term::LegOrFoot)
+        });
+    anatomy::is_hinged(&terms) && !is_foot
 }
 
 /// The ends of the axis: the one nearer to the parent's centre first; without a parent, the upper one first.

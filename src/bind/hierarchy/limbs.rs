@@ -8,20 +8,26 @@ use rustc_hash::FxHashMap;
 
 use super::{Context, measure_turned};
 use crate::bind::bindings::PartId;
-use crate::bind::matching::united;
-use crate::geometry::{Measure, Outline, centroid, distance_squared, intersect, measure};
-use crate::memo::{Memo, Same};
+use crate::geometry::{
+    Measure, Outline, area, centroid, distance_squared, intersect, measure, union,
+};
+use crate::memo::{Long, Memo, Same};
 
 /// The most shapes that are united. Of more, the main one stands for all.
 const MAX_SHAPES: usize = 64;
+/// The least share of a limb's area that its main shape covers to give the limb its axis.
+const LEADS: f64 = 0.5;
 /// A limb that overlaps its parent by more than this share of its length lies on it, and where it is attached is not where they
 /// overlap.
 const MAX_OVERLAP: f64 = 0.45;
 /// Points of a limb are equally near to its parent if their distances differ by at most this share of the limb's length.
 const STRETCH: f64 = 0.02;
-
 /// The most points of a limb whose distances from its parent are compared.
 const MAX_POINTS: usize = 512;
+
+/// Outlines that are made one.
+#[derive(Debug, PartialEq, Eq, Hash)]
+struct United(Long<Same<Outline>>);
 
 /// A limb and its parent.
 #[derive(Debug, PartialEq, Eq, Hash)]
@@ -70,8 +76,11 @@ impl<'a> Limbs<'a> {
         let shapes = self.groups.get(&part)?;
         Some(shapes.area.get_or_init(|| {
             let outlines = shapes.parts.iter().map(|part| self.outline(*part));
-            let mut areas = united(vec![outlines.cloned().collect()], self.memo);
-            areas.pop().unwrap_or_default()
+            let key = United(outlines.cloned().map(Same).collect());
+            self.memo.get(key, |United(outlines)| {
+                let outlines = outlines.0.iter().map(|outline| (*outline.0).clone());
+                Arc::new(union(&outlines.collect::<Vec<Outline>>()))
+            })
         }))
     }
 
@@ -79,24 +88,22 @@ impl<'a> Limbs<'a> {
         &self.context.matched.parts[part].outline
     }
 
-    /// Whether a part is several areas that do not touch, such as the windows of a car.
-    pub(super) fn is_scattered(&self, part: PartId) -> bool {
-        let area = self.area_of_group(part);
-        area.is_some_and(|area| area.polygons.len() > 1)
-    }
-
-    /// The axis, centre and ends of the parts whose back-most shape is not their main one. `axis` is what `Axis` says of a part.
+    /// The axis, centre and ends of the limbs whose main shape covers less than half of their area, as a hand does that is drawn before its
+    /// sleeve. `axis` is what `Axis` says of a part.
     pub(super) fn measures(
         &self,
+        is_limb: impl Fn(PartId) -> bool + Sync,
         axis: impl Fn(PartId) -> Option<f64> + Sync,
     ) -> FxHashMap<PartId, Measure> {
-        let is_in_front = |(main, shapes): &(&PartId, &Shapes)| shapes.parts.first() != Some(*main);
-        let groups = self.groups.par_iter().filter(is_in_front);
-        let measured = groups.filter_map(|(main, _)| {
-            let area = self.area_of_group(*main)?;
+        let limbs = self.groups.par_iter().filter(|(main, _)| is_limb(**main));
+        let measured = limbs.filter_map(|(main, _)| {
+            let whole = self.area_of_group(*main)?;
+            if area(self.outline(*main)) >= LEADS * area(whole) {
+                return None;
+            }
             let measure = match axis(*main) {
-                Some(degrees) => measure_turned(area, degrees),
-                None => measure(area),
+                Some(degrees) => measure_turned(whole, degrees),
+                None => measure(whole),
             };
             Some((*main, measure?))
         });

@@ -150,7 +150,10 @@ pub(in crate::bind) fn build(
         }
     }
     let limbs = Limbs::read(context, memo);
-    let axes = axes(context, attributes, &names, &limbs, diagnostics);
+    let mut axes = axes(context, attributes, &names, diagnostics);
+    let is_limb = |part: PartId| joints::is_hinged(&names, &parents, part);
+    let axis = |part: PartId| attributes.attributes(matched, part).axis();
+    axes.of_groups = limbs.measures(is_limb, axis);
     let joints = Joints {
         context,
         limbs: &limbs,
@@ -198,7 +201,7 @@ fn set(parents: &mut TiSlice<PartId, Option<PartId>>, found: Vec<(PartId, Option
 fn automatic(
     context: Context<'_>,
     names: &mut Names,
-    holders: &FxHashMap<PartId, PartId>,
+    holders: &FxHashMap<PartId, (PartId, DVec2)>,
     memo: &Memo,
 ) -> (TiVec<PartId, Option<PartId>>, [Vec<PartId>; 2]) {
     let matched = context.matched;
@@ -221,12 +224,13 @@ fn automatic(
     let mut parents = ti_vec![None; matched.parts.len()];
     let found = nearest(matched, by_string, &by_element, memo);
     let carrying = parents::carrying(matched, names);
+    let held_by = |part: PartId| holders.get(&part).map(|(holder, _)| *holder);
     for (part, parent) in by_element.iter().copied().zip(found.iter().copied()) {
         // A part that others are attached to must not hang on one of those.
         let parent = parent.filter(|parent| {
             !carrying.contains(&part) || !parents::hangs_on(matched, names, &parents, *parent, part)
         });
-        parents[part] = holders.get(&part).copied().or(parent);
+        parents[part] = parent.map(|nearest| held_by(part).unwrap_or(nearest));
     }
     let found = nearest(matched, carriers, &waiting, memo);
     let mut counter = 0;
@@ -239,7 +243,7 @@ fn automatic(
             }
         };
         names.give(part, name, NamedBy::Automatic);
-        parents[part] = holders.get(&part).copied().or(parent);
+        parents[part] = parent.map(|nearest| held_by(part).unwrap_or(nearest));
     }
     (parents, [by_element, waiting])
 }
@@ -289,7 +293,6 @@ fn axes(
     context: Context<'_>,
     attributes: &PartAttributes,
     names: &Names,
-    limbs: &Limbs<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Axes {
     let found: Vec<(PartId, Axis)> = par_keys(&context.matched.parts)
@@ -318,10 +321,9 @@ fn axes(
         },
         diagnostics,
     );
-    let set = |part: PartId| attributes.attributes(context.matched, part).axis();
     Axes {
         turned,
-        of_groups: limbs.measures(set),
+        of_groups: FxHashMap::default(),
     }
 }
 

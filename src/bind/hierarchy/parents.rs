@@ -1,5 +1,6 @@
 //! The parents of parts and tile layers: the names after `@`.
 
+use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -41,9 +42,9 @@ fn named_parent(matched: &Matched, part: PartId, names: &Names) -> Option<PartId
     }
 }
 
-/// The parts that hold lines, by the main parts that these lines are. Lines and what holds them do not hold each other in a circle: a
-/// line holds nothing.
-pub(super) fn holders(context: Context<'_>) -> FxHashMap<PartId, PartId> {
+/// The parts that hold lines, and where, by the main parts that these lines are. Lines and what holds them do not hold each other in a
+/// circle: a line holds nothing.
+pub(super) fn holders(context: Context<'_>) -> FxHashMap<PartId, (PartId, DVec2)> {
     let Context { matched, nodes, .. } = context;
     let held = context
         .mains()
@@ -61,7 +62,7 @@ pub(super) fn holders(context: Context<'_>) -> FxHashMap<PartId, PartId> {
     let holder = |(part, hold): (PartId, Hold)| {
         let main = nodes.main[*fills.get(&hold.by)?];
         let is_main = nodes.kind[main] == PartKind::Main;
-        (is_main && main != part).then_some((part, main))
+        (is_main && main != part).then_some((part, (main, hold.at)))
     };
     held.into_iter().filter_map(holder).collect()
 }

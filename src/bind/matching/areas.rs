@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::node_groups::PartSource;
-use crate::geometry::{Measure, Outline, measure, union};
-use crate::memo::{Long, Memo, Same};
+use crate::geometry::{Measure, Outline, measure};
+use crate::memo::{Memo, Same};
 use crate::svg::{Drawing, StrokeSource};
 
 /// A part's outline and its measures.
@@ -19,19 +19,6 @@ pub(super) struct Area {
 enum AreaKey {
     Fill(Same<Outline>),
     Stroke(Same<StrokeSource>),
-}
-
-/// Outlines that are made one.
-#[derive(Debug, PartialEq, Eq, Hash)]
-struct UnionKey(Long<Same<Outline>>);
-
-/// The area that each list of outlines covers.
-pub(in crate::bind) fn united(lists: Vec<Vec<Arc<Outline>>>, memo: &Memo) -> Vec<Arc<Outline>> {
-    let key = |list: Vec<Arc<Outline>>| UnionKey(list.into_iter().map(Same).collect());
-    memo.get_each(lists.into_iter().map(key).collect(), |UnionKey(list)| {
-        let outlines: Vec<Outline> = list.0.iter().map(|outline| (*outline.0).clone()).collect();
-        Arc::new(union(&outlines))
-    })
 }
 
 /// The areas of sources; `None` for those that cover nothing.

@@ -10,6 +10,7 @@ use typed_index_collections::{TiVec, ti_vec};
 use super::fills::Fills;
 use super::wrappers::is_filled;
 use crate::bind::bindings::StringHolder;
+use crate::geometry::edge_distance_squared;
 use crate::lang::is_name_char;
 use crate::source::Text;
 use crate::svg::{Drawing, GroupId, GroupKind, Label, StrokeSource};
@@ -60,12 +61,8 @@ fn is_beside(stroke: &StrokeSource, points: [DVec2; 3], reach: f64) -> bool {
     let reach = reach + 0.5 * stroke.width();
     let mut is_beside = false;
     stroke.middle_line(reach, |from, to| {
-        let way = to - from;
-        is_beside |= points.iter().any(|point| {
-            let along = (*point - from).dot(way) / way.length_squared();
-            let nearest = from.lerp(to, along.clamp(0.0, 1.0));
-            nearest.distance_squared(*point) <= reach * reach
-        });
+        let distances = points.map(|point| edge_distance_squared([from, to], point));
+        is_beside |= distances.iter().any(|distance| *distance <= reach * reach);
     });
     is_beside
 }

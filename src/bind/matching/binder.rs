@@ -95,15 +95,7 @@ impl<'a> Binder<'a> {
             }
             part_of_shape[part.shape].get_or_insert(index);
         }
-        node_groups::choose_mains(drawing, &node_groups, &mut parts, memo);
-        // A string of a whole node is one of its main part.
-        for (group, back_most) in back_most.iter_mut_enumerated() {
-            if let Some(part) = back_most
-                && parts[*part].node_group == Some(group)
-            {
-                *part = parts[*part].main;
-            }
-        }
+        node_groups::choose_mains(&node_groups, &mut parts);
         Self {
             drawing,
             strings,
@@ -285,7 +277,7 @@ impl<'a> Binder<'a> {
         for members in members.values() {
             self.node_groups.open(members);
         }
-        node_groups::choose_mains(self.drawing, &self.node_groups, &mut self.parts, self.memo);
+        node_groups::choose_mains(&self.node_groups, &mut self.parts);
     }
 
     /// Which strings may name a main part: those of its container, or all outside of containers; `None` if none may.

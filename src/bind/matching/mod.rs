@@ -19,7 +19,6 @@ mod stacking;
 mod strings;
 mod wrappers;
 
-pub(in crate::bind) use areas::united;
 pub(in crate::bind) use bare_names::is_bare_name;
 pub(in crate::bind) use held::Hold;
 pub(in crate::bind) use kinds::of_ink;

@@ -1,16 +1,13 @@
 //! Node groups: which shapes become one node of the hierarchy.
 //!
 //! A part has a source: the fill of a shape, or its stroke if that is built. All sources in a node group share a node, but ink
-//! goes with what it lies on; the back-most or the largest of the others is the main part candidate.
+//! goes with what it lies on; the back-most of the others is the main part candidate.
 
 use std::cell::LazyCell;
-use std::sync::Arc;
 
-use rayon::prelude::*;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::areas;
 use super::converted::ConvertedStrings;
 use super::fills::Fills;
 use super::held::{self, Hold};
@@ -23,12 +20,8 @@ use super::stacking::ground_count;
 use super::strings::ReadString;
 use super::wrappers;
 use crate::bind::bindings::{PartId, StringHolder, StringId};
-use crate::geometry::area;
 use crate::memo::Memo;
 use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId};
-
-/// The least share of a node's area that its back-most part covers as its main part.
-const LEADS: f64 = 0.5;
 
 /// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
@@ -73,32 +66,6 @@ pub(in crate::bind) struct NodeGroups {
     pub(in crate::bind) backgrounds: TiVec<ShapeId, bool>,
     /// Per group: whether it is such a layer, with parts that strings can belong to.
     holds_parts: TiVec<GroupId, bool>,
-    /// The groups and shapes with strings of their own.
-    described: Described,
-}
-
-/// Groups and shapes with strings of their own.
-#[derive(Debug)]
-struct Described {
-    groups: TiVec<GroupId, bool>,
-    shapes: FxHashSet<ShapeId>,
-}
-
-impl Described {
-    fn read(drawing: &Drawing, strings: &TiSlice<StringId, ReadString>) -> Self {
-        let mut groups = ti_vec![false; drawing.groups.len()];
-        let mut shapes = FxHashSet::default();
-        for string in strings.iter().filter(|string| string.wants_part()) {
-            match string.holder {
-                StringHolder::Label(label) => groups[drawing.labels[label].1] = true,
-                StringHolder::Group(group) => groups[group] = true,
-                StringHolder::Shape(shape) => {
-                    shapes.insert(shape);
-                }
-            }
-        }
-        Self { groups, shapes }
-    }
 }
 
 impl NodeGroups {
@@ -133,7 +100,6 @@ impl NodeGroups {
             in_layer: vec![],
             backgrounds: wrappers.backgrounds,
             holds_parts: ti_vec![false; drawing.groups.len()],
-            described: Described::read(drawing, strings),
             sources: vec![],
             roles: roles(drawing, &counts, &layer, &wrappers.groups_nothing),
             parents,
@@ -240,13 +206,6 @@ impl NodeGroups {
             self.node_group[*source] = self.outermost(*group);
         }
         true
-    }
-
-    /// Whether a shape has a string of its own within the group of a node, or is in an inner group that has one.
-    fn is_described(&self, drawing: &Drawing, shape: ShapeId, node: GroupId) -> bool {
-        let inner = self.chain(drawing.shapes[shape].group);
-        let mut inner = inner.take_while(|group| *group != node);
-        self.described.shapes.contains(&shape) || inner.any(|group| self.described.groups[group])
     }
 
     /// The group of the tile layer to whose shapes strings in a group are restricted; `None` for strings outside of tile layers.
@@ -387,71 +346,19 @@ fn roles(
         .collect()
 }
 
-/// The main part candidate of each node: its back-most part; or the largest, if that covers less than half of the node's area, as a hand
-/// does that is drawn before its sleeve, unless it has a string of its own.
-pub(super) fn choose_mains(
-    drawing: &Drawing,
-    node_groups: &NodeGroups,
-    parts: &mut TiSlice<PartId, MatchedPart>,
-    memo: &Memo,
-) {
-    let node = |part: &MatchedPart| {
-        let group = node_groups.node_group[part.source]?;
-        Some((node_groups.container[part.source], group))
-    };
-    let mut members: FxHashMap<(Option<GroupId>, GroupId), Vec<PartId>> = FxHashMap::default();
-    for (index, part) in parts.iter_enumerated() {
-        if part.host.is_none()
-            && let Some(node) = node(part)
-        {
-            members.entry(node).or_default().push(index);
-        }
-    }
-    let mains: FxHashMap<_, PartId> = members
-        .par_iter()
-        .filter_map(|(node, members)| {
-            let (first, main) = (*members.first()?, main_of(members, parts, memo)?);
-            let is_described = node_groups.is_described(drawing, parts[main].shape, node.1);
-            Some((*node, if is_described { first } else { main }))
-        })
-        .collect();
+/// Makes the back-most part of each node its main part candidate.
+pub(super) fn choose_mains(node_groups: &NodeGroups, parts: &mut TiSlice<PartId, MatchedPart>) {
+    let mut mains: FxHashMap<(Option<GroupId>, GroupId), PartId> = FxHashMap::default();
     for index in parts.keys() {
-        let part = &parts[index];
-        let main = match part.host {
-            Some(host) => parts[host].main,
-            None => {
-                let main = node(part).and_then(|node| mains.get(&node).copied());
-                main.unwrap_or(index)
-            }
+        let source = parts[index].source;
+        let main = match (parts[index].host, node_groups.node_group[source]) {
+            (Some(host), _) => parts[host].main,
+            (None, Some(group)) => *mains
+                .entry((node_groups.container[source], group))
+                .or_insert(index),
+            (None, None) => index,
         };
-        parts[index].node_group = node_groups.node_group[parts[index].source];
+        parts[index].node_group = node_groups.node_group[source];
         parts[index].main = main;
     }
-}
-
-/// The main part candidate among the parts of a node, back-most first.
-fn main_of(
-    members: &[PartId],
-    parts: &TiSlice<PartId, MatchedPart>,
-    memo: &Memo,
-) -> Option<PartId> {
-    let first = *members.first()?;
-    let sizes = members.iter().map(|part| area(&parts[*part].outline));
-    let sizes: Vec<f64> = sizes.collect();
-    // Of equal ones the back-most.
-    let (largest, most) = members
-        .iter()
-        .zip(&sizes)
-        .rev()
-        .max_by(|a, b| a.1.total_cmp(b.1))?;
-    let own = sizes[0] / LEADS;
-    if own >= sizes.iter().sum() {
-        return Some(first);
-    }
-    let covers_less = own < *most || {
-        let outlines = members.iter().map(|part| Arc::clone(&parts[*part].outline));
-        let whole = areas::united(vec![outlines.collect()], memo);
-        whole.first().is_some_and(|whole| own < area(whole))
-    };
-    Some(if covers_less { *largest } else { first })
 }

@@ -58,7 +58,15 @@ impl Default for DrawingSettings {
     }
 }
 
+/// Metres in a centimetre.
+const CENTIMETER: f64 = 0.01;
+
 impl DrawingSettings {
+    /// Metres in a drawing unit.
+    pub fn meters(&self) -> f64 {
+        self.scale * CENTIMETER
+    }
+
     /// The settings of a drawing with strings.
     pub(super) fn read(drawing: &Drawing, defaults: &[(StringId, Setting)]) -> Self {
         let mut settings = Self {

@@ -14,8 +14,6 @@ use crate::svg::Drawing;
 const USUAL: std::ops::RangeInclusive<f64> = 0.3..=4.0;
 /// The height that is proposed, metres.
 const PERSON: f64 = 1.7;
-/// Metres in a centimetre: a drawing unit is `Scale` centimetres.
-const CENTIMETER: f64 = 0.01;
 
 /// Reports a figure with arms or legs of an unusual height, unless a string says `Scale`.
 pub(super) fn report(
@@ -47,7 +45,7 @@ pub(super) fn report(
         let (low, high) = part.measure.bounds;
         (top.min(low.y), bottom.max(high.y))
     });
-    let height = (bottom - top) * matched.settings.scale * CENTIMETER;
+    let height = (bottom - top) * matched.settings.meters();
     if USUAL.contains(&height) || !(height.is_finite() && height > 0.0) {
         return;
     }

@@ -56,8 +56,6 @@ const VISITS: usize = 32;
 pub(super) struct Unit {
     /// Its parts, in paint order.
     pub(super) members: Vec<PartId>,
-    /// The main part candidate among them.
-    pub(super) main: PartId,
     /// Its bounding box.
     bounds: (DVec2, DVec2),
     /// Its area, square units.
@@ -149,21 +147,22 @@ impl Units {
         let stacking = &key.stacking.0;
         let parts: &TiSlice<PartId, _> = TiSlice::from_ref(&key.parts.0);
         let mut of_part = ti_vec![usize::MAX; parts.len()];
-        let mut nodes: Vec<(PartId, Vec<PartId>)> = Vec::new();
-        let is_main = |(index, (main, _)): &(PartId, &(PartId, _))| main == index;
-        for (index, _) in parts.iter_enumerated().filter(is_main) {
-            of_part[index] = nodes.len();
-            nodes.push((index, Vec::new()));
-        }
+        let mut members: Vec<Vec<PartId>> = Vec::new();
         for (index, (main, _)) in parts.iter_enumerated() {
-            of_part[index] = of_part[*main];
-            if index == *main || stacking.has(index) {
-                nodes[of_part[*main]].1.push(index);
+            // The main part is the back-most of its node.
+            if *main == index {
+                of_part[index] = members.len();
+                members.push(vec![index]);
+            } else {
+                of_part[index] = of_part[*main];
+                if stacking.has(index) {
+                    members[of_part[*main]].push(index);
+                }
             }
         }
-        let units = nodes.into_par_iter().with_min_len(GRAIN);
+        let units = members.into_par_iter().with_min_len(GRAIN);
         let units: Vec<Unit> = units
-            .map(|(main, members)| {
+            .map(|members| {
                 let bounds = members.iter().map(|part| stacking.bounds(*part));
                 let (low, high) = bounds
                     .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
@@ -176,8 +175,7 @@ impl Units {
                     host: host.map(|part| of_part[part]),
                     hidden: facts.shown < HARDLY_SHOWS * facts.area,
                     ground: members.iter().all(|part| stacking.is_ground(*part)),
-                    scope: parts[main].1,
-                    main,
+                    scope: parts[members[0]].1,
                     members,
                 }
             })
