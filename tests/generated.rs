@@ -115,6 +115,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::UnreadNames, "text-bare-names-too-far"),
     (Code::UnusualSize, "figure-of-unusual-size"),
     (Code::LinesLeftOut, "ink-outside-is-a-guide"),
+    (Code::FirstLook, "first-look"),
 ];
 
 /// What okoshi prints for a diagnostic of a drawing.

@@ -195,6 +195,8 @@ pub struct Part {
     pub host: Option<PartId>,
     /// Its area, drawing units.
     pub outline: Arc<Outline>,
+    /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
+    pub(super) is_balloon: bool,
     /// The axis, centre and ends of its shape. `Axis` replaces the measured axis.
     pub measure: Measure,
     /// Those of all shapes of its node together, if its own are not the node's.

@@ -55,6 +55,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         is_stroke: part.is_stroke,
         host: part.host,
         outline: part.outline,
+        is_balloon: part.is_balloon,
         measure: tree.axes.turned(index).unwrap_or(part.measure),
         of_group: tree.axes.of_group(index).map(Box::new),
         string: part.string,

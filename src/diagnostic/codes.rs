@@ -691,6 +691,17 @@ codes! {
     ///
     /// Write `%Strokes lines` to build them, or `%Strokes none` to do without all lines.
     LinesLeftOut = "H416", "lines left out";
+    /// No string says `Shape`, so the drawing is built as a toy at first: shapes whose outline is more than half curves are
+    /// inflated, lines become tubes, the others are plates, and outlines are built. As soon as any string says `Shape`, all
+    /// shapes that say nothing are plates, and outlines are left out.
+    ///
+    /// ```text
+    /// a round head on a square body, with the names Head and Body
+    /// ```
+    ///
+    /// Leave it as it is, or choose: `%Shape default` makes plates of all shapes, `%Shape inflate` inflates all, and
+    /// `%Strokes lines` leaves outlines out. One shape gets its own by its string: `Head$Shape round`.
+    FirstLook = "H417", "no string says `Shape`";
 }
 
 impl Code {

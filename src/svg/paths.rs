@@ -140,6 +140,43 @@ pub(super) fn rings(path: &BezPath, tolerance: f64) -> Vec<Ring> {
     flatten(path, tolerance * bounds.width().max(bounds.height()))
 }
 
+/// How far a curve leaves the straight line between its ends at least, as a share of that line's length.
+const BENT: f64 = 0.02;
+
+/// Whether more than half of a path's length is curves. Those that are almost straight count as lines.
+pub(super) fn is_curved(path: &BezPath) -> bool {
+    let (mut curved, mut straight) = (0.0, 0.0);
+    for segment in path.segments() {
+        let points = match segment {
+            kurbo::PathSeg::Line(line) => {
+                straight += (line.p1 - line.p0).hypot();
+                continue;
+            }
+            kurbo::PathSeg::Quad(quad) => [quad.p0, quad.p1, quad.p1, quad.p2],
+            kurbo::PathSeg::Cubic(cubic) => [cubic.p0, cubic.p1, cubic.p2, cubic.p3],
+        };
+        let [start, .., end] = points;
+        let chord = end - start;
+        let is_away = |control: &kurbo::Point| {
+            let out = *control - start;
+            // A curve that returns to its start has no straight line between its ends.
+            out.cross(chord).abs() > BENT * chord.hypot2() || out.hypot2() > chord.hypot2()
+        };
+        // Between its chord and its control polygon, which is near enough for a share.
+        let around: f64 = points
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).hypot())
+            .sum();
+        let length = chord.hypot().midpoint(around);
+        if points[1..3].iter().any(is_away) {
+            curved += length;
+        } else {
+            straight += length;
+        }
+    }
+    curved > straight
+}
+
 pub(super) fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Box<Line>> {
     let mut ends = None;
     for element in path.elements() {

@@ -11,7 +11,7 @@ use typed_index_collections::TiVec;
 use super::elements::{Ids, element, labels};
 use super::fit::ImageViewports;
 use super::links::{options, report_links, unusable};
-use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
+use super::paths::{StrokeSource, affine, bez_path, is_curved, open_line, rings};
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::tangles::Tangles;
@@ -330,6 +330,7 @@ impl Context<'_, '_> {
             group: task.group,
             element,
             outline: Arc::new(outline),
+            is_curved: fill.is_some() && is_curved(&bez),
             paint,
             opacity,
             stroke,
@@ -353,6 +354,7 @@ impl Context<'_, '_> {
             group: task.group,
             element,
             outline: Arc::new(source.rectangle()),
+            is_curved: false,
             paint: Paint {
                 key: PaintKey::Picture(index),
                 color: [0; 3],

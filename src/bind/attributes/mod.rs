@@ -18,7 +18,7 @@ pub(crate) use motions::{
 
 use typed_index_collections::{TiSlice, TiVec};
 
-use super::bindings::{Bindings, DrawingString, PartId, StringId};
+use super::bindings::{Bindings, DrawingString, Part, PartId, StringId};
 use super::matching::{LayerId, Matched};
 use crate::diagnostic::Diagnostic;
 use crate::lang::keyword::{AttributeString, Keyword};
@@ -142,6 +142,8 @@ pub struct Attributes<'a> {
     layer: Option<(StringId, &'a [Setting])>,
     /// The settings of the `%` strings, each with its string.
     defaults: &'a [(StringId, Setting)],
+    /// The `Shape` without settings.
+    builtin_shape: &'static Shape,
 }
 
 /// Who can set attributes.
@@ -156,6 +158,7 @@ impl<'a> Setters<'a> {
     /// The attributes of something with this string, in a paint with this legend.
     fn attributes(self, string: Option<StringId>, legend: Option<usize>) -> Attributes<'a> {
         Attributes {
+            builtin_shape: &PLATE,
             own: string.map(|string| self.settings_of(string)),
             legend: legend.map_or(&[], |legend| &self.legends[legend].settings),
             layer: None,
@@ -197,7 +200,10 @@ impl PartAttributes {
             legends: &self.legends,
             defaults: &matched.defaults,
         };
-        setters.attributes(matched.parts[part].string, self.legend_of_part[part])
+        let (part, legend) = (&matched.parts[part], self.legend_of_part[part]);
+        setters
+            .attributes(part.string, legend)
+            .of_balloon(part.is_balloon)
     }
 }
 
@@ -221,7 +227,8 @@ impl Bindings {
     /// The attributes of a part.
     pub fn attributes(&self, part: PartId) -> Attributes<'_> {
         let part = &self.parts[part];
-        self.setters().attributes(part.string, part.legend)
+        let attributes = self.setters().attributes(part.string, part.legend);
+        attributes.of_balloon(part.is_balloon)
     }
 
     /// The attributes of a layer.
@@ -267,8 +274,14 @@ impl Bindings {
     /// that is drawn there.
     pub fn profile(&self, drawing: &Drawing, part: PartId) -> Option<Profile> {
         let form = self.form(part);
-        let profile = self.attributes(form).profile(drawing);
-        profile.filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
+        let profile = self.attributes(form).profile(drawing)?;
+        let Part { shape, host, .. } = &self.parts[part];
+        let stroke = drawing.shapes[*shape].stroke.as_ref();
+        let profile = match stroke.filter(|_| self.parts[part].is_stroke && host.is_none()) {
+            Some(line) => profile.of_line(line.width()),
+            None => profile,
+        };
+        Some(profile).filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
     }
 
     /// The factors of a part's material.
@@ -293,7 +306,7 @@ impl Bindings {
                     .map(|channel| (channel * 1000.0).round() / 1000.0);
                 Some(format!("{r} {g} {b}"))
             }
-            Keyword::Shape => Some("default".to_owned()),
+            Keyword::Shape => Some(self.attributes(part).builtin_shape.kind.to_owned()),
             _ => None,
         };
         let keywords = Keyword::ALL.iter().copied();
@@ -332,6 +345,15 @@ macro_rules! typed {
 }
 
 impl<'a> Attributes<'a> {
+    /// Those of a part that is inflated if nothing sets its `Shape`, or is a plate.
+    fn of_balloon(self, is_balloon: bool) -> Self {
+        let builtin_shape = if is_balloon { &BALLOON } else { &PLATE };
+        Self {
+            builtin_shape,
+            ..self
+        }
+    }
+
     /// Where an attribute is set.
     pub fn source(&self, keyword: Keyword) -> Option<Source<'a>> {
         let in_string = |(string, settings): (StringId, &'a [Setting])| {
@@ -387,7 +409,7 @@ impl<'a> Attributes<'a> {
     /// `Shape`.
     pub fn shape(&self) -> &'a Shape {
         self.shape_if_set()
-            .map_or(&DEFAULT_SHAPE, |shape| shape.value)
+            .map_or(self.builtin_shape, |shape| shape.value)
     }
 
     /// Whether ink with these attributes has a form of its own rather than that of the part on which it lies.
@@ -530,14 +552,20 @@ pub(crate) fn plate_depth(drawing: &Drawing) -> f64 {
 }
 
 /// The `Shape` of a part that sets none.
-static DEFAULT_SHAPE: Shape = Shape {
-    kind: "default",
-    arguments: KindArguments::Numbers(Vec::new()),
-    has_depths: false,
-    mirrored: false,
-    doubled: false,
-    centered: false,
-};
+static PLATE: Shape = builtin("default");
+/// That of a rounded one in a drawing that never says `Shape`.
+static BALLOON: Shape = builtin("inflate");
+
+const fn builtin(kind: &'static str) -> Shape {
+    Shape {
+        kind,
+        arguments: KindArguments::Numbers(Vec::new()),
+        has_depths: false,
+        mirrored: false,
+        doubled: false,
+        centered: false,
+    }
+}
 
 #[cfg(test)]
 mod tests {

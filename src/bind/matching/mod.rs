@@ -27,6 +27,7 @@ pub use layers::in_layers_of_pixels;
 pub(crate) use layers::{LayerId, LayerKind, Layers};
 pub(in crate::bind) use leaders::Leaders;
 pub(crate) use nearest::DistanceMode;
+pub(in crate::bind) use node_groups::HAIRLINE;
 pub(in crate::bind) use parts::MatchedPart;
 pub(crate) use settings::{BindRule, DrawingSettings, Strokes};
 pub(in crate::bind) use stacking::Stacking;
@@ -50,6 +51,8 @@ use node_groups::NodeGroups;
 pub(in crate::bind) struct Matched {
     /// Whether the drawing is annotated at all.
     pub(in crate::bind) annotated: bool,
+    /// Whether no string says `Shape`, so that what is rounded is inflated.
+    pub(in crate::bind) is_first_look: bool,
     /// The strings, in the order of the file.
     pub(in crate::bind) strings: TiVec<StringId, DrawingString>,
     /// The parts, back-most first.
@@ -108,16 +111,23 @@ pub(in crate::bind) fn find(
     );
     let Rules {
         bound,
-        parts,
+        mut parts,
         node_groups,
         stacking,
     } = binder.apply_rules(settings.bind);
+    if read.is_first_look {
+        for part in &mut parts {
+            // Lines are tubes.
+            part.is_balloon = part.is_stroke || drawing.shapes[part.shape].is_curved;
+        }
+    }
     let strings = read.all.into_iter().zip(bound);
     let strings: TiVec<StringId, _> = strings.map(|(read, bound)| joined(read, bound)).collect();
     let backgrounds = &node_groups.backgrounds;
     let kinds = kinds::classify(drawing, &strings, &parts, &layers, backgrounds);
     Matched {
         annotated: read.annotated,
+        is_first_look: read.is_first_look,
         strings,
         parts,
         kinds,

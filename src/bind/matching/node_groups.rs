@@ -21,7 +21,10 @@ use super::strings::ReadString;
 use super::wrappers;
 use crate::bind::bindings::{PartId, StringHolder, StringId};
 use crate::memo::Memo;
-use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId};
+use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId, StrokeSource};
+
+/// Unfilled lines beside all shapes that are not wider than this share of the page are guides.
+pub(in crate::bind) const HAIRLINE: f64 = 1.0 / 300.0;
 
 /// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
@@ -227,8 +230,11 @@ fn sources(
         Strokes::None => (false, false, false),
         Strokes::Ink => (true, false, false),
         Strokes::Lines => (true, true, false),
-        Strokes::All => (true, true, true),
+        Strokes::All | Strokes::Visible => (true, true, true),
     };
+    let hairline = HAIRLINE * drawing.page.1.max_element();
+    let is_guide =
+        |stroke: &StrokeSource| strokes == Strokes::Visible && stroke.width() <= hairline;
     // Strokes in a tile layer are edges; those in a view belong to its regions.
     let is_map = |shape: ShapeId| {
         let group = drawing.shapes[shape].group;
@@ -262,6 +268,7 @@ fn sources(
             continue;
         }
         let has_stroke = shape.stroke.is_some();
+        let is_guide = shape.stroke.as_deref().is_some_and(is_guide);
         if !shape.outline.polygons.is_empty() {
             add(index, false, None, None);
             if has_stroke && borders && !is_map(index) {
@@ -275,7 +282,7 @@ fn sources(
             let hold = is_line
                 .then(|| held::hold(drawing, index, &fills))
                 .flatten();
-            if described[index] || hold.is_some() || (lines && is_free(index)) {
+            if described[index] || hold.is_some() || (lines && is_free(index) && !is_guide) {
                 add(index, true, None, hold);
             }
         }
@@ -349,7 +356,13 @@ fn roles(
 /// Makes the back-most part of each node its main part candidate.
 pub(super) fn choose_mains(node_groups: &NodeGroups, parts: &mut TiSlice<PartId, MatchedPart>) {
     let mut mains: FxHashMap<(Option<GroupId>, GroupId), PartId> = FxHashMap::default();
-    for index in parts.keys() {
+    // A line that is drawn before the shapes of its group is an extra of theirs.
+    let [fills, lines]: [Vec<PartId>; 2] = [false, true].map(|is_line| {
+        let parts = parts.iter_enumerated();
+        let these = parts.filter(|(_, part)| part.is_stroke == is_line);
+        these.map(|(index, _)| index).collect()
+    });
+    for index in fills.into_iter().chain(lines) {
         let source = parts[index].source;
         let main = match (parts[index].host, node_groups.node_group[source]) {
             (Some(host), _) => parts[host].main,

@@ -23,6 +23,8 @@ pub(in crate::bind) struct MatchedPart {
     pub(in crate::bind) outline: Arc<Outline>,
     /// Its axis, center and ends, as they are drawn.
     pub(in crate::bind) measure: Measure,
+    /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
+    pub(in crate::bind) is_balloon: bool,
     /// Its string.
     pub(in crate::bind) string: Option<StringId>,
     /// The main part candidate of its node, which may be itself.
@@ -48,6 +50,7 @@ impl MatchedPart {
             hold: source.hold,
             outline,
             measure,
+            is_balloon: false,
             string: None,
             main: index,
             node_group: None,

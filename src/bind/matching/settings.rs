@@ -37,23 +37,25 @@ pub enum BindRule {
 pub enum Strokes {
     /// None.
     None,
-    /// Those of unfilled shapes that lie on a part, as ink on it. What a drawing with strings gets if it does not say.
+    /// Those of unfilled shapes that lie on a part, as ink on it. What a drawing gets that says `Shape` but not `Strokes`.
     Ink,
     /// Those of unfilled shapes: as ink where they lie on a part, else as parts.
     Lines,
     /// All: outlines of filled shapes too, as ink on these.
     All,
+    /// All but hairlines beside all shapes, which are guides. What a drawing gets that says neither `Shape` nor `Strokes`.
+    Visible,
 }
 
 impl Default for DrawingSettings {
-    /// The settings of a drawing without strings, in which lines off all shapes are parts.
+    /// The settings of a drawing without strings, in which hairlines are parts too.
     fn default() -> Self {
         Self {
             scale: 1.0,
             axes: DQuat::IDENTITY,
             ground: None,
             bind: BindRule::Meant,
-            strokes: Strokes::Lines,
+            strokes: Strokes::All,
         }
     }
 }
@@ -67,10 +69,18 @@ impl DrawingSettings {
         self.scale * CENTIMETER
     }
 
-    /// The settings of a drawing with strings.
-    pub(super) fn read(drawing: &Drawing, defaults: &[(StringId, Setting)]) -> Self {
+    /// The settings of a drawing with strings; `is_first_look` where none of them says `Shape`.
+    pub(super) fn read(
+        drawing: &Drawing,
+        defaults: &[(StringId, Setting)],
+        is_first_look: bool,
+    ) -> Self {
         let mut settings = Self {
-            strokes: Strokes::Ink,
+            strokes: if is_first_look {
+                Strokes::Visible
+            } else {
+                Strokes::Ink
+            },
             ..Self::default()
         };
         for (_, setting) in defaults {

@@ -24,6 +24,8 @@ use crate::threads::GRAIN;
 pub(super) struct Strings {
     /// Whether the drawing is annotated at all.
     pub(super) annotated: bool,
+    /// Whether no string says `Shape`.
+    pub(super) is_first_look: bool,
     /// In the order of the file.
     pub(super) all: TiVec<StringId, ReadString>,
     /// The settings of all `%` strings, each with its string; for each keyword the last one.
@@ -74,7 +76,10 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
     let mut texts = descriptions(drawing, signed);
     let annotated = signed || !texts.is_empty() || bare_names::name_parts(drawing);
     if !annotated {
-        return Strings::default();
+        return Strings {
+            is_first_look: true,
+            ..Strings::default()
+        };
     }
     texts.extend(
         drawing
@@ -153,9 +158,16 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
     diagnostics.extend(findings.into_iter().flatten());
     let all = TiVec::from(all);
     let defaults = merged_defaults(&all, diagnostics);
+    // A shape that is not understood yet is one all the same: a figure should not change as a whole while one types.
+    let says_shape = |string: &ReadString| {
+        let mut attributes = string.annotation.attributes().iter();
+        attributes.any(|attribute| attribute.keyword == Keyword::Shape)
+    };
+    let is_first_look = !all.iter().any(says_shape);
     Strings {
         annotated,
-        settings: DrawingSettings::read(drawing, &defaults),
+        settings: DrawingSettings::read(drawing, &defaults, is_first_look),
+        is_first_look,
         all,
         defaults,
         variables,

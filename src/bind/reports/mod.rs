@@ -1,6 +1,7 @@
 //! Reports what is known about a drawing only when its strings, attributes and hierarchy are.
 
 mod backgrounds;
+mod first_look;
 mod idle;
 mod legends;
 mod located;
@@ -38,6 +39,7 @@ pub(in crate::bind) fn all(
     off_page::report(drawing, matched, tree, &mut found);
     outlines::report(drawing, matched, tree, &mut found);
     outlines::lines(drawing, matched, &mut found);
+    first_look::report(drawing, matched, tree, &mut found);
     size::report(drawing, matched, tree, &mut found);
     off_page::far_away(drawing, matched, attributes, tree, &mut found);
     unseen::hidden(drawing, matched, &mut found);

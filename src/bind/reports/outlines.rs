@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 use crate::bind::bindings::PartKind;
 use crate::bind::hierarchy::Tree;
-use crate::bind::matching::{Matched, Strokes};
+use crate::bind::matching::{HAIRLINE, Matched, Strokes};
 use crate::diagnostic::{Code, Diagnostic, listed};
 use crate::svg::{Drawing, Shape, ShapeId};
 
@@ -15,13 +15,7 @@ pub(super) fn report(
     tree: &Tree,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let is_undecided = match matched.settings.strokes {
-        Strokes::Ink => true,
-        // In an annotated drawing, a string has set this.
-        Strokes::Lines => !matched.annotated,
-        Strokes::None | Strokes::All => false,
-    };
-    if !is_undecided {
+    if matched.settings.strokes != Strokes::Ink {
         return;
     }
     let is_built = |kind: &PartKind| matches!(kind, PartKind::Main | PartKind::Sub);
@@ -52,9 +46,6 @@ pub(super) fn report(
         ),
     );
 }
-
-/// Lines that are not wider than this share of the page are guides, which need no words.
-const HAIRLINE: f64 = 1.0 / 300.0;
 
 /// One hint about all lines that are left out, unless a string says what happens to strokes.
 pub(super) fn lines(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {

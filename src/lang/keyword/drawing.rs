@@ -104,9 +104,10 @@ pub(super) static STROKES: Row = Row {
     default: "lines on parts",
     summary: "which strokes are built",
     long: "A line without a fill that is drawn on a part is ink: it lies on the part's surface and \
-           moves with it, like a mouth on a face. Lines beside all parts are guides; in drawings \
-           without strings they are parts, and `lines` makes them parts here too. `all` does the \
-           same and adds the outlines of filled shapes, as ink on these. `none` leaves all strokes \
+           moves with it, like a mouth on a face. So does a line that begins on a part and goes out \
+           of it, as a part of its own. Other lines beside all parts are guides; `lines` makes them \
+           parts too. `all` does the same and adds the outlines of filled shapes, as ink on these; \
+           a drawing that never says `Shape` gets `all` but for hairlines. `none` leaves all strokes \
            out. A line that is grouped with a string, or has one as its description, is a part in \
            any case, and a line that leads from a string to a part never is.",
     example: "%Strokes all",

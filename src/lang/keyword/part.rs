@@ -74,7 +74,9 @@ pub(super) static SHAPE: Row = Row {
            that `model` needs.\n\nFlags come directly after the keyword: `-s` adds a mirrored copy \
            behind the drawing plane (a second ear, for example), `-d` makes that copy a part of its \
            own (`Tyre` and `Tyre.back`), `-c` lets the part turn about its centre. Flags can be \
-           combined: `Shape -cd round`.",
+           combined: `Shape -cd round`.\n\nA drawing that never says `Shape` is built as a toy: shapes \
+           of which more than half of the outline is curved are inflated, lines are tubes, and the \
+           others are plates. `%Shape default` makes plates of all.",
     example: "Tyre@Car$Shape -cd default 20 30",
     ..Row::ROW
 };

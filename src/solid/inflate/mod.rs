@@ -11,6 +11,7 @@ mod mesh;
 mod points;
 mod poisson;
 mod sides;
+mod tube;
 
 use glam::DVec2;
 
@@ -53,28 +54,57 @@ pub(super) fn surface(field: &Field, options: &Options) -> Surface {
     }
 }
 
-/// The heights over an outline whose bounding box has these half extents. The highest points have the given height, drawing units.
-/// The depth at which the options place it does not matter.
-///
-/// Without a given height the field is not scaled: a ball over a disc, about 0.7 of the width over a narrow bar. The height is
-/// at most half the smaller side of the box, so that a ring or a letter stays thin.
-pub(super) fn field(
-    outline: &Outline,
-    given: Option<f64>,
-    half: DVec2,
-    options: &Options,
-) -> Field {
-    let transform = PlacementTransform::new(options);
-    let points = points(outline, steps_per_half_turn(options));
-    let mesh = mesh(&points, &transform);
-    Field {
-        heights: heights(&mesh, given, half, options.placement.scale),
-        mesh,
+/// What is blown up, and how far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Balloon {
+    /// The height of the highest points, drawing units.
+    ///
+    /// Without it the field is not scaled: a ball over a disc, about 0.7 of the width over a narrow bar. The height is then
+    /// at most half the smaller side of the box, so that a ring or a letter stays thin.
+    pub(super) height: Option<f64>,
+    /// For the stroke of a line its width, drawing units: it becomes a tube.
+    pub(super) line: Option<f64>,
+}
+
+impl Balloon {
+    /// The points of a mesh of an outline, about as dense as a rounding of so many layers per 180°; `scale` are units of the
+    /// outline a drawing unit.
+    pub(super) fn points(&self, outline: &Outline, segments: u32, scale: f64) -> Points {
+        match self.line {
+            Some(width) => tube::points(outline, width * scale, segments),
+            None => points::points(outline, segments),
+        }
+    }
+
+    /// The heights over an outline whose bounding box has these half extents. The depth at which the options place it does not
+    /// matter.
+    pub(super) fn field(&self, outline: &Outline, half: DVec2, options: &Options) -> Field {
+        let transform = PlacementTransform::new(options);
+        let points = self.points(outline, steps_per_half_turn(options), 1.0);
+        let mesh = mesh(&points, &transform);
+        Field {
+            heights: self.heights(&mesh, half, options.placement.scale),
+            mesh,
+        }
+    }
+
+    /// The heights of [`field`](Self::field) over a mesh of the outline at its final place, model units; `scale` are model units a
+    /// drawing unit.
+    pub(super) fn heights(&self, mesh: &Mesh, half: DVec2, scale: f64) -> Vec<f64> {
+        match self.line {
+            Some(width) => tube::heights(mesh, width * scale, self.most(half) * scale),
+            None => balloon(mesh, self.height, half, scale),
+        }
+    }
+
+    /// The largest height over an outline whose bounding box has these half extents, drawing units.
+    pub(super) fn most(&self, half: DVec2) -> f64 {
+        let own = self.line.map(|width| width / 2.0);
+        height(self.height.or(own), half)
     }
 }
 
-/// The heights of [`field`] over a mesh of the outline at its final place, model units; `scale` are model units a drawing unit.
-pub(super) fn heights(mesh: &Mesh, given: Option<f64>, half: DVec2, scale: f64) -> Vec<f64> {
+fn balloon(mesh: &Mesh, given: Option<f64>, half: DVec2, scale: f64) -> Vec<f64> {
     let most = height(given, half);
     let Some(first) = mesh.points.first() else {
         return Vec::new();
@@ -107,7 +137,7 @@ pub(super) fn heights(mesh: &Mesh, given: Option<f64>, half: DVec2, scale: f64) 
 }
 
 /// The largest height over an outline whose bounding box has these half extents, drawing units.
-pub(super) fn height(given: Option<f64>, half: DVec2) -> f64 {
+fn height(given: Option<f64>, half: DVec2) -> f64 {
     let given = given.map(|h| if h.is_finite() { h.abs() } else { 0.0 });
     given
         .unwrap_or(half.min_element())

@@ -11,7 +11,7 @@ use super::discs::{Disc, Discs};
 use crate::geometry::{Outline, bounds};
 
 /// The largest number of points added along borders, and of columns.
-const MAX_COLUMNS: usize = 1 << 13;
+pub(super) const MAX_COLUMNS: usize = 1 << 13;
 /// The largest number of inner points.
 const MAX_INSIDE: usize = 1 << 16;
 /// Corners that turn left by more have no column, because discs in them have no size; radians.
@@ -32,19 +32,20 @@ const MAX_CELLS: f64 = 512.0;
 const LEAST_ALONG: f64 = 0.25;
 
 /// Points in the part's frame: those of the border, then those inside.
-pub(in crate::solid) struct Points {
+#[derive(Debug)]
+pub struct Points {
     pub(in crate::solid) points: Vec<DVec2>,
     /// Edges of the border, as drawn or parts of these; the filled side is on the left.
     pub(in crate::solid) edges: Vec<[usize; 2]>,
 }
 
 /// A line of points from the border inward.
-struct Column {
-    foot: DVec2,
+pub(super) struct Column {
+    pub(super) foot: DVec2,
     /// A unit vector.
-    inward: DVec2,
+    pub(super) inward: DVec2,
     /// The radius of the disc.
-    radius: f64,
+    pub(super) radius: f64,
 }
 
 /// A point on the border between two drawn points or at one of them, with the disc there.
@@ -81,6 +82,13 @@ pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
         .map(|column| column.radius)
         .fold(0.0, f64::max);
     columns.retain(|column| column.radius > NOTHING * most);
+    let layers = thinned(&mut columns, segments);
+    inside(&columns, layers, most, &mut all.points);
+    all
+}
+
+/// Leaves columns out where there are too many. Returns how many points each has, for a rounding of so many layers per 180°.
+pub(super) fn thinned(columns: &mut Vec<Column>, segments: u32) -> usize {
     if columns.len() > MAX_COLUMNS {
         let step = columns.len().div_ceil(MAX_COLUMNS);
         let mut place = 0;
@@ -89,10 +97,8 @@ pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
             place % step == 0
         });
     }
-    let layers =
-        (segments.div_ceil(2) as usize).clamp(1, (MAX_INSIDE / columns.len().max(1)).max(1));
-    inside(&columns, layers, most, &mut all.points);
-    all
+    let most = MAX_INSIDE / columns.len().max(1);
+    (segments.div_ceil(2) as usize).clamp(1, most.max(1))
 }
 
 /// Adds the points of a ring, and the columns that stand on them.
@@ -188,7 +194,7 @@ fn between(ends: [Foot; 2], apart: f64, inward: DVec2, discs: &Discs, feet: &mut
 }
 
 /// Adds the columns' points, layer by layer.
-fn inside(columns: &[Column], layers: usize, most: f64, points: &mut Vec<DVec2>) {
+pub(super) fn inside(columns: &[Column], layers: usize, most: f64, points: &mut Vec<DVec2>) {
     let quarter = std::f64::consts::FRAC_PI_2;
     let count = |column: &Column| {
         let share = (column.radius / (SMALL * most)).min(1.0);

@@ -283,3 +283,87 @@ fn outlines_that_are_small_beside_the_drawing_have_fewer_layers() {
         16
     );
 }
+
+/// The stroke of a line through these points, and the tube that it becomes.
+fn tube(path: &[DVec2], width: f64, is_closed: bool) -> (Outline, Surface) {
+    let mut builder = usvg::tiny_skia_path::PathBuilder::new();
+    let [first, rest @ ..] = path else {
+        panic!("a line has points");
+    };
+    builder.move_to(first.x as f32, first.y as f32);
+    for point in rest {
+        builder.line_to(point.x as f32, point.y as f32);
+    }
+    if is_closed {
+        builder.close();
+    }
+    let stroke = usvg::tiny_skia_path::Stroke {
+        width: width as f32,
+        line_join: usvg::tiny_skia_path::LineJoin::Round,
+        ..Default::default()
+    };
+    let line = builder.finish().expect("a line");
+    let stroke = line.stroke(&stroke, 100.0).expect("a stroke");
+    let mut rings: Vec<Vec<DVec2>> = Vec::new();
+    stroke_rings(&stroke, &mut rings);
+    let outline = crate::geometry::resolve_overlaps(rings, crate::geometry::FillRule::NonZero);
+    let profile = profile("inflate", &[]).of_line(width);
+    let surface = build(&outline, &profile, &options(8));
+    (outline, surface)
+}
+
+fn stroke_rings(path: &usvg::tiny_skia_path::Path, rings: &mut Vec<Vec<DVec2>>) {
+    use usvg::tiny_skia_path::{PathSegment, Point};
+    let at = |p: Point| DVec2::new(p.x.into(), p.y.into());
+    for segment in path.segments() {
+        match segment {
+            PathSegment::MoveTo(p) => rings.push(vec![at(p)]),
+            PathSegment::LineTo(p) | PathSegment::QuadTo(_, p) | PathSegment::CubicTo(_, _, p) => {
+                if let Some(ring) = rings.last_mut() {
+                    ring.push(at(p));
+                }
+            }
+            PathSegment::Close => {}
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Any line becomes a closed tube, half as high as the line is wide, with few triangles.
+    #[test]
+    fn lines_become_tubes(
+        path in prop::collection::vec((-50.0..50.0f64, -50.0..50.0f64), 2..6),
+        width in 1.0..12.0f64,
+        is_closed: bool,
+    ) {
+        let path: Vec<DVec2> = path.into_iter().map(DVec2::from).collect();
+        let length: f64 = path.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        prop_assume!(length > 4.0 * width);
+        let (_, surface) = tube(&path, width, is_closed);
+        closed(&surface).map_err(TestCaseError::fail)?;
+        prop_assert!(volume(&surface) > 0.0);
+        let heights = surface.positions.iter().map(|[_, _, z]| f64::from(z.abs()));
+        let highest = heights.fold(0.0, f64::max);
+        prop_assert!((highest / (width / 2.0) - 1.0).abs() < 0.02, "{highest} of {width}");
+        prop_assert!(surface.triangles.len() < 4000, "{}", surface.triangles.len());
+    }
+}
+
+#[test]
+fn a_straight_tube_is_a_cylinder() {
+    let (_, surface) = tube(&[DVec2::new(-60.0, 0.0), DVec2::new(60.0, 0.0)], 8.0, false);
+    assert!(surface.triangles.len() < 600, "{}", surface.triangles.len());
+    let middle = surface.positions.iter().filter(|[x, ..]| x.abs() < 50.0);
+    let mut count = 0;
+    for [_, y, z] in middle {
+        let radius = f64::from(*y).hypot((*z).into());
+        assert!((radius - 4.0).abs() < 0.05, "{y} {z}");
+        count += 1;
+    }
+    assert!(count > 12, "{count}");
+    let exact = PI * 4.0 * 4.0 * 120.0;
+    let share = volume(&surface) / exact;
+    assert!((0.9..1.0).contains(&share), "{share}");
+}

@@ -8,7 +8,7 @@ use super::{HeightField, Kind};
 use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::Options;
-use crate::solid::inflate::{Field, Mesh, field, height, heights, surface};
+use crate::solid::inflate::{Balloon, Field, Mesh, Points, surface};
 use crate::solid::layers::DEFAULT_SEGMENTS;
 
 /// Layers per half turn of the smallest outlines: seen from near by they are still round.
@@ -18,19 +18,33 @@ const STEP: f64 = 4.0;
 
 /// A height field to both sides.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Inflate {
-    /// The height of the highest point; see [`field`] for what it is if not given.
-    height: Option<f64>,
+pub struct Inflate(Balloon);
+
+impl Inflate {
+    /// The same for the stroke of a line of this width, drawing units.
+    pub(super) fn of_line(&self, width: f64) -> Self {
+        Self(Balloon {
+            line: Some(width),
+            ..self.0
+        })
+    }
 }
 
 impl Kind for Inflate {
     fn new(numbers: &[f64], _: f64) -> Option<Self> {
-        let height = numbers.first().copied();
-        (numbers.len() <= 1).then_some(Self { height })
+        let balloon = Balloon {
+            height: numbers.first().copied(),
+            line: None,
+        };
+        (numbers.len() <= 1).then_some(Self(balloon))
     }
 
     fn numbers(&self) -> Vec<f64> {
-        self.height.into_iter().collect()
+        let Balloon { height, line } = self.0;
+        // Hashes tell a height from a width.
+        [height, line]
+            .map(|number| number.unwrap_or(f64::NAN))
+            .to_vec()
     }
 
     fn surface(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
@@ -42,13 +56,14 @@ impl Kind for Inflate {
     }
 
     fn depths(&self, half: DVec2, _: &Options) -> Option<[f64; 2]> {
-        let height = height(self.height, half);
+        let height = self.0.most(half);
         Some([-height, height])
     }
 
     fn segments(&self, half: DVec2, crease: f64, invisible: f64) -> u32 {
         // Chords of a circle of radius r with n steps per half turn are off by r(π / 2n)² / 2.
-        let radius = height(self.height, half).max(half.min_element());
+        let widest = self.0.line.map_or(half.min_element(), |width| width / 2.0);
+        let radius = self.0.most(half).max(widest);
         let enough = FRAC_PI_2 * (radius / (2.0 * invisible)).sqrt();
         // In coarse steps: when the drawing grows, most solids stay as they are.
         let enough = (STEP * (enough / STEP).round()) as u32;
@@ -59,8 +74,12 @@ impl Kind for Inflate {
 }
 
 impl HeightField for Inflate {
+    fn points(&self, outline: &Outline, segments: u32, scale: f64) -> Points {
+        self.0.points(outline, segments, scale)
+    }
+
     fn field(&self, outline: &Outline, half: DVec2, options: &Options) -> Field {
-        field(outline, self.height, half, options)
+        self.0.field(outline, half, options)
     }
 
     fn surface_of(&self, field: &Field, options: &Options) -> Surface {
@@ -68,6 +87,6 @@ impl HeightField for Inflate {
     }
 
     fn heights(&self, mesh: &Mesh, half: DVec2, options: &Options) -> Vec<f64> {
-        heights(mesh, self.height, half, options.placement.scale)
+        self.0.heights(mesh, half, options.placement.scale)
     }
 }

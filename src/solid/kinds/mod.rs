@@ -13,7 +13,7 @@ use std::ops::{Deref, DerefMut};
 use glam::DVec2;
 
 use super::Options;
-use super::inflate::{Field, Mesh};
+use super::inflate::{Field, Mesh, Points};
 use super::layers::{DEFAULT_SEGMENTS, Layer, with_thickness};
 use super::stack;
 use crate::geometry::Outline;
@@ -76,6 +76,16 @@ kinds! {
     "lathe" => lathe::Lathe,
     "flat" => flat::Flat,
     "model" => model::Model,
+}
+
+impl Profile {
+    /// The same for the stroke of a line of this width, drawing units: what is inflated becomes a tube.
+    pub fn of_line(self, width: f64) -> Self {
+        match self {
+            Self::Inflate(inflate) => Self::Inflate(inflate.of_line(width)),
+            other => other,
+        }
+    }
 }
 
 /// What a kind knows about its solids; a [`Profile`] dereferences to that of its kind. `half` are the half extents of the
@@ -150,6 +160,10 @@ pub trait Kind {
 
 /// A kind whose front is a height field over the outline, 0 along its border, and whose back mirrors the front.
 pub trait HeightField {
+    /// The points of a mesh of the outline, about as dense as a rounding of so many layers per 180°; `scale` are units of the
+    /// outline a drawing unit.
+    fn points(&self, outline: &Outline, segments: u32, scale: f64) -> Points;
+
     /// The front over an outline. The depth of the plane and the crease angle do not matter.
     fn field(&self, outline: &Outline, half: DVec2, options: &Options) -> Field;
 

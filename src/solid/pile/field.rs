@@ -20,7 +20,7 @@ use crate::solid::inflate::{Mesh, Points, mesh as mesh_of, points};
 use crate::solid::layers::steps_per_half_turn;
 use crate::solid::shade::shade;
 use crate::solid::stack::PlacementTransform;
-use crate::solid::{Options, Placement};
+use crate::solid::{Options, Placement, Solid};
 
 /// Points of the border are no closer than this, in tolerances.
 const NEAR: f64 = 0.2;
@@ -50,13 +50,18 @@ pub(super) struct Field {
 
 impl Field {
     /// The height fields over an outline, in the frame of its node; `None` if nothing lifts the solid.
-    pub(super) fn new(outline: &Outline, options: &Options, target: &Target<'_>) -> Option<Self> {
+    pub(super) fn new(outline: &Outline, solid: &Solid, target: &Target<'_>) -> Option<Self> {
+        let options = &solid.options;
         let steps = steps_per_half_turn(options);
         let tolerance = target.lay.tolerance();
         // Skins of plates and lines have no heights of their own.
         let is_round = target.lay.form != LayForm::Ink && target.lay.bulge > 0.0;
         let mut all = if is_round {
-            points(outline, target.lay.segments.unwrap_or(steps))
+            let segments = target.lay.segments.unwrap_or(steps);
+            match solid.profile.height_field() {
+                Some(kind) => kind.points(outline, segments, options.placement.scale),
+                None => points(outline, segments),
+            }
         } else {
             Points {
                 points: Vec::new(),

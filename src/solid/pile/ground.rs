@@ -335,8 +335,15 @@ impl Target<'_> {
         let natural = [self.depth + reach, self.depth - back];
         let [front, back] = match (form, lifted, below.map(|below| below.front)) {
             (LayForm::Volume, lifted, _) => {
-                let lifted = lifted.unwrap_or(rim);
-                [natural[0].max(lifted), natural[1]]
+                let front = natural[0].max(lifted.unwrap_or(rim));
+                // A line climbs onto what it begins on, where a shape would reach down to its plane like a wall.
+                let is_climbing = self.lay.is_line && front > natural[0];
+                let thickness = if is_climbing {
+                    reach + back + step
+                } else {
+                    f64::INFINITY
+                };
+                [front, natural[1].max(front - thickness)]
             }
             (LayForm::Sheet, lifted, _) => [lifted.unwrap_or(natural[0]); 2],
             (LayForm::DeepSkin, Some(lifted), Some(below)) => [lifted, below - step - back],

@@ -338,13 +338,12 @@ impl Pile {
             depth: body.depth,
             lay,
             ground: &ground,
-            rim: lay
-                .is_line
+            rim: (lay.is_line && lay.form == LayForm::Ink)
                 .then(|| Rim::new(&outline, &ground, lay.step))
                 .flatten(),
             more_points: self.more_points,
         };
-        Field::new(&outline, &body.solid.options, &target)
+        Field::new(&outline, &body.solid, &target)
     }
 
     /// The outline of a body in the frame of its node.
