@@ -307,6 +307,8 @@ fn tube(path: &[DVec2], width: f64, is_closed: bool) -> (Outline, Surface) {
     let mut rings: Vec<Vec<DVec2>> = Vec::new();
     stroke_rings(&stroke, &mut rings);
     let outline = crate::geometry::resolve_overlaps(rings, crate::geometry::FillRule::NonZero);
+    // Borders of drawings run the other way round, as their y is down.
+    let outline = outline.map_rings(|ring| ring.iter().rev().copied().collect());
     let profile = profile("inflate", &[]).of_line(width);
     let surface = build(&outline, &profile, &options(8));
     (outline, surface)
