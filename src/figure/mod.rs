@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use crate::bind::{Bindings, PartId, PartKind, SetBy};
@@ -143,9 +144,19 @@ impl<'a> Figures<'a> {
         world: &WorldTransform,
         scene: &mut Scene,
     ) -> FigureNodes {
+        let mut backs: FxHashMap<PartId, Vec<LaidSolid>> = FxHashMap::default();
+        for (skin, pile, body) in self.layers.backs() {
+            let texture = materials[skin.part].and_then(|(_, texture)| texture);
+            backs.entry(skin.part).or_default().push(LaidSolid {
+                pile: Arc::clone(pile),
+                body,
+                sides: Sides::Front,
+                texture,
+            });
+        }
         let meshes: Vec<Option<Mesh>> = par_keys(&self.parts_of_node)
             .with_min_len(GRAIN)
-            .map(|main| self.mesh(main, &models.0, materials, world))
+            .map(|main| self.mesh(main, &models.0, materials, &backs, world))
             .collect();
         let (nodes, node_of_part) =
             nodes::add(&self.context, self.tree, meshes.into(), world, scene);
@@ -174,6 +185,7 @@ impl<'a> Figures<'a> {
         main: PartId,
         models: &Models,
         materials: &TiSlice<PartId, PartMaterial>,
+        backs: &FxHashMap<PartId, Vec<LaidSolid>>,
         world: &WorldTransform,
     ) -> Option<Mesh> {
         let mut primitives: Vec<Primitive> = Vec::new();
@@ -202,6 +214,9 @@ impl<'a> Figures<'a> {
                 && let Some(patch) = self.patch(main, part, texture, world)
             {
                 add(material, patch);
+                for skin in backs.get(&part).into_iter().flatten() {
+                    add(material, SurfacePatch::Deferred(Arc::new(skin.clone())));
+                }
             }
         }
         (!primitives.is_empty()).then_some(Mesh { primitives })

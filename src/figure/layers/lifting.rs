@@ -6,13 +6,15 @@
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
+use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::{Arrangement, Layers, NodeDepth};
+use super::backs::Back;
+use super::{Arrangement, BackSkin, Layers, NodeDepth};
 use crate::bind::PartId;
 use crate::figure::PartFrames;
 use crate::scene::WorldTransform;
-use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights};
+use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights, Solid};
 
 /// The share of its own heights that a rounded shape adds to those of what it lies on.
 const BULGE: f64 = 0.3;
@@ -28,6 +30,7 @@ pub(super) struct Lifting<'a> {
     pub(super) arrangement: Arrangement<'a>,
     pub(super) frames: &'a TiSlice<PartId, PartFrames>,
     pub(super) world: &'a WorldTransform,
+    pub(super) backs: &'a [Back],
 }
 
 /// The depths of plane faces, back and front, both measured outwards; `None` for a side without one.
@@ -75,8 +78,9 @@ impl Lifting<'_> {
             moved.push(faces);
             lays.push(lay);
         }
-        let (pile, places) = self.pile(lays, &raised, recent);
+        let (pile, places, backs) = self.pile(lays, &raised, recent);
         Layers {
+            backs,
             nodes,
             offsets,
             raised,
@@ -187,20 +191,23 @@ impl Lifting<'_> {
             let is_free = side == 1 && !shape.is_given && !shape.is_soft;
             let mut level = own;
             for (by_itself, moved) in &below {
-                // What lies in the same plane is told apart from behind, too.
                 let is_same = (by_itself - own).abs() <= SAME * step;
                 let hides = is_free && *moved > own - (1.0 - SAME) * step;
-                if is_same || hides {
+                if side == 0 && is_same {
+                    // From behind, what is drawn first hides what is drawn on it.
+                    level = level.min(moved - step);
+                } else if is_same || hides {
                     level = level.max(moved + step);
                 }
             }
+            let away = if side == 0 { -step } else { step };
             let near = |level: f64| {
                 let mut moved = below.iter().map(|(_, moved)| *moved);
                 moved.find(|moved| (moved - level).abs() < 0.5 * step)
             };
             for _ in 0..below.len() {
                 let Some(other) = near(level) else { break };
-                level = other + step;
+                level = other + away;
             }
             level - own
         })
@@ -213,7 +220,7 @@ impl Lifting<'_> {
         lays: Vec<Option<Lay>>,
         raised: &TiSlice<PartId, [f64; 2]>,
         recent: Arc<RecentHeights>,
-    ) -> (Pile, TiVec<PartId, Option<usize>>) {
+    ) -> (Pile, TiVec<PartId, Option<usize>>, Vec<BackSkin>) {
         let mut takes_part = vec![false; self.arrangement.shapes.len()];
         for (index, lay) in lays.iter().enumerate() {
             if let Some(lay) = lay {
@@ -221,6 +228,12 @@ impl Lifting<'_> {
                 let others = lay.below.iter().chain(&lay.wraps).chain(&lay.behind);
                 others.for_each(|other| takes_part[*other] = true);
             }
+        }
+        for back in self.backs {
+            takes_part[back.on] = true;
+            back.plates
+                .iter()
+                .for_each(|plate| takes_part[*plate] = true);
         }
         let mut place = vec![usize::MAX; self.arrangement.shapes.len()];
         let mut places = ti_vec![None; self.arrangement.context.bindings.parts.len()];
@@ -246,7 +259,75 @@ impl Lifting<'_> {
             places[shape.part] = Some(made.len());
             made.push(self.body(index, lay, raised[shape.part]));
         }
-        (Pile::new(made, recent), places)
+        // Per volume the skins that lie on its back so far.
+        let mut skins: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
+        let mut backs = Vec::with_capacity(self.backs.len());
+        for back in self.backs {
+            // The backs of plates that lie over one another are as close to each other as to a skin.
+            let plates = back.plates.iter().copied();
+            let volumes: Vec<usize> = std::iter::once(back.on).chain(plates).collect();
+            let mut below: Vec<usize> = volumes.iter().map(|shape| place[*shape]).collect();
+            below.sort_unstable();
+            let mut before: Vec<usize> = volumes
+                .iter()
+                .filter_map(|shape| skins.get(shape))
+                .flatten()
+                .copied()
+                .collect();
+            before.sort_unstable();
+            below.extend(before);
+            let skin = self.back_skin(back, below);
+            skins.entry(back.on).or_default().push(made.len());
+            backs.push(BackSkin {
+                part: self.arrangement.shapes[back.of].part,
+                on: self.arrangement.shapes[back.on].part,
+                body: made.len(),
+            });
+            made.push(skin);
+        }
+        (Pile::new(made, recent), places, backs)
+    }
+
+    /// A skin on the back of a volume, described as seen from behind.
+    fn back_skin(&self, back: &Back, below: Vec<usize>) -> Body {
+        let arrangement = &self.arrangement;
+        let [of, on] = [back.of, back.on].map(|index| &arrangement.shapes[index]);
+        let scale = self.world.scale;
+        let body = self.body(back.of, None, [0.0; 2]);
+        // The volume's own kind makes a mesh that bends as its back does.
+        let solid = arrangement.context.natural(
+            self.frames,
+            self.world,
+            [of.main, on.part],
+            on.profile.clone(),
+        );
+        let solid = Solid {
+            outline: Arc::clone(&back.outline),
+            ..solid
+        };
+        let lay = Lay {
+            below,
+            wraps: Vec::new(),
+            behind: Vec::new(),
+            clips: false,
+            step: arrangement.steps[back.of] * scale,
+            invisible: arrangement.context.invisible * scale,
+            bulge: 0.0,
+            segments: None,
+            form: LayForm::BackSkin,
+            is_line: false,
+        };
+        Body {
+            solid,
+            depth: -arrangement.plane(back.on) * scale,
+            node_depth: -body.node_depth,
+            flattened: 1.0,
+            is_given: false,
+            is_detail: true,
+            is_behind: true,
+            lay: Some(lay),
+            ..body
+        }
     }
 
     fn body(&self, index: usize, lay: Option<Lay>, raised: [f64; 2]) -> Body {
@@ -271,6 +352,7 @@ impl Lifting<'_> {
             flattened: shape.flattened,
             is_given: shape.is_given,
             is_detail: self.arrangement.covers[index].is_detail,
+            is_behind: false,
             lay,
         }
     }

@@ -1,6 +1,7 @@
 //! Layers: how far in front of the drawing plane each part lies, and what lifts its surface, so that seen from the
 //! front the model is the drawing.
 
+mod backs;
 mod buried;
 mod lifting;
 mod node_depths;
@@ -118,6 +119,16 @@ impl Arrangement<'_> {
     }
 }
 
+/// A part that closes behind a volume.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BackSkin {
+    pub(super) part: PartId,
+    /// The part on whose back it lies.
+    pub(super) on: PartId,
+    /// Its place in the pile.
+    body: usize,
+}
+
 /// How the parts of a drawing lie in depth.
 pub(super) struct Layers {
     /// Per part that has a node, its depth.
@@ -128,6 +139,8 @@ pub(super) struct Layers {
     raised: TiVec<PartId, [f64; 2]>,
     /// Per part its place in the pile, if it has one.
     places: TiVec<PartId, Option<usize>>,
+    /// The skins on backs.
+    backs: Vec<BackSkin>,
     pile: Arc<Pile>,
 }
 
@@ -193,10 +206,12 @@ impl Layers {
             steps: &steps,
             is_one,
         };
+        let backs = backs::backs(context, &shapes, &nodes, &overlaps, &covers, is_one);
         let lifting = lifting::Lifting {
             arrangement,
             frames,
             world,
+            backs: &backs,
         };
         let node = |part: PartId| {
             let node = nodes.of_part[part]?;
@@ -238,6 +253,12 @@ impl Layers {
     /// Whether a part is lifted by others.
     pub(super) fn is_lifted(&self, part: PartId) -> bool {
         self.places[part].is_some_and(|body| self.pile.bodies[body].lay.is_some())
+    }
+
+    /// The skins on backs, with their places in the pile.
+    pub(super) fn backs(&self) -> impl Iterator<Item = (BackSkin, &Arc<Pile>, usize)> {
+        let backs = self.backs.iter();
+        backs.map(|back| (*back, &self.pile, back.body))
     }
 
     /// A part's place in the pile, if that makes its surface.

@@ -55,7 +55,11 @@ impl Field {
         let steps = steps_per_half_turn(options);
         let tolerance = target.lay.tolerance();
         // Skins of plates and lines have no heights of their own.
-        let is_round = target.lay.form != LayForm::Ink && target.lay.bulge > 0.0;
+        let is_round = match target.lay.form {
+            LayForm::Ink => false,
+            LayForm::BackSkin => solid.profile.is_soft(),
+            _ => target.lay.bulge > 0.0,
+        };
         let mut all = if is_round {
             let segments = target.lay.segments.unwrap_or(steps);
             match solid.profile.height_field() {

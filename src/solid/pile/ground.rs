@@ -41,11 +41,11 @@ impl BodyInFrame {
     }
 
     pub(super) fn front_heights(&self) -> &Heights {
-        &self.body.heights.front
+        self.body.sides()[0]
     }
 
     pub(super) fn back_heights(&self) -> &Heights {
-        self.body.heights.back()
+        self.body.sides()[1]
     }
 
     /// Where a line crosses edges of the front, as shares of its length: in no order, some of them several times.
@@ -137,15 +137,7 @@ impl Ground {
 
     /// The depth of the nearest border of what lies directly below.
     fn nearest(&self, point: DVec2) -> Option<f64> {
-        let nearest = |body: &BodyInFrame| {
-            let BodyHeights {
-                heights,
-                depth,
-                factor,
-            } = &body.body;
-            let height = heights.front.nearest(body.to.transform_point2(point))?;
-            Some(depth + factor * height)
-        };
+        let nearest = |body: &BodyInFrame| body.body.nearest_front(body.to.transform_point2(point));
         self.volumes
             .first()
             .and_then(|index| nearest(&self.below[*index]))

@@ -15,7 +15,7 @@ use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHasher};
 
-use super::heights::BothHeights;
+use super::heights::{BothHeights, Heights};
 use super::source::{long_hash, on_sides};
 use super::{Sides, Solid};
 use crate::geometry::Outline;
@@ -75,6 +75,9 @@ pub(crate) struct Body {
     pub is_given: bool,
     /// Whether it lies on others without a volume of its own.
     pub is_detail: bool,
+    /// Whether it lies on the backs of others: all of it is described as seen from behind, mirrored in the plane of the drawing,
+    /// its depths included.
+    pub is_behind: bool,
     /// How it is lifted; `None` leaves it as it is.
     pub lay: Option<Lay>,
 }
@@ -113,6 +116,8 @@ pub(crate) enum LayForm {
     Skin,
     /// A skin whose back is as deep as its own.
     DeepSkin,
+    /// A skin without heights of its own, with the mesh of the solid whose back it covers.
+    BackSkin,
     /// A line drawn on what is below. Beside that it is as deep as the nearest border.
     Ink,
     /// A surface without thickness.
@@ -126,6 +131,8 @@ pub(super) struct BodyHeights {
     /// Added to the heights, which are multiplied by the factor before.
     depth: f64,
     factor: f64,
+    /// Whether it is seen from behind, mirrored in the plane of the drawing.
+    from_behind: bool,
 }
 
 impl BodyHeights {
@@ -135,37 +142,63 @@ impl BodyHeights {
             heights,
             depth: 0.0,
             factor: 1.0,
+            from_behind: false,
+        }
+    }
+
+    /// The same as seen from the other side.
+    fn mirrored(self) -> Self {
+        Self {
+            depth: -self.depth,
+            from_behind: !self.from_behind,
+            ..self
+        }
+    }
+
+    /// The heights of the side that is in front, and of the other one.
+    fn sides(&self) -> [&Heights; 2] {
+        let sides = [&*self.heights.front, self.heights.back()];
+        let [front, back] = sides;
+        if self.from_behind {
+            [back, front]
+        } else {
+            sides
         }
     }
 
     /// The front over a point, where the body is, and the number of the triangle there.
     fn front(&self, point: DVec2) -> Option<(f64, u32)> {
-        let (height, triangle) = self.heights.front.find(point)?;
+        let [front, _] = self.sides();
+        let (height, triangle) = front.find(point)?;
         Some((self.depth + self.factor * height, triangle))
     }
 
     /// The back over a point, where the body is.
     fn back(&self, point: DVec2) -> Option<f64> {
-        let height = self.heights.back().at(point)?;
+        let [_, back] = self.sides();
+        let height = back.at(point)?;
         Some(self.depth - self.factor * height)
     }
 
-    /// How far the front is from the plane, over a point of its outline.
-    fn front_reach(&self, point: DVec2) -> f64 {
-        let front = &self.heights.front;
-        let height = front.at(point).or_else(|| front.nearest(point));
-        self.factor * height.unwrap_or(0.0)
+    /// The front at the nearest point of the body's border.
+    fn nearest_front(&self, point: DVec2) -> Option<f64> {
+        let [front, _] = self.sides();
+        let height = front.nearest(point)?;
+        Some(self.depth + self.factor * height)
     }
 
     /// How far front and back are from the plane, over a point of its outline.
     fn reach(&self, point: DVec2) -> [f64; 2] {
-        let front = self.front_reach(point);
+        let reach = |side: &Heights| {
+            let height = side.at(point).or_else(|| side.nearest(point));
+            self.factor * height.unwrap_or(0.0)
+        };
+        let [front, back] = self.sides();
+        let in_front = reach(front);
         if self.heights.is_symmetric() {
-            return [front; 2];
+            return [in_front; 2];
         }
-        let back = self.heights.back();
-        let height = back.at(point).or_else(|| back.nearest(point));
-        [front, self.factor * height.unwrap_or(0.0)]
+        [in_front, reach(back)]
     }
 }
 
@@ -219,6 +252,7 @@ impl Pile {
                 flattened,
                 is_given,
                 is_detail,
+                is_behind,
                 lay: _,
             } = &self.bodies[index];
             hasher.write_u128(self.solids[index]);
@@ -227,6 +261,7 @@ impl Pile {
             numbers.for_each(|number| hasher.write_u64(number.to_bits()));
             hasher.write_u8((*is_given).into());
             hasher.write_u8((*is_detail).into());
+            hasher.write_u8((*is_behind).into());
         };
         long_hash(|hasher| {
             hash_position(hasher, body);
@@ -274,6 +309,7 @@ impl Pile {
             heights: self.recent.of_solid(self.solids[index], &body.solid),
             depth: body.depth,
             factor: body.flattened,
+            from_behind: false,
         }
     }
 
@@ -309,7 +345,11 @@ impl Pile {
         let body = &self.bodies[index];
         let lay = body.lay.as_ref()?;
         let in_frame = |other: &usize, heights: BodyHeights| BodyInFrame {
-            body: heights,
+            body: if self.bodies[*other].is_behind == body.is_behind {
+                heights
+            } else {
+                heights.mirrored()
+            },
             to: self.bodies[*other].to_plane.inverse() * body.to_plane,
             is_given: self.bodies[*other].is_given,
             is_detail: self.bodies[*other].is_detail,
@@ -327,7 +367,7 @@ impl Pile {
         );
         let target = Target {
             own: match lay.form {
-                LayForm::Ink => Own::Line,
+                LayForm::Ink | LayForm::BackSkin => Own::Line,
                 // Whether a volume is lifted at all is known before its mesh.
                 LayForm::Volume => Own::Body(self.unlifted(index)),
                 _ if lay.bulge > 0.0 && body.solid.profile.height_field().is_some() => {
@@ -367,9 +407,14 @@ impl Pile {
         } else {
             make().map(Arc::new)
         };
-        match field {
+        let surface = match field {
             Some(field) => field.surface(body.node_depth, body.solid.options.crease),
             None => self.unlifted_surface(index),
+        };
+        if body.is_behind {
+            surface.mirrored()
+        } else {
+            surface
         }
     }
 

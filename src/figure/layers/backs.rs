@@ -1,0 +1,455 @@
+//! What the backs of volumes show: hair behind a face, the back of a jacket.
+//!
+//! A drawing says what is in front. From behind, the model shows at each point what the silhouette has nearest to it: where a
+//! shape goes along the border of a volume, on it or behind it, it closes behind the volume. It becomes a skin on the volume's
+//! back, in the paint of that shape, and moves with it.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::overlaps::Overlap;
+use super::shapes::Shape;
+use super::{Cover, FigureContext, Nodes};
+use crate::geometry::{Outline, Polygon, Ring, area, bounds, contains, intersect, shoelace};
+use crate::threads::GRAIN;
+
+/// Points along the border of a volume.
+const SAMPLES: usize = 240;
+/// How far inside the border what lies there is looked at, as a share of the volume's width: dark outlines are narrower.
+const INSIDE: f64 = 0.1;
+/// How far inside the border what covers the border itself is looked at, in distances inside it.
+const RIM: f64 = 0.2;
+/// How far outside the border what lies behind is looked at, in distances inside it.
+const OUTSIDE: f64 = 0.3;
+/// The same as [`INSIDE`], as a share of the volume's thickness there.
+const INSIDE_THIN: f64 = 0.35;
+/// The share of the border from which on what goes along it from above, as hair and hats do, closes behind.
+const FROM_ABOVE: f64 = 0.28;
+/// The share of the border from which on anything that covers it does: jackets.
+const AROUND: f64 = 0.6;
+/// Of the samples at the border that something covers, the share that it covers farther inside, unless it is an outline.
+const NO_OUTLINE: f64 = 0.5;
+/// The share of a dark rim that its fill covers, and the share of the fill that lies on the rim, at least.
+const FILL: f64 = 0.78;
+const INSIDE_RIM: f64 = 0.93;
+/// The share of the topmost border points that what comes from above covers, and how many those are.
+const TOP: f64 = 0.6;
+const TOPMOST: usize = 24;
+/// Gaps between samples up to this share of the border are closed.
+const GAP: f64 = 0.05;
+/// Coverage of the border from which on the whole back is covered.
+const WHOLE: f64 = 0.85;
+/// The share of both a volume and an earlier shape that they have in common, if that closes behind the volume.
+const BEHIND: f64 = 0.3;
+/// How far apart colours are at most that count as the same, in levels of 8 bits.
+const ALIKE: f64 = 30.0;
+/// Shapes that cover less of a volume do not go along enough of its border.
+const LEAST: f64 = 0.03;
+
+/// A skin on the back of a volume.
+#[derive(Debug)]
+pub(super) struct Back {
+    /// The shape that closes behind.
+    pub(super) of: usize,
+    /// The volume that it closes behind.
+    pub(super) on: usize,
+    /// The area of the skin, drawing units.
+    pub(super) outline: Arc<Outline>,
+    /// If the volume is a plate, the plates that overlap it.
+    pub(super) plates: Vec<usize>,
+}
+
+/// What may close behind a volume: a later shape that lies on it, or an earlier one that it lies on.
+#[derive(Clone, Copy)]
+struct Garment {
+    shape: usize,
+    /// The area that it has in common with the volume.
+    area: f64,
+    is_later: bool,
+    /// Whether it reaches around the volume, so that it has a back of its own there.
+    wraps: bool,
+}
+
+/// The skins on backs, in the order of their volumes.
+pub(super) fn backs(
+    context: &FigureContext<'_>,
+    shapes: &[Shape],
+    nodes: &Nodes,
+    overlaps: &[Vec<Overlap>],
+    covers: &[Cover],
+    is_one: bool,
+) -> Vec<Back> {
+    let is_plate = |index: usize| !shapes[index].is_soft && !shapes[index].is_ink;
+    // From behind, a plate that is drawn first hides those that are drawn on it.
+    let is_hidden = |index: usize| {
+        let most = AROUND * shapes[index].area;
+        let mut below = overlaps[index].iter();
+        is_plate(index) && below.any(|overlap| is_plate(overlap.below) && overlap.area >= most)
+    };
+    let is_hidden: Vec<bool> = (0..shapes.len()).map(is_hidden).collect();
+    let may_show_back = |index: usize| {
+        let shape = &shapes[index];
+        let is_solid = !shape.is_ink && !shape.is_given && !shape.profile.is_open();
+        is_solid && !covers[index].is_detail && !is_hidden[index] && shape.area > 0.0
+    };
+    let is_kin = |one: usize, other: usize| {
+        let [one, other] = [one, other].map(|shape| nodes.of_shape[shape]);
+        is_one || nodes.hangs_on(one, other) || nodes.hangs_on(other, one)
+    };
+    let mut garments: Vec<Vec<Garment>> = vec![Vec::new(); shapes.len()];
+    for (above, below) in overlaps.iter().enumerate() {
+        let garment = &shapes[above];
+        if garment.is_ink || garment.is_given {
+            continue;
+        }
+        for overlap in below {
+            let on = overlap.below;
+            let is_large = overlap.area >= LEAST * shapes[on].area;
+            if is_large && may_show_back(on) && is_kin(above, on) {
+                garments[on].push(Garment {
+                    shape: above,
+                    area: overlap.area,
+                    is_later: true,
+                    wraps: covers[above].wraps.contains(&on),
+                });
+            }
+            // Long hair behind a head is about as large as that, which a trunk behind an arm is not.
+            let [volume, behind] = [garment.area, shapes[on].area];
+            let is_alike = overlap.area >= BEHIND * volume && overlap.area >= BEHIND * behind;
+            let is_free = !shapes[on].is_ink && !shapes[on].is_given;
+            if is_alike && is_free && may_show_back(above) && is_kin(above, on) {
+                garments[above].push(Garment {
+                    shape: on,
+                    area: overlap.area,
+                    is_later: false,
+                    wraps: false,
+                });
+            }
+        }
+    }
+    let found = garments.par_iter().enumerate().with_min_len(GRAIN);
+    let found = found.map(|(on, garments)| of_volume(context, shapes, on, garments));
+    let mut found: Vec<Back> = found.collect::<Vec<_>>().into_iter().flatten().collect();
+    add_plates(&mut found, shapes, overlaps);
+    found
+}
+
+/// Gives skins on plates the plates that overlap these.
+fn add_plates(backs: &mut [Back], shapes: &[Shape], overlaps: &[Vec<Overlap>]) {
+    let is_plate = |index: usize| !shapes[index].is_soft && !shapes[index].is_ink;
+    let mut near: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
+    let volumes = backs.iter().map(|back| back.on);
+    near.extend(
+        volumes
+            .filter(|on| is_plate(*on))
+            .map(|on| (on, Vec::new())),
+    );
+    if near.is_empty() {
+        return;
+    }
+    for (above, below) in overlaps
+        .iter()
+        .enumerate()
+        .filter(|(above, _)| is_plate(*above))
+    {
+        for below in below
+            .iter()
+            .map(|overlap| overlap.below)
+            .filter(|below| is_plate(*below))
+        {
+            for (one, other) in [(above, below), (below, above)] {
+                if let Some(near) = near.get_mut(&one) {
+                    near.push(other);
+                }
+            }
+        }
+    }
+    for back in backs {
+        back.plates = near.get(&back.on).cloned().unwrap_or_default();
+    }
+}
+
+/// A point of a border.
+struct Sample {
+    /// The border's point that it comes after.
+    edge: usize,
+    at: DVec2,
+    /// Just inside the border.
+    on_border: DVec2,
+    /// Far enough inside to be beyond a dark outline.
+    inside: DVec2,
+    outside: DVec2,
+}
+
+/// Pieces of a volume's outline that are smaller than this share of the largest have no skin of their own.
+const PIECE: f64 = 0.2;
+/// Limit of the pieces that are looked at.
+const MAX_PIECES: usize = 8;
+
+/// The skins on the back of a volume that these shapes lie on or behind.
+fn of_volume(
+    context: &FigureContext<'_>,
+    shapes: &[Shape],
+    on: usize,
+    garments: &[Garment],
+) -> Vec<Back> {
+    // Quick: most volumes carry only what is small.
+    let covered: f64 = garments.iter().map(|garment| garment.area).sum();
+    if covered < FROM_ABOVE * INSIDE * shapes[on].area {
+        return Vec::new();
+    }
+    let polygons = shapes[on].outline.polygons.iter();
+    let mut pieces: Vec<(f64, &Polygon)> = polygons
+        .filter_map(|polygon| Some((shoelace(polygon.rings.first()?).abs(), polygon)))
+        .collect();
+    let largest = pieces.iter().map(|(area, _)| *area).fold(0.0, f64::max);
+    pieces.retain(|(area, _)| *area >= PIECE * largest);
+    pieces.truncate(MAX_PIECES);
+    let of_piece = |(_, polygon): (f64, &Polygon)| {
+        let outline = Arc::new(Outline {
+            polygons: vec![polygon.clone()],
+        });
+        of_piece(context, shapes, on, garments, &outline)
+    };
+    pieces.into_iter().flat_map(of_piece).collect()
+}
+
+/// The skins on the back of a piece of a volume's outline.
+fn of_piece(
+    context: &FigureContext<'_>,
+    shapes: &[Shape],
+    on: usize,
+    garments: &[Garment],
+    outline: &Arc<Outline>,
+) -> Vec<Back> {
+    let ring = &outline.polygons[0].rings[0];
+    let shape = &shapes[on];
+    let size = bounds(outline).map_or(DVec2::ZERO, |(low, high)| high - low);
+    let samples = samples(ring, outline, INSIDE * size.min_element());
+    if samples.is_empty() {
+        return Vec::new();
+    }
+    // Per sample the largest of the shapes that cover it: not the highlights on hair, but the hair.
+    let worn = |later: DVec2, earlier: DVec2| {
+        let covers = garments.iter().filter(|garment| {
+            let other = &shapes[garment.shape];
+            let (low, high) = other.bounds;
+            let point = if garment.is_later { later } else { earlier };
+            point.clamp(low, high) == point && contains(&other.outline, point)
+        });
+        covers
+            .max_by(|a, b| a.area.total_cmp(&b.area).then(b.shape.cmp(&a.shape)))
+            .map(|garment| garment.shape)
+    };
+    let worn: Vec<[Option<usize>; 2]> = samples
+        .iter()
+        .map(|sample| [sample.on_border, sample.inside].map(|point| worn(point, sample.outside)))
+        .collect();
+    let mut topmost: Vec<usize> = (0..samples.len()).collect();
+    topmost.sort_unstable_by(|a, b| samples[*a].at.y.total_cmp(&samples[*b].at.y));
+    topmost.truncate(TOPMOST);
+
+    let color = |shape: usize| {
+        let part = &context.bindings.parts[shapes[shape].part];
+        part.paint(context.drawing).color
+    };
+    // What differs only as light and shadow on hair do is one garment.
+    let mut wardrobe: Vec<([u8; 3], Vec<Garment>)> = Vec::new();
+    let skin = color(on);
+    for garment in garments {
+        let own = color(garment.shape);
+        if own == skin {
+            continue;
+        }
+        match wardrobe.iter_mut().find(|(color, _)| is_alike(*color, own)) {
+            Some((_, same)) => same.push(*garment),
+            None => wardrobe.push((own, vec![*garment])),
+        }
+    }
+    let mut found: Vec<(usize, Back)> = Vec::new();
+    for (_, same) in &wardrobe {
+        let is_same = |worn: Option<usize>| {
+            worn.is_some_and(|worn| same.iter().any(|garment| garment.shape == worn))
+        };
+        let goes = worn.iter().map(|worn| worn.map(is_same));
+        let goes: Vec<[bool; 2]> = goes.collect();
+        let share = |is: &dyn Fn(&[bool; 2]) -> bool| {
+            goes.iter().filter(|goes| is(goes)).count() as f64 / samples.len() as f64
+        };
+        let (on_border, inside) = (share(&|goes| goes[0]), share(&|goes| goes[1]));
+        // An outline covers the border alone.
+        if inside < NO_OUTLINE * on_border {
+            continue;
+        }
+        let is_fill = |garment: &Garment| {
+            let own = shapes[garment.shape].area;
+            garment.is_later
+                && garment.area >= FILL * shape.area
+                && garment.area >= INSIDE_RIM * own
+        };
+        let has_back = same.iter().all(|garment| garment.wraps);
+        let is_worn = on_border >= AROUND && same.iter().any(|garment| garment.is_later);
+        let is_rim = inside >= WHOLE && same.iter().any(is_fill);
+        let mut along: Vec<bool> = goes.iter().map(|goes| goes[0] || goes[1]).collect();
+        close_gaps(&mut along);
+        if has_back || !(is_worn || is_rim) {
+            let at_top = topmost.iter().filter(|index| along[**index]).count() as f64;
+            keep_runs(&mut along, &topmost);
+            let count = along.iter().filter(|is_along| **is_along).count() as f64;
+            if at_top < TOP * topmost.len() as f64 || count < FROM_ABOVE * samples.len() as f64 {
+                continue;
+            }
+        }
+        let count = along.iter().filter(|is_along| **is_along).count();
+        let largest = same
+            .iter()
+            .max_by(|a, b| a.area.total_cmp(&b.area).then(b.shape.cmp(&a.shape)));
+        let outline = region(outline, ring, &samples, &along);
+        if let (Some(outline), Some(largest)) = (outline, largest) {
+            let back = Back {
+                of: largest.shape,
+                on,
+                outline,
+                plates: Vec::new(),
+            };
+            found.push((count, back));
+        }
+    }
+    // What covers least comes last, so that nothing hides it.
+    found.sort_by_key(|(count, back)| (std::cmp::Reverse(*count), back.of));
+    found.into_iter().map(|(_, back)| back).collect()
+}
+
+/// Whether two colours are about the same.
+fn is_alike(one: [u8; 3], other: [u8; 3]) -> bool {
+    let apart = [0, 1, 2].map(|channel| f64::from(one[channel]) - f64::from(other[channel]));
+    let squared: f64 = apart.iter().map(|apart| apart * apart).sum();
+    squared <= ALIKE * ALIKE
+}
+
+/// Points at equal distances along the border of an outline, each with points beside it, at most this far inside.
+fn samples(ring: &Ring, outline: &Outline, most: f64) -> Vec<Sample> {
+    let n = ring.len();
+    let edge = |i: usize| [ring[i], ring[(i + 1) % n]];
+    let around: f64 = (0..n).map(|i| edge(i)[0].distance(edge(i)[1])).sum();
+    let apart = around / SAMPLES as f64;
+    let filled_side = if shoelace(ring) < 0.0 { -1.0 } else { 1.0 };
+    let mut samples = Vec::with_capacity(SAMPLES);
+    let mut next = apart / 2.0;
+    for i in 0..n {
+        let [from, to] = edge(i);
+        let length = from.distance(to);
+        let inward = (to - from).perp() * filled_side / length;
+        while next < length {
+            let at = from.lerp(to, next / length);
+            next += apart;
+            // Where the volume is thin, not beyond its middle.
+            let mut depth = most;
+            let through = depth / INSIDE_THIN;
+            let steps = [0.25, 0.5, 0.75, 1.0];
+            for step in steps {
+                if !contains(outline, at + inward * (through * step)) {
+                    depth = depth.min(INSIDE_THIN * through * step);
+                    break;
+                }
+            }
+            samples.push(Sample {
+                edge: i,
+                at,
+                on_border: at + inward * (RIM * depth),
+                inside: at + inward * depth,
+                outside: at - inward * (OUTSIDE * most),
+            });
+        }
+        next -= length;
+    }
+    samples
+}
+
+/// Closes short gaps in a closed sequence.
+fn close_gaps(along: &mut [bool]) {
+    let n = along.len();
+    let most = (GAP * n as f64) as usize;
+    let Some(start) = along.iter().position(|is_along| *is_along) else {
+        return;
+    };
+    let mut gap = 0;
+    for k in 1..=n {
+        let index = (start + k) % n;
+        if !along[index] {
+            gap += 1;
+            continue;
+        }
+        if gap <= most {
+            for back in 1..=gap {
+                along[(index + n - back) % n] = true;
+            }
+        }
+        gap = 0;
+    }
+}
+
+/// Of the runs in a closed sequence, keeps those with one of these places.
+fn keep_runs(along: &mut [bool], places: &[usize]) {
+    let n = along.len();
+    let mut kept = vec![false; n];
+    for place in places.iter().filter(|place| along[**place]) {
+        for step in [1, n - 1] {
+            let mut index = *place;
+            while along[index] && !kept[index] {
+                kept[index] = true;
+                index = (index + step) % n;
+            }
+            // The other direction begins at the same place.
+            kept[*place] = false;
+        }
+        kept[*place] = true;
+    }
+    along.copy_from_slice(&kept);
+}
+
+/// The part of an outline behind the stretches of its border that something goes along, joined by straight lines.
+fn region(
+    whole: &Arc<Outline>,
+    ring: &Ring,
+    samples: &[Sample],
+    along: &[bool],
+) -> Option<Arc<Outline>> {
+    let n = samples.len();
+    let count = along.iter().filter(|is_along| **is_along).count();
+    if count as f64 >= WHOLE * n as f64 {
+        return Some(Arc::clone(whole));
+    }
+    let start = (0..n).find(|index| along[*index] && !along[(index + n - 1) % n])?;
+    let mut border = Ring::new();
+    for k in 0..n {
+        let index = (start + k) % n;
+        if !along[index] {
+            continue;
+        }
+        border.push(samples[index].at);
+        let next = (index + 1) % n;
+        if along[next] && k + 1 < n {
+            let mut edge = samples[index].edge;
+            while edge != samples[next].edge {
+                edge = (edge + 1) % ring.len();
+                border.push(ring[edge]);
+            }
+        }
+    }
+    border.dedup();
+    if border.len() < 3 {
+        return None;
+    }
+    let outline = Outline {
+        polygons: vec![Polygon {
+            rings: vec![border],
+        }],
+    };
+    // The lines between stretches may leave the outline where that is hollow.
+    let outline = intersect(&outline, whole);
+    (area(&outline) > LEAST * area(whole)).then(|| Arc::new(outline))
+}
