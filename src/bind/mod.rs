@@ -17,7 +17,7 @@ mod words;
 
 pub(crate) use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
-    MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, SignedAxis,
+    MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, Side, SignedAxis,
 };
 pub(crate) use bindings::{
     Bindings, BoundBy, DrawingString, NamedBy, Part, StringHolder, StringId,

@@ -145,9 +145,9 @@ impl<'a> Figures<'a> {
         scene: &mut Scene,
     ) -> FigureNodes {
         let mut backs: FxHashMap<PartId, Vec<LaidSolid>> = FxHashMap::default();
-        for (skin, pile, body) in self.layers.backs() {
-            let texture = materials[skin.part].and_then(|(_, texture)| texture);
-            backs.entry(skin.part).or_default().push(LaidSolid {
+        for (part, pile, body) in self.layers.backs() {
+            let texture = materials[part].and_then(|(_, texture)| texture);
+            backs.entry(part).or_default().push(LaidSolid {
                 pile: Arc::clone(pile),
                 body,
                 sides: Sides::Front,

@@ -49,6 +49,7 @@ keywords! {
     Axis = part::AXIS;
     Segments = part::SEGMENTS;
     Smooth = part::SMOOTH;
+    Side = part::SIDE;
     Metallic = part::METALLIC;
     Roughness = part::ROUGHNESS;
     Emissive = part::EMISSIVE;

@@ -108,6 +108,15 @@ pub struct Resolved {
     pub string: Option<StringId>,
 }
 
+/// The word of `Side`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// A shape shows where it is drawn alone.
+    Near,
+    /// It shows on the back as well, mirrored.
+    Both,
+}
+
 /// The colour that `Color` sets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SetColor {
@@ -282,6 +291,21 @@ impl Bindings {
             None => profile,
         };
         Some(profile).filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
+    }
+
+    /// `Side` of a part: its own, or that of its main part's string.
+    pub fn side(&self, part: PartId) -> Option<Side> {
+        let form = self.form(part);
+        let own = self.attributes(form);
+        let is_own = own
+            .source(Keyword::Side)
+            .is_some_and(|side| side.from < SetBy::Default);
+        let main = self.parts[form].main;
+        if is_own || main == form {
+            own.side()
+        } else {
+            self.attributes(main).side()
+        }
     }
 
     /// The factors of a part's material.
@@ -502,6 +526,14 @@ impl<'a> Attributes<'a> {
     /// `Follow`: the names of the parts or joints that are edited together with the part.
     pub fn follows(&self) -> Option<Attribute<'a, &'a [String]>> {
         typed!(self, Keyword::Follow, Value::Names(names) => names.as_slice())
+    }
+
+    /// `Side`.
+    pub fn side(&self) -> Option<Side> {
+        match self.word(Keyword::Side)?.value.to_lowercase().as_str() {
+            "near" => Some(Side::Near),
+            _ => Some(Side::Both),
+        }
     }
 
     /// `Swing`: how stiff a part is that swings, `None` for one that does not.

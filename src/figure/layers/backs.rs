@@ -13,6 +13,7 @@ use rustc_hash::FxHashMap;
 use super::overlaps::Overlap;
 use super::shapes::Shape;
 use super::{Cover, FigureContext, Nodes};
+use crate::bind::Side;
 use crate::geometry::{Outline, Polygon, Ring, area, bounds, contains, intersect, shoelace};
 use crate::threads::GRAIN;
 
@@ -73,6 +74,19 @@ struct Garment {
     wraps: bool,
 }
 
+/// Per shape whether it shows on the back as well, mirrored: details with `Side both`.
+pub(super) fn mirrored(
+    context: &FigureContext<'_>,
+    shapes: &[Shape],
+    covers: &[Cover],
+) -> Vec<bool> {
+    let shapes = shapes.iter().zip(covers);
+    let is_mirrored = shapes.map(|(shape, cover)| {
+        cover.is_detail && !shape.is_given && context.bindings.side(shape.part) == Some(Side::Both)
+    });
+    is_mirrored.collect()
+}
+
 /// The skins on backs, in the order of their volumes.
 pub(super) fn backs(
     context: &FigureContext<'_>,
@@ -95,6 +109,10 @@ pub(super) fn backs(
         let is_solid = !shape.is_ink && !shape.is_given && !shape.profile.is_open();
         is_solid && !covers[index].is_detail && !is_hidden[index] && shape.area > 0.0
     };
+    let is_near: Vec<bool> = shapes
+        .iter()
+        .map(|shape| context.bindings.side(shape.part) == Some(Side::Near))
+        .collect();
     let is_kin = |one: usize, other: usize| {
         let [one, other] = [one, other].map(|shape| nodes.of_shape[shape]);
         is_one || nodes.hangs_on(one, other) || nodes.hangs_on(other, one)
@@ -102,7 +120,7 @@ pub(super) fn backs(
     let mut garments: Vec<Vec<Garment>> = vec![Vec::new(); shapes.len()];
     for (above, below) in overlaps.iter().enumerate() {
         let garment = &shapes[above];
-        if garment.is_ink || garment.is_given {
+        if garment.is_ink || garment.is_given || is_near[above] {
             continue;
         }
         for overlap in below {
@@ -119,7 +137,7 @@ pub(super) fn backs(
             // Long hair behind a head is about as large as that, which a trunk behind an arm is not.
             let [volume, behind] = [garment.area, shapes[on].area];
             let is_alike = overlap.area >= BEHIND * volume && overlap.area >= BEHIND * behind;
-            let is_free = !shapes[on].is_ink && !shapes[on].is_given;
+            let is_free = !shapes[on].is_ink && !shapes[on].is_given && !is_near[on];
             if is_alike && is_free && may_show_back(above) && is_kin(above, on) {
                 garments[above].push(Garment {
                     shape: on,

@@ -31,6 +31,8 @@ pub(super) struct Lifting<'a> {
     pub(super) frames: &'a TiSlice<PartId, PartFrames>,
     pub(super) world: &'a WorldTransform,
     pub(super) backs: &'a [Back],
+    /// Per shape whether it shows on the back as well.
+    pub(super) mirrored: &'a [bool],
 }
 
 /// The depths of plane faces, back and front, both measured outwards; `None` for a side without one.
@@ -193,14 +195,15 @@ impl Lifting<'_> {
             for (by_itself, moved) in &below {
                 let is_same = (by_itself - own).abs() <= SAME * step;
                 let hides = is_free && *moved > own - (1.0 - SAME) * step;
-                if side == 0 && is_same {
+                if side == 0 && is_same && !self.mirrored[index] {
                     // From behind, what is drawn first hides what is drawn on it.
                     level = level.min(moved - step);
                 } else if is_same || hides {
                     level = level.max(moved + step);
                 }
             }
-            let away = if side == 0 { -step } else { step };
+            let is_hidden = side == 0 && !self.mirrored[index];
+            let away = if is_hidden { -step } else { step };
             let near = |level: f64| {
                 let mut moved = below.iter().map(|(_, moved)| *moved);
                 moved.find(|moved| (moved - level).abs() < 0.5 * step)
@@ -242,6 +245,11 @@ impl Lifting<'_> {
             place[index] = count;
             count += 1;
         }
+        let copied: Vec<Option<Lay>> = lays
+            .iter()
+            .zip(self.mirrored)
+            .map(|(lay, is_mirrored)| lay.clone().filter(|_| *is_mirrored))
+            .collect();
         let to_place = |list: Vec<usize>| list.into_iter().map(|index| place[index]).collect();
         let mut made = Vec::with_capacity(count);
         for (index, lay) in lays
@@ -280,10 +288,41 @@ impl Lifting<'_> {
             skins.entry(back.on).or_default().push(made.len());
             backs.push(BackSkin {
                 part: self.arrangement.shapes[back.of].part,
-                on: self.arrangement.shapes[back.on].part,
                 body: made.len(),
             });
             made.push(skin);
+        }
+        // Per shape its mirror image, once it is made.
+        let mut images: Vec<Option<usize>> = vec![None; self.arrangement.shapes.len()];
+        for (index, lay) in copied.into_iter().enumerate() {
+            let Some(lay) = lay else { continue };
+            let on = |shape: &usize| {
+                let is_volume = !self.arrangement.covers[*shape].is_detail;
+                let volume = is_volume.then_some(place[*shape]);
+                let skins = skins.get(shape).into_iter().flatten().copied();
+                volume.into_iter().chain(skins).chain(images[*shape])
+            };
+            let mut below: Vec<usize> = lay.below.iter().flat_map(on).collect();
+            below.sort_unstable();
+            let lay = Lay {
+                below,
+                wraps: Vec::new(),
+                behind: Vec::new(),
+                ..lay
+            };
+            let part = self.arrangement.shapes[index].part;
+            let body = self.body(index, Some(lay), raised[part]);
+            images[index] = Some(made.len());
+            backs.push(BackSkin {
+                part,
+                body: made.len(),
+            });
+            made.push(Body {
+                depth: -body.depth,
+                node_depth: -body.node_depth,
+                is_behind: true,
+                ..body
+            });
         }
         (Pile::new(made, recent), places, backs)
     }

@@ -119,12 +119,10 @@ impl Arrangement<'_> {
     }
 }
 
-/// A part that closes behind a volume.
+/// What a part has on the back of a volume.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BackSkin {
-    pub(super) part: PartId,
-    /// The part on whose back it lies.
-    pub(super) on: PartId,
+struct BackSkin {
+    part: PartId,
     /// Its place in the pile.
     body: usize,
 }
@@ -212,6 +210,7 @@ impl Layers {
             frames,
             world,
             backs: &backs,
+            mirrored: &backs::mirrored(context, &shapes, &covers),
         };
         let node = |part: PartId| {
             let node = nodes.of_part[part]?;
@@ -255,10 +254,10 @@ impl Layers {
         self.places[part].is_some_and(|body| self.pile.bodies[body].lay.is_some())
     }
 
-    /// The skins on backs, with their places in the pile.
-    pub(super) fn backs(&self) -> impl Iterator<Item = (BackSkin, &Arc<Pile>, usize)> {
+    /// What parts have on the backs of volumes, with its places in the pile.
+    pub(super) fn backs(&self) -> impl Iterator<Item = (PartId, &Arc<Pile>, usize)> {
         let backs = self.backs.iter();
-        backs.map(|back| (*back, &self.pile, back.body))
+        backs.map(|back| (back.part, &self.pile, back.body))
     }
 
     /// A part's place in the pile, if that makes its surface.

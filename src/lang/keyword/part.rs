@@ -137,6 +137,24 @@ pub(super) static AXIS: Row = Row {
     ..Row::ROW
 };
 
+pub(super) static SIDE: Row = Row {
+    forms: &[Form::one(&choice(
+        "which",
+        &vocabulary::SIDE,
+        "where the shape shows",
+    ))],
+    default: "found from the drawing",
+    summary: "whether a shape shows on the far side too",
+    long: "A drawing shows the front; what the back shows follows from it. Hair, hats and hoods that \
+           go around a head from above close behind it, and so does a jacket that covers most of the \
+           border of a shirt; a face, a button or a badge shows in front alone. `both` puts a detail \
+           on the back as well, mirrored: a saddle, the wheel cover of a car. `near` keeps a shape \
+           where it is drawn: a fringe without hair behind. Shapes in one group share the word of \
+           their string.",
+    example: "Saddle@Horse$Side both",
+    ..Row::ROW
+};
+
 pub(super) static SEGMENTS: Row = Row {
     forms: &[Form::one(&number(
         "n",

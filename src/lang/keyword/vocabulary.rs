@@ -77,6 +77,12 @@ pub(crate) static CARRY: [Word; 2] = [
     ),
 ];
 
+/// The words of `Side`.
+pub(crate) static SIDE: [Word; 2] = [
+    word("near", "where it is drawn alone"),
+    word("both", "on the back as well, mirrored"),
+];
+
 /// The signed axes of `Axes`.
 pub(crate) static AXES: [Word; 6] = [
     word("+x", "along the world's x"),
@@ -288,6 +294,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
         .chain(&STROKES)
         .chain(&TILE)
         .chain(&CARRY)
+        .chain(&SIDE)
         .chain(&AXES)
         .chain(&CLIPS)
 }
