@@ -56,6 +56,7 @@ fn body(solid: Solid) -> Body {
         flattened: 1.0,
         is_given: false,
         is_detail: false,
+        is_behind: false,
         lay: None,
     }
 }
@@ -365,6 +366,78 @@ fn beside_the_solid_a_skin_lies_at_its_border() {
         (low + 0.08).abs() < 1e-3 && (high - 0.08).abs() < 1e-3,
         "{low} {high}"
     );
+}
+
+/// A skin with a part of the outline of an inflated solid, in front of it or behind it.
+fn skin_of(
+    outline: &Outline,
+    by: DVec2,
+    depth: f64,
+    is_behind: bool,
+) -> Option<(Surface, Surface)> {
+    let inflate = || Profile::new("inflate", &[], 1.0).unwrap();
+    let region = crate::geometry::intersect(outline, &moved(outline.clone(), by));
+    if region.polygons.is_empty() {
+        return None;
+    }
+    let volume = Body {
+        depth,
+        ..body(solid(outline.clone(), inflate()))
+    };
+    let lay = Lay {
+        below: vec![0],
+        wraps: vec![],
+        behind: vec![],
+        clips: false,
+        step: 0.05,
+        invisible: 0.0,
+        bulge: 0.0,
+        segments: Some(8),
+        form: LayForm::BackSkin,
+        is_line: false,
+    };
+    let skin = Body {
+        depth: if is_behind { -depth } else { depth },
+        is_detail: true,
+        is_behind,
+        lay: Some(lay),
+        ..body(solid(region, inflate()))
+    };
+    let pile = Arc::new(Pile::new(vec![volume, skin], Arc::default()));
+    let surface = |body: usize| {
+        let laid = LaidSolid {
+            pile: Arc::clone(&pile),
+            body,
+            sides: Sides::Front,
+            texture: None,
+        };
+        laid.surface()
+    };
+    Some((surface(0), surface(1)))
+}
+
+/// A skin behind a solid is the mirror image of one in front of it, and hides what it covers from behind.
+#[test]
+fn skins_behind_mirror_those_in_front() {
+    let inputs = (rings(), (-1.0..1.0f64, -1.0..1.0f64), -2.0..2.0f64);
+    law::check(config(), 60, inputs, |(rings, by, depth)| {
+        let outline = outline(rings);
+        let by = DVec2::from(by) * 0.7;
+        let skins = [true, false].map(|is_behind| skin_of(&outline, by, depth, is_behind));
+        let [Some((volume, behind)), Some((_, front))] = skins else {
+            return Ok(false);
+        };
+        lawful(&behind).map_err(TestCaseError::fail)?;
+        let share = swallowed(&behind.mirrored(), &volume.mirrored());
+        prop_assert!(share < 0.01, "{share} of the skin is inside");
+        prop_assert_eq!(front.positions.len(), behind.positions.len());
+        for (one, other) in front.positions.iter().zip(&behind.positions) {
+            let depths = f64::from(one[2]) + f64::from(other[2]) - 2.0 * depth;
+            prop_assert!(depths.abs() < 1e-4, "{one:?} in front, {other:?} behind");
+            prop_assert_eq!(one[..2].to_vec(), other[..2].to_vec());
+        }
+        Ok(true)
+    });
 }
 
 #[test]

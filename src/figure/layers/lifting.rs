@@ -22,6 +22,8 @@ const BULGE: f64 = 0.3;
 const NAMED_BULGE: f64 = 0.6;
 /// How far a face of a plate is moved outwards at most, in its own heights.
 const MAX_RAISE: f64 = 2.0;
+/// Layers per half turn of a skin on a back, whose mesh follows that of the volume where it has to.
+const SKIN_SEGMENTS: u32 = 8;
 /// Planes that are less than this share of a step apart coincide.
 const SAME: f64 = 0.01;
 
@@ -352,7 +354,7 @@ impl Lifting<'_> {
             step: arrangement.steps[back.of] * scale,
             invisible: arrangement.context.invisible * scale,
             bulge: 0.0,
-            segments: None,
+            segments: Some(SKIN_SEGMENTS),
             form: LayForm::BackSkin,
             is_line: false,
         };
