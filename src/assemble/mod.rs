@@ -12,7 +12,7 @@ use typed_index_collections::{TiVec, ti_vec};
 use crate::billboard::{self, Character, RegionMaterials};
 use crate::bind::{Bindings, PartId};
 use crate::diagnostic::Diagnostic;
-use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth};
+use crate::figure::{Behind, FigureNodes, Figures, LinkedModels, NodeDepth};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, RestNode};
@@ -36,6 +36,8 @@ pub(crate) struct Assembled {
     pub clips: Vec<FigureClip>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
     pub depths: TiVec<PartId, Option<NodeDepth>>,
+    /// What parts show from behind beside their own backs.
+    pub behind: Vec<(PartId, Behind)>,
 }
 
 /// What a surface of a scene is made from.
@@ -115,6 +117,7 @@ pub(crate) fn assemble(
         characters,
         clips,
         depths: figures.depths,
+        behind: figures.behind,
     }
 }
 

@@ -15,7 +15,7 @@ use crate::bind::{NamedBy, PartId, SetBy};
 use crate::disk::is_standard_stream;
 use crate::ide::{Subject, Which};
 use crate::lang::keyword::Keyword;
-use crate::report::{depth_reason, describe_character, inspection_json};
+use crate::report::{depth_reason, describe_character, inspection_json, node_back_reason};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
@@ -238,8 +238,13 @@ fn describe_part(loaded: &Loaded, subject: Subject<'_>, index: PartId) -> String
         .element()
         .map_or(String::new(), |element| element.describe());
     let depth = depth_reason(&loaded.compiled, index);
-    let depth = depth.map_or(String::new(), |reason| format!("; {reason}"));
-    format!("{solid}{subs}{ink}; {element}, {}{depth}", string(subject))
+    let back = node_back_reason(&loaded.compiled, index);
+    let reasons = depth.into_iter().chain(back);
+    let reasons: String = reasons.map(|reason| format!("; {reason}")).collect();
+    format!(
+        "{solid}{subs}{ink}; {element}, {}{reasons}",
+        string(subject)
+    )
 }
 
 /// By what rule a part has its string.

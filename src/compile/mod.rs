@@ -12,7 +12,7 @@ use crate::billboard::Character;
 use crate::bind::{self, Bindings, PartId};
 use crate::crash::{self, Crash};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
-use crate::figure::NodeDepth;
+use crate::figure::{Behind, NodeDepth};
 use crate::memo::Memo;
 use crate::resolver::{Dependency, Recorder, Resolver};
 use crate::rig;
@@ -72,6 +72,9 @@ pub struct Compiled {
     /// Per part that has a node, how far in front of the drawing plane it lies.
     #[doc(hidden)]
     pub depths: TiVec<PartId, Option<NodeDepth>>,
+    /// What parts show from behind beside their own backs.
+    #[doc(hidden)]
+    pub behind: Vec<(PartId, Behind)>,
     /// The drawing. Its outlines and texts are shared with the bindings.
     #[doc(hidden)]
     pub drawing: Arc<Drawing>,
@@ -186,6 +189,7 @@ impl Reading {
             characters,
             clips,
             depths,
+            behind,
         } = assemble::assemble(&drawing, &bindings, &recorder, memo, &mut diagnostics);
         bind::locate(&drawing, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
@@ -200,6 +204,7 @@ impl Reading {
             characters,
             clips,
             depths,
+            behind,
             drawing,
             diagnostics,
             dependencies,

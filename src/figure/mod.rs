@@ -35,7 +35,7 @@ use layers::Layers;
 use models::Models;
 use tree::FigureNode;
 
-pub(crate) use layers::{NodeDepth, Reason};
+pub(crate) use layers::{Behind, NodeDepth, Reason};
 pub(crate) use nodes::PartNode;
 
 /// The linked models of a drawing's figures, read before anything else: parts that are models need no material.
@@ -99,6 +99,8 @@ pub(crate) struct FigureNodes {
     pub node_of_part: TiVec<PartId, Option<NodeId>>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
     pub depths: TiVec<PartId, Option<NodeDepth>>,
+    /// What parts show from behind beside their own backs.
+    pub behind: Vec<(PartId, Behind)>,
     /// Per part the thickness of its solid, `None` without one; empty if the drawing has no motion.
     pub thicknesses: TiVec<PartId, Option<Thickness>>,
 }
@@ -175,6 +177,7 @@ impl<'a> Figures<'a> {
             parts_of_node: self.parts_of_node,
             nodes,
             node_of_part,
+            behind: self.layers.behind().collect(),
             depths: self.layers.into_nodes(),
         }
     }

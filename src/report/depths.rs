@@ -1,7 +1,7 @@
 //! How far in front of others parts lie, and why, for people.
 
 use crate::compile::Compiled;
-use crate::figure::Reason;
+use crate::figure::{Behind, Reason};
 use crate::ide::PartId;
 
 /// Differences that are smaller are none, drawing units.
@@ -38,6 +38,50 @@ pub(crate) fn depth_reason(compiled: &Compiled, part: PartId) -> Option<String> 
             format!("{parent}twin of {}", name(of))
         }
     })
+}
+
+/// What a part shows from behind beside its own back; `None` for nothing.
+pub(crate) fn back_reason(compiled: &Compiled, part: PartId) -> Option<String> {
+    back(compiled, |of, _| of == part)
+}
+
+/// What the parts of a node show from behind other nodes; `None` for nothing.
+pub(crate) fn node_back_reason(compiled: &Compiled, main: PartId) -> Option<String> {
+    let main_of = |part: PartId| compiled.bindings.parts[part].main;
+    back(compiled, |of, why| {
+        let is_apart = match why {
+            Behind::Closes { on } => main_of(on) != main,
+            Behind::Mirrored => of == main,
+        };
+        main_of(of) == main && is_apart
+    })
+}
+
+fn back(compiled: &Compiled, is_meant: impl Fn(PartId, Behind) -> bool) -> Option<String> {
+    let parts = &compiled.bindings.parts;
+    let mut on: Vec<&str> = Vec::new();
+    let mut is_mirrored = false;
+    for (_, why) in compiled
+        .behind
+        .iter()
+        .filter(|(of, why)| is_meant(*of, *why))
+    {
+        match why {
+            Behind::Mirrored => is_mirrored = true,
+            Behind::Closes { on: other } => {
+                let other = &parts[*other];
+                let name = Some(other.name.as_str()).filter(|name| !name.is_empty());
+                let name = name.unwrap_or(&parts[other.main].name);
+                if !on.contains(&name) {
+                    on.push(name);
+                }
+            }
+        }
+    }
+    let closes = (!on.is_empty()).then(|| format!("closes behind {}", on.join(", ")));
+    let mirrored = is_mirrored.then(|| "on the back as well".to_owned());
+    let reasons: Vec<String> = closes.into_iter().chain(mirrored).collect();
+    (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
 /// A length with two digits after the point, without zeros at its end.

@@ -15,7 +15,7 @@ mod terrain;
 
 pub(crate) use billboards::{Billboard, billboards, describe_character};
 pub(crate) use clips::{Clip, clips};
-pub(crate) use depths::depth_reason;
+pub(crate) use depths::{depth_reason, node_back_reason};
 pub use findings::Findings;
 pub(crate) use findings::{Likeness, findings_json};
 pub(crate) use inspection::inspection_json;

@@ -6,7 +6,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::billboards::middle;
-use super::depths::depth_reason;
+use super::depths::{back_reason, depth_reason};
 use super::joints::{Driver, drivers};
 use crate::billboard::ViewId;
 use crate::compile::Compiled;
@@ -47,6 +47,9 @@ pub(crate) struct Part<'a> {
     /// Why it lies there; `None` for a part in the plane of what it hangs on.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth_why: Option<String>,
+    /// What it shows from behind beside its own back; `None` for nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub back: Option<String>,
     /// All attributes that are set, and those that every solid has.
     pub attributes: BTreeMap<&'static str, AttributeReport>,
     /// The joint that drives it in the first clip that does.
@@ -136,12 +139,13 @@ fn report<'a>(
             at(middle(character, &character.regions[region]))
         }
     };
-    let (depth, depth_why) = match subject.which {
+    let (depth, depth_why, back) = match subject.which {
         Which::Part(part) => {
             let depth = compiled.depths[part].map(|node| node.depth);
-            (depth, depth_reason(compiled, part))
+            let reason = depth_reason(compiled, part);
+            (depth, reason, back_reason(compiled, part))
         }
-        _ => (None, None),
+        _ => (None, None, None),
     };
     let attributes = subject.attributes().into_iter().map(|attribute| {
         let report = AttributeReport {
@@ -164,6 +168,7 @@ fn report<'a>(
         axis: axis.to_array(),
         depth,
         depth_why,
+        back,
         attributes: attributes.collect(),
         joint: driver.and_then(|driver| driver.joint),
         joint_why: driver.map(|driver| driver.why),

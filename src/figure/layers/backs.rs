@@ -298,8 +298,8 @@ fn of_piece(
             goes.iter().filter(|goes| is(goes)).count() as f64 / samples.len() as f64
         };
         let (on_border, inside) = (share(&|goes| goes[0]), share(&|goes| goes[1]));
-        // An outline covers the border alone.
-        if inside < NO_OUTLINE * on_border {
+        // An outline covers all of the border, and nothing else.
+        if on_border >= WHOLE && inside < NO_OUTLINE * on_border {
             continue;
         }
         let is_fill = |garment: &Garment| {

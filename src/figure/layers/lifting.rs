@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::backs::Back;
-use super::{Arrangement, BackSkin, Layers, NodeDepth};
+use super::{Arrangement, BackSkin, Behind, Layers, NodeDepth};
 use crate::bind::PartId;
 use crate::figure::PartFrames;
 use crate::scene::WorldTransform;
@@ -290,6 +290,9 @@ impl Lifting<'_> {
             skins.entry(back.on).or_default().push(made.len());
             backs.push(BackSkin {
                 part: self.arrangement.shapes[back.of].part,
+                why: Behind::Closes {
+                    on: self.arrangement.shapes[back.on].part,
+                },
                 body: made.len(),
             });
             made.push(skin);
@@ -317,6 +320,7 @@ impl Lifting<'_> {
             images[index] = Some(made.len());
             backs.push(BackSkin {
                 part,
+                why: Behind::Mirrored,
                 body: made.len(),
             });
             made.push(Body {

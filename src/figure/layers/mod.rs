@@ -119,10 +119,23 @@ impl Arrangement<'_> {
     }
 }
 
+/// What a part shows from behind beside its own back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Behind {
+    /// It closes behind a part.
+    Closes {
+        /// The part.
+        on: PartId,
+    },
+    /// It is on the back as well, mirrored.
+    Mirrored,
+}
+
 /// What a part has on the back of a volume.
 #[derive(Debug, Clone, Copy)]
 struct BackSkin {
     part: PartId,
+    why: Behind,
     /// Its place in the pile.
     body: usize,
 }
@@ -231,6 +244,11 @@ impl Layers {
     /// Per part that has a node, its depth.
     pub(super) fn into_nodes(self) -> TiVec<PartId, Option<NodeDepth>> {
         self.nodes
+    }
+
+    /// What each part shows from behind beside its own back.
+    pub(super) fn behind(&self) -> impl Iterator<Item = (PartId, Behind)> {
+        self.backs.iter().map(|back| (back.part, back.why))
     }
 
     /// How far the node of a main part is in front of the node that it hangs on, drawing units.
