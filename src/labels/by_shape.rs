@@ -6,7 +6,7 @@ use typed_index_collections::TiSlice;
 use super::figure::{Drafts, PartDraft, is_trunk};
 use super::part_tree::PartTree;
 use super::placement::Front;
-use super::{Class, FigurePartId};
+use super::{Class, FigurePartId, facing};
 use crate::anatomy::Term;
 
 /// An unnamed arm is at least this share of the figure's height long.
@@ -221,7 +221,7 @@ fn trunk_parts(tree: &PartTree<'_>, drafts: &Drafts) -> impl Iterator<Item = Fig
 
 /// Labels what hangs on the trunk, and the next segments of limbs.
 pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
-    let facing = Front::of(tree, drafts);
+    let facing = Front::of(tree, drafts, facing::find(tree, drafts).facing);
     let trunk = tree.around(trunk_parts(tree, drafts));
     for part in tree.order.iter().copied() {
         let name = tree.name(part);

@@ -4,7 +4,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::part_tree::PartTree;
 use super::placement::{self, Front};
-use super::{Class, Facing, Label, LimbSegment, Side, by_shape, segments};
+use super::{Class, FoundFacing, Label, LimbSegment, Side, by_shape, facing, segments};
 use crate::anatomy::{self, Term};
 use crate::labels::{Figure, FigurePartId};
 
@@ -42,9 +42,8 @@ impl PartDraft {
 /// Labels the parts of a figure; `None` for a part that follows its parent.
 ///
 /// Class by word. Otherwise a child of a limb is its next segment, what stands on the ground is a leg, the topmost part is the
-/// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, since it
-/// faces the viewer. If the head lies more beside the body than above it, the figure is seen in profile, and limbs drawn later
-/// are on its near side.
+/// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, if it
+/// faces the viewer. Of a figure in profile, limbs drawn later are on its near side.
 pub(crate) fn label_figure(figure: &Figure) -> TiVec<FigurePartId, Option<Label>> {
     label_drawn(figure).labels
 }
@@ -58,7 +57,7 @@ pub(crate) struct LabeledFigure {
     /// there are three pairs or more, or a foot that is attached to the trunk.
     pub(crate) splayed: TiVec<FigurePartId, bool>,
     /// The direction that the figure faces.
-    pub(crate) facing: Facing,
+    pub(crate) facing: FoundFacing,
 }
 
 /// Labels a figure's parts, and tells how it is drawn.
@@ -71,7 +70,8 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     by_shape::head(&tree, &mut drafts);
     by_shape::limbs(&tree, &mut drafts);
     by_shape::hips(&tree, &mut drafts);
-    let facing = Front::of(&tree, &drafts);
+    let found = facing::find(&tree, &drafts);
+    let facing = Front::of(&tree, &drafts, found.facing);
     let limbs = segments::limbs(&tree, &drafts);
     placement::sides(&tree, &facing, &limbs, &mut drafts);
     placement::pairs(&tree, &facing, &limbs, &mut drafts);
@@ -91,7 +91,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     LabeledFigure {
         labels: drafts.into_iter().map(label).collect(),
         splayed,
-        facing: facing.facing(),
+        facing: found,
     }
 }
 

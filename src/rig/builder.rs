@@ -331,8 +331,11 @@ impl<'a> ClipBuilder<'a> {
     }
 }
 
-/// What the strings say about all clips of a figure: that of any of its parts takes precedence over one for all figures.
-fn of_figure<T>(group: &FigureGroup, said: impl Fn(PartId) -> Option<(SetBy, T)>) -> Option<T> {
+/// What the strings say about a figure: that of any of its parts takes precedence over one for all figures.
+pub(super) fn of_figure<T>(
+    group: &FigureGroup,
+    said: impl Fn(PartId) -> Option<(SetBy, T)>,
+) -> Option<T> {
     let parts = std::iter::once(&group.root).chain(&group.parts);
     let said = parts.filter_map(|part| said(*part));
     let (_, first) = said.min_by_key(|(from, _)| *from)?;

@@ -6,6 +6,7 @@
 mod builder;
 mod diagnostics;
 mod effects;
+mod facings;
 mod figure_clip;
 mod figures;
 mod measured;
@@ -37,6 +38,7 @@ use crate::svg::Drawing;
 use builder::{ClipBuilder, Requested};
 use diagnostics::MatchProblems;
 pub(crate) use effects::{Performance, PerformedMark};
+pub(crate) use facings::{FigureFacing, facings};
 pub use figure_clip::FigureClip;
 pub(crate) use figure_clip::{PartDrive, originals};
 pub(crate) use figures::FigureGroup;

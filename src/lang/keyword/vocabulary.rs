@@ -77,6 +77,14 @@ pub(crate) static CARRY: [Word; 2] = [
     ),
 ];
 
+/// The words of `Facing`.
+pub(crate) static FACING: [Word; 4] = [
+    word("left", "to the drawing's left"),
+    word("right", "to the drawing's right"),
+    word("front", "towards the viewer"),
+    word("back", "away from the viewer, who sees its back"),
+];
+
 /// The signed axes of `Axes`.
 pub(crate) static AXES: [Word; 6] = [
     word("+x", "along the world's x"),
@@ -288,6 +296,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
         .chain(&STROKES)
         .chain(&TILE)
         .chain(&CARRY)
+        .chain(&FACING)
         .chain(&AXES)
         .chain(&CLIPS)
 }

@@ -11,8 +11,8 @@ use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec};
 
 use crate::labels::{
-    Anatomy, Carry, Class, Facing, Figure, FigurePartId, Label, LabeledFigure, Limb, LimbSegment,
-    Side, Tip, label_drawn,
+    Anatomy, Carry, Class, Figure, FigurePartId, FoundFacing, Label, LabeledFigure, Limb,
+    LimbSegment, Side, Tip, label_drawn,
 };
 use crate::mocap::{JointId, Skeleton, Transform};
 pub(crate) use elbows::bent_arms;
@@ -23,8 +23,8 @@ use names::Names;
 pub(crate) struct Matching {
     /// The parts, in the figure's order.
     pub parts: TiVec<FigurePartId, MatchedPart>,
-    /// The direction that the figure faces.
-    pub facing: Facing,
+    /// The direction that the figure faces, and why.
+    pub facing: FoundFacing,
     /// What was wrong or missing.
     pub problems: Vec<Problem>,
 }
