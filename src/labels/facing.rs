@@ -55,7 +55,7 @@ const JOINTS_APART: f64 = 0.3;
 /// A nose leaves the head's outline by at least this share of the head's width.
 const BEYOND: f64 = 0.06;
 /// A foot points to the side to which its middle is off its joint by this share of its width.
-const POINTS: f64 = 0.12;
+const POINTS: f64 = 0.07;
 /// An eye that is this share of a head's width off its middle lies on the face's side, unless the head is this much wider than high:
 /// behind a muzzle it may be anywhere.
 const EYE_OFF: f64 = 0.08;

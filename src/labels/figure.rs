@@ -56,7 +56,9 @@ pub(crate) struct LabeledFigure {
     /// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
     /// there are three pairs or more, or a foot that is attached to the trunk.
     pub(crate) splayed: TiVec<FigurePartId, bool>,
-    /// The direction that the figure faces.
+    /// Whether the name of one of its parts says what that is, as those of living things do.
+    pub(crate) has_names: bool,
+    /// The direction that the figure faces, and why.
     pub(crate) facing: FoundFacing,
 }
 
@@ -77,6 +79,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     placement::pairs(&tree, &facing, &limbs, &mut drafts);
     segments::name(&tree, &limbs, &mut drafts);
     let splayed = segments::splayed(&tree, &limbs, &drafts);
+    let has_names = drafts.iter().any(|draft| draft.named);
     let label = |draft: PartDraft| {
         let class = draft.class?;
         let [class_why, side_why] = draft.why;
@@ -91,6 +94,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     LabeledFigure {
         labels: drafts.into_iter().map(label).collect(),
         splayed,
+        has_names,
         facing: found,
     }
 }

@@ -18,7 +18,7 @@ pub(crate) struct FigureFacing {
     pub found: FoundFacing,
 }
 
-/// Where those figures look that have limbs, or whose strings say so.
+/// Where those figures look that have limbs, or whose strings say so. Without names that tell a body, what sticks out of a thing is no limb.
 pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacing> {
     let mut parts_of_node: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); bindings.parts.len()];
     for (index, part) in bindings.parts.iter_enumerated() {
@@ -32,7 +32,7 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
         let figure = rigging::figure(drawing, bindings, &parts_of_node, &group);
         let labeled = label_drawn(&figure);
         let mut labels = labeled.labels.iter().flatten();
-        let has_limbs = labels.any(|label| label.class.is_limb());
+        let has_limbs = labeled.has_names && labels.any(|label| label.class.is_limb());
         (has_limbs || labeled.facing.by_string).then(|| FigureFacing {
             root: group.root,
             parts: group.parts.raw,

@@ -2,6 +2,7 @@
 
 mod conventions;
 mod drawings;
+mod facing;
 pub(crate) mod figures;
 mod files;
 mod programs;

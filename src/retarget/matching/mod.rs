@@ -162,6 +162,7 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
         labels,
         splayed,
         facing,
+        ..
     } = label_drawn(figure);
     let mut problems = Vec::new();
     let names = Names::new(skeleton);
