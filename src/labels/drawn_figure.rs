@@ -31,6 +31,10 @@ pub struct FigurePart {
     pub joint: DVec2,
     /// The far end of its axis.
     pub tip: DVec2,
+    /// The near end of its axis, if that is not its joint.
+    pub near_end: Option<DVec2>,
+    /// Its extent across its axis.
+    pub width: f64,
     /// The lower left and the upper right corner of its bounding box.
     pub bounds: [DVec2; 2],
     /// The corners of the bounding box of its main shape.

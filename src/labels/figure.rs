@@ -19,6 +19,8 @@ pub(super) struct PartDraft {
     pub(super) named: bool,
     /// Worn, held or part of a face: it follows its parent.
     pub(super) detail: bool,
+    /// Why it is held by an arm, if it is.
+    pub(super) held: Option<String>,
     pub(super) segment: Option<LimbSegment>,
     pub(super) pair: usize,
     /// The reasons for its class and for its side.
@@ -56,6 +58,8 @@ pub(crate) struct LabeledFigure {
     /// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
     /// there are three pairs or more, or a foot that is attached to the trunk.
     pub(crate) splayed: TiVec<FigurePartId, bool>,
+    /// Per part the reason why an arm holds it, if one does.
+    pub(crate) held: TiVec<FigurePartId, Option<String>>,
     /// Whether the name of one of its parts says what that is, as those of living things do.
     pub(crate) has_names: bool,
     /// The direction that the figure faces, and why.
@@ -79,6 +83,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     placement::pairs(&tree, &facing, &limbs, &mut drafts);
     segments::name(&tree, &limbs, &mut drafts);
     let splayed = segments::splayed(&tree, &limbs, &drafts);
+    let held = drafts.iter().map(|draft| draft.held.clone()).collect();
     let has_names = drafts.iter().any(|draft| draft.named);
     let label = |draft: PartDraft| {
         let class = draft.class?;
@@ -94,6 +99,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     LabeledFigure {
         labels: drafts.into_iter().map(label).collect(),
         splayed,
+        held,
         has_names,
         facing: found,
     }

@@ -7,6 +7,7 @@ mod by_shape;
 mod drawn_figure;
 mod facing;
 mod figure;
+mod held;
 mod joint_names;
 mod joint_tree;
 mod part_tree;

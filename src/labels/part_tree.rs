@@ -180,6 +180,12 @@ impl<'a> PartTree<'a> {
         finite(self.parts[part].joint)
     }
 
+    /// The ends of a part's axis, the far one last.
+    pub(super) fn ends(&self, part: FigurePartId) -> [DVec2; 2] {
+        let near = self.parts[part].near_end.map(finite);
+        [near.unwrap_or(self.joint(part)), self.tip(part)]
+    }
+
     /// The far end of a part.
     pub(super) fn tip(&self, part: FigurePartId) -> DVec2 {
         finite(self.parts[part].tip)

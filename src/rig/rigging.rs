@@ -85,6 +85,8 @@ pub(super) fn figure(
             parent,
             joint,
             tip,
+            near_end: Some(nearer(tip)[1]),
+            width: 2.0 * part.node_measure().half_across,
             bounds,
             main_shape: bounds_of(index),
             details: details.collect(),

@@ -7,7 +7,7 @@ use typed_index_collections::TiSlice;
 use super::limbs::Limbs;
 use super::names::Names;
 use super::{Axes, Context};
-use crate::anatomy::{self, Term};
+use crate::anatomy::{self, Role, Term};
 use crate::bind::attributes::PartAttributes;
 use crate::bind::bindings::PartId;
 use crate::diagnostic::{Code, Diagnostic};
@@ -67,6 +67,12 @@ impl Joints<'_> {
                     met.unwrap_or_else(|| self.hinge(index, parent, [start, end]))
                 }
                 (Some(parent), None) => {
+                    // A head turns about its neck, whatever sticks out of it: a chin, a beak, a tuft.
+                    let met =
+                        is_head(self.names, index).then(|| self.limbs.head_joint([index, parent]));
+                    if let Some(at) = met.flatten() {
+                        return at;
+                    }
                     let candidates = [start, end, measure.center];
                     // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.
                     let near = |p: &DVec2| p.distance_squared(center(parent));
@@ -151,6 +157,11 @@ impl Joints<'_> {
         }
         Some(diagnostic)
     }
+}
+
+/// Whether a part is a head by its name.
+fn is_head(names: &Names, part: PartId) -> bool {
+    Role::of(&anatomy::terms(names.of(part))) == Some(Role::Head)
 }
 
 /// Whether a part is by its name a limb, which never turns about its middle.

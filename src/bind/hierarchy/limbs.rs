@@ -24,6 +24,8 @@ const MAX_OVERLAP: f64 = 0.45;
 const STRETCH: f64 = 0.02;
 /// The most points of a limb whose distances from its parent are compared.
 const MAX_POINTS: usize = 512;
+/// The most pairs of points of a limb and its parent that are compared.
+const MAX_COMPARED: usize = 1 << 18;
 
 /// Outlines that are made one.
 #[derive(Debug, PartialEq, Eq, Hash)]
@@ -113,9 +115,20 @@ impl<'a> Limbs<'a> {
     /// Where a limb in several shapes meets its parent: the middle of their overlap, or of the stretch that is nearest to it.
     /// `None` for one in a single shape, and for one that lies on its parent along much of its length.
     pub(super) fn joint(&self, [limb, parent]: [PartId; 2]) -> Option<DVec2> {
-        let limb = self.area_of_group(limb)?;
-        let own = || self.outline(parent);
-        let parent = self.area_of_group(parent).unwrap_or_else(own);
+        self.area_of_group(limb)?;
+        self.meeting([limb, parent])
+    }
+
+    /// Where a head meets what it hangs on: as a limb, in however many shapes it is drawn.
+    pub(super) fn head_joint(&self, pair: [PartId; 2]) -> Option<DVec2> {
+        self.meeting(pair)
+    }
+
+    fn meeting(&self, pair: [PartId; 2]) -> Option<DVec2> {
+        let [limb, parent] = pair.map(|part| {
+            let own = || self.outline(part);
+            self.area_of_group(part).unwrap_or_else(own)
+        });
         let meeting = Meeting {
             limb: Same(Arc::clone(limb)),
             parent: Same(Arc::clone(parent)),
@@ -138,7 +151,9 @@ impl Meeting {
             let (low, high) = along.fold(none, |(low, high), at| (low.min(at), high.max(at)));
             return (high - low <= MAX_OVERLAP * length).then_some(middle);
         }
-        let step = points(limb).count().div_ceil(MAX_POINTS).max(1);
+        let (own, others) = (points(limb).count(), points(parent).count());
+        let compared = MAX_POINTS.min(MAX_COMPARED / others.max(1)).max(1);
+        let step = own.div_ceil(compared).max(1);
         let some = points(limb).step_by(step);
         let gaps = some.map(|point| (point, distance_squared(parent, point).sqrt()));
         let gaps: Vec<(DVec2, f64)> = gaps.collect();

@@ -5,6 +5,7 @@ mod drawings;
 mod facing;
 pub(crate) mod figures;
 mod files;
+mod held;
 mod programs;
 mod random;
 

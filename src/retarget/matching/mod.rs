@@ -162,6 +162,7 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
         labels,
         splayed,
         facing,
+        held,
         ..
     } = label_drawn(figure);
     let mut problems = Vec::new();
@@ -178,7 +179,9 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
             Some(drive) => Ok(drive),
             None => match &label {
                 Some(label) => matcher.drive(part, label, &mut lacking),
-                None => Err("no limb, head or trunk by its name or place".to_owned()),
+                None => Err(held[part]
+                    .clone()
+                    .unwrap_or_else(|| "no limb, head or trunk by its name or place".to_owned())),
             },
         };
         let (drive, why) = match found {
