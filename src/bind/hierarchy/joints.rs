@@ -77,7 +77,8 @@ impl Joints<'_> {
             let on_axis = |at: DVec2| (at - measure.center).dot(measure.axis);
             let met = self.limbs.joint([index, parent]).map(on_axis);
             let met = met.map(|along| measure.center + along * measure.axis);
-            return met.unwrap_or_else(|| self.hinge(index, parent, [start, end]));
+            let end = met.unwrap_or_else(|| self.hinge(index, parent, [start, end]));
+            return self.limbs.off_its_end([index, parent], end).unwrap_or(end);
         }
         if Role::of(&terms) == Some(Role::Head) {
             // A head turns about its neck, whatever sticks out of it: a chin, a beak, a tuft.
