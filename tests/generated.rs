@@ -99,6 +99,8 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::NoMark, "mark-follow-without"),
     (Code::MarkMismatch, "perform-other-marks"),
     (Code::OddPerformance, "perform-still"),
+    (Code::NoLimbs, "motion-without-limbs"),
+    (Code::ComesOff, "motion-comes-off"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),
     (Code::AxisGuess, "shape-axis-guess"),

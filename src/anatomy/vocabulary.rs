@@ -63,14 +63,19 @@ pub(crate) enum Term {
     OfHead,
     /// An ear.
     Ear,
+    /// An eye.
+    Eye,
+    /// A nose, a beak, a muzzle.
+    Nose,
     /// Only in skeletons: twist, share and end joints, controls.
     Helper,
 }
 
 use Term::{
-    Arm, Back, Belly, Body, BodyWear, Chest, Collar, Detail, Ear, Face, Foot, Fore, Hand, Head,
-    HeadWear, Helper, Hind, Hip, HipWear, Hips, Left, Leg, LegOrFoot, Lower, LowerArm, Middle,
-    Neck, OfHead, Right, Shin, Shoulder, Tail, Thigh, Toe, Upper, UpperArm, Waist, Wing, Worn,
+    Arm, Back, Belly, Body, BodyWear, Chest, Collar, Detail, Ear, Eye, Face, Foot, Fore, Hand,
+    Head, HeadWear, Helper, Hind, Hip, HipWear, Hips, Left, Leg, LegOrFoot, Lower, LowerArm,
+    Middle, Neck, Nose, OfHead, Right, Shin, Shoulder, Tail, Thigh, Toe, Upper, UpperArm, Waist,
+    Wing, Worn,
 };
 
 /// Words, and what they mean.
@@ -124,10 +129,15 @@ const ENGLISH: Table = &[
     (&[HipWear], "skirt kilt trousers pants pant shorts jeans"),
     (&[Face], "face"),
     (&[Detail, OfHead, Ear], "ear"),
+    (&[Detail, OfHead, Eye], "eye pupil"),
+    (
+        &[Detail, OfHead, Nose],
+        "nose beak bill snout muzzle proboscis",
+    ),
     (
         &[Detail, OfHead],
-        "earring crown hair bangs fringe ponytail braid bun eye eyes brow eyebrow eyelid lid eyelash pupil nose mouth lip \
-         lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler horn beak mask",
+        "earring crown hair bangs fringe ponytail braid bun brow eyebrow eyelid lid eyelash mouth lip \
+         lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler horn mask",
     ),
     (
         &[Detail],
@@ -189,9 +199,11 @@ const JAPANESE: Table = &[
         "すかーと ずぼん ぱんつ じーんず 短ぱん 袴 はかま",
     ),
     (&[Detail, OfHead, Ear], "耳 みみ"),
+    (&[Detail, OfHead, Eye], "目 眼 め"),
+    (&[Detail, OfHead, Nose], "鼻 はな 嘴 くちばし"),
     (
         &[Detail, OfHead],
-        "髪 かみ 前髪 後髪 後ろ髪 目 眼 め 鼻 はな 口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
+        "髪 かみ 前髪 後髪 後ろ髪 口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
     ),
     (
         &[Detail],

@@ -195,7 +195,10 @@ fn build(
     let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
     let mut found = Vec::new();
     let (figures, materials) = rayon::join(
-        || Figures::lay_out(drawing, bindings, &world, memo, &mut found),
+        || {
+            let two_sided = rig::two_sided(drawing, bindings);
+            Figures::lay_out(drawing, bindings, two_sided, &world, memo, &mut found)
+        },
         || {
             Materials::collect(
                 drawing,

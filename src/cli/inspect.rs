@@ -12,10 +12,11 @@ use super::progress::spinning;
 use super::{Failure, Outcome, counted, print_out};
 use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{NamedBy, PartId, SetBy};
+use crate::compile::Compiled;
 use crate::disk::is_standard_stream;
 use crate::ide::{Subject, Which};
 use crate::lang::keyword::Keyword;
-use crate::report::{depth_reason, describe_character, inspection_json, node_back_reason};
+use crate::report::{depth_reason, describe_character, figures, inspection_json, node_back_reason};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
@@ -126,8 +127,28 @@ fn tree(loaded: &Loaded, numbers: Numbers) -> String {
         out.push_str("left out\n");
         out.push_str(&columns(&left_out));
     }
+    out.push_str(&faced(&loaded.compiled));
     out.push_str(&clips::clips(&loaded.compiled));
     out
+}
+
+/// Where each figure looks, and why.
+fn faced(compiled: &Compiled) -> String {
+    let figures = figures(compiled).into_iter();
+    let lines = figures.map(|figure| {
+        let way = match figure.facing {
+            "front" => "the viewer".to_owned(),
+            "back" => "away from the viewer".to_owned(),
+            side => format!("the drawing's {side}"),
+        };
+        let against = match figure.doubts.as_slice() {
+            [] => String::new(),
+            doubts => format!("; against it: {}", doubts.join(", ")),
+        };
+        let why = figure.reasons.join(", ");
+        format!("figure {} faces {way}: {why}{against}\n", figure.figure)
+    });
+    lines.collect()
 }
 
 /// Whether it is a landscape or a character: its parts are listed under it.

@@ -74,6 +74,11 @@ impl BuiltIn {
         }
     }
 
+    /// Whether it is a way to walk.
+    pub(crate) fn is_gait(self) -> bool {
+        matches!(self, Self::Walk | Self::Run | Self::Trot | Self::Sneak)
+    }
+
     /// The clip of a word.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|clip| clip.name() == name)

@@ -567,6 +567,25 @@ codes! {
     /// Film the puppet from the front, and cut the clip to one action: `okoshi track CLIP --range 1:48`. Or name the frames that
     /// belong together, that of the track first: `Perform "hands.json" 31 44`.
     OddPerformance = "W329", "performance with an unexpected effect";
+    /// A gait such as `walk` is played by a figure in which no legs are found, or any motion by one without limbs: it glides.
+    ///
+    /// ```text
+    /// Ghost$Motion walk
+    /// ```
+    ///
+    /// Name the parts on which it stands after what they are, such as `Lleg@Ghost` and `Rleg@Ghost`, or say which joints drive
+    /// them with `Bone`. `okoshi inspect` tells what each part is taken for.
+    NoLimbs = "W330", "motion without limbs";
+    /// The motion takes a part off what it hangs on, because it turns about a point that lies beside one of the two. Over the
+    /// clip, the gap between them grows by more than 3 % of the figure's height.
+    ///
+    /// ```text
+    /// Larm@Body$Origin 300 40
+    /// ```
+    ///
+    /// Draw the two so that they overlap where the part turns, attach the part to what it touches, or choose the point with
+    /// `Origin`.
+    ComesOff = "W331", "part that comes off";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

@@ -106,15 +106,16 @@ pub(crate) struct FigureNodes {
 }
 
 impl<'a> Figures<'a> {
-    /// Lays out the figures of a drawing.
+    /// Lays out the figures of a drawing. Per main part, `two_sided` says whether what is drawn on it is on its far side, too.
     pub(crate) fn lay_out(
         drawing: &'a Drawing,
         bindings: &'a Bindings,
+        two_sided: TiVec<PartId, bool>,
         world: &WorldTransform,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let context = FigureContext::new(drawing, bindings);
+        let context = FigureContext::new(drawing, bindings, two_sided);
         let parts = bindings.parts.raw.par_iter().with_min_len(GRAIN);
         let frames = parts.map(|part| {
             let solid = Frame::new(&part.measure, part.origin);
@@ -272,18 +273,21 @@ fn parts_of_node(bindings: &Bindings) -> TiVec<PartId, Vec<PartId>> {
 struct FigureContext<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
+    /// Per main part whether what is drawn on it is on its far side, too: on figures in profile.
+    two_sided: TiVec<PartId, bool>,
     /// How far the surface of a solid may be from a rounding without anybody seeing it, drawing units.
     invisible: f64,
 }
 
 impl<'a> FigureContext<'a> {
-    fn new(drawing: &'a Drawing, bindings: &'a Bindings) -> Self {
+    fn new(drawing: &'a Drawing, bindings: &'a Bindings, two_sided: TiVec<PartId, bool>) -> Self {
         let bounds = bindings.parts.iter().map(|part| part.measure.bounds);
         let bounds = bounds.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
         let extent = bounds.map_or(0.0, |(low, high)| (high - low).max_element());
         Self {
             drawing,
             bindings,
+            two_sided,
             invisible: INVISIBLE * extent,
         }
     }

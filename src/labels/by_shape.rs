@@ -6,7 +6,7 @@ use typed_index_collections::TiSlice;
 use super::figure::{Drafts, PartDraft, is_trunk};
 use super::part_tree::PartTree;
 use super::placement::Front;
-use super::{Class, FigurePartId};
+use super::{Class, FigurePartId, facing, held};
 use crate::anatomy::Term;
 
 /// An unnamed arm is at least this share of the figure's height long.
@@ -221,11 +221,19 @@ fn trunk_parts(tree: &PartTree<'_>, drafts: &Drafts) -> impl Iterator<Item = Fig
 
 /// Labels what hangs on the trunk, and the next segments of limbs.
 pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
-    let facing = Front::of(tree, drafts);
+    let facing = Front::of(tree, drafts, facing::find(tree, drafts).facing);
+    let with_hands = held::with_hands(tree, drafts);
     let trunk = tree.around(trunk_parts(tree, drafts));
     for part in tree.order.iter().copied() {
         let name = tree.name(part);
-        if drafts[part].class.is_some() || drafts[part].detail {
+        if drafts[part].class.is_some() {
+            continue;
+        }
+        if let Some(why) = held::by_arm(tree, drafts, &with_hands, part) {
+            drafts[part].detail = true;
+            drafts[part].held = Some(why);
+        }
+        if drafts[part].detail {
             continue;
         }
         let above = tree.parents[part];

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use typed_index_collections::TiVec;
 
+use super::Facing;
 use crate::index::index_type;
 
 index_type!(
@@ -15,10 +16,11 @@ index_type!(
 pub struct Figure {
     /// The parts, in any order.
     pub parts: TiVec<FigurePartId, FigurePart>,
+    /// The direction that it faces, if a string says so.
+    pub facing: Option<Facing>,
 }
 
-/// A part of a figure. Points are in the drawing's plane, x to the drawing's right, y up, in any one unit; the figure faces the
-/// viewer.
+/// A part of a figure. Points are in the drawing's plane, x to the drawing's right, y up, in any one unit.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FigurePart {
     /// Its name.
@@ -29,14 +31,33 @@ pub struct FigurePart {
     pub joint: DVec2,
     /// The far end of its axis.
     pub tip: DVec2,
+    /// The near end of its axis, if that is not its joint.
+    pub near_end: Option<DVec2>,
+    /// Its extent across its axis.
+    pub width: f64,
     /// The lower left and the upper right corner of its bounding box.
     pub bounds: [DVec2; 2],
+    /// The corners of the bounding box of its main shape.
+    pub main_shape: [DVec2; 2],
+    /// Its other shapes.
+    pub details: Vec<Detail>,
     /// Its place in the drawing order: parts with a greater number were drawn later and lie nearer to the viewer.
     pub drawing_order: usize,
     /// The joints that its string names with `Bone`; empty if it names none.
     pub bones: Vec<String>,
     /// What its string says with `Carry`, if it is a limb; `None` if it says nothing.
     pub carry: Option<Carry>,
+}
+
+/// A shape of a part that is not its main one.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Detail {
+    /// Its name; empty if it has none.
+    pub name: String,
+    /// The lower left and the upper right corner of its bounding box.
+    pub bounds: [DVec2; 2],
+    /// Its colour, or the mean of its paint.
+    pub color: [u8; 3],
 }
 
 /// What a limb takes over from a motion, as a string says with `Carry`.

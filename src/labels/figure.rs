@@ -4,7 +4,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::part_tree::PartTree;
 use super::placement::{self, Front};
-use super::{Class, Facing, Label, LimbSegment, Side, by_shape, segments};
+use super::{Class, FoundFacing, Label, LimbSegment, Side, by_shape, facing, segments};
 use crate::anatomy::{self, Term};
 use crate::labels::{Figure, FigurePartId};
 
@@ -19,6 +19,8 @@ pub(super) struct PartDraft {
     pub(super) named: bool,
     /// Worn, held or part of a face: it follows its parent.
     pub(super) detail: bool,
+    /// Why it is held by an arm, if it is.
+    pub(super) held: Option<String>,
     pub(super) segment: Option<LimbSegment>,
     pub(super) pair: usize,
     /// The reasons for its class and for its side.
@@ -42,9 +44,8 @@ impl PartDraft {
 /// Labels the parts of a figure; `None` for a part that follows its parent.
 ///
 /// Class by word. Otherwise a child of a limb is its next segment, what stands on the ground is a leg, the topmost part is the
-/// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, since it
-/// faces the viewer. If the head lies more beside the body than above it, the figure is seen in profile, and limbs drawn later
-/// are on its near side.
+/// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, if it
+/// faces the viewer. Of a figure in profile, limbs drawn later are on its near side.
 pub(crate) fn label_figure(figure: &Figure) -> TiVec<FigurePartId, Option<Label>> {
     label_drawn(figure).labels
 }
@@ -57,8 +58,12 @@ pub(crate) struct LabeledFigure {
     /// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
     /// there are three pairs or more, or a foot that is attached to the trunk.
     pub(crate) splayed: TiVec<FigurePartId, bool>,
-    /// The direction that the figure faces.
-    pub(crate) facing: Facing,
+    /// Per part the reason why an arm holds it, if one does.
+    pub(crate) held: TiVec<FigurePartId, Option<String>>,
+    /// Whether the name of one of its parts says what that is, as those of living things do.
+    pub(crate) has_names: bool,
+    /// The direction that the figure faces, and why.
+    pub(crate) facing: FoundFacing,
 }
 
 /// Labels a figure's parts, and tells how it is drawn.
@@ -71,12 +76,15 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     by_shape::head(&tree, &mut drafts);
     by_shape::limbs(&tree, &mut drafts);
     by_shape::hips(&tree, &mut drafts);
-    let facing = Front::of(&tree, &drafts);
+    let found = facing::find(&tree, &drafts);
+    let facing = Front::of(&tree, &drafts, found.facing);
     let limbs = segments::limbs(&tree, &drafts);
     placement::sides(&tree, &facing, &limbs, &mut drafts);
     placement::pairs(&tree, &facing, &limbs, &mut drafts);
     segments::name(&tree, &limbs, &mut drafts);
     let splayed = segments::splayed(&tree, &limbs, &drafts);
+    let held = drafts.iter().map(|draft| draft.held.clone()).collect();
+    let has_names = drafts.iter().any(|draft| draft.named);
     let label = |draft: PartDraft| {
         let class = draft.class?;
         let [class_why, side_why] = draft.why;
@@ -91,7 +99,9 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     LabeledFigure {
         labels: drafts.into_iter().map(label).collect(),
         splayed,
-        facing: facing.facing(),
+        held,
+        has_names,
+        facing: found,
     }
 }
 

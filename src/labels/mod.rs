@@ -5,7 +5,9 @@
 
 mod by_shape;
 mod drawn_figure;
+mod facing;
 mod figure;
+mod held;
 mod joint_names;
 mod joint_tree;
 mod part_tree;
@@ -25,7 +27,8 @@ use typed_index_collections::TiSlice;
 use crate::mocap::{JointId, Skeleton, Transform};
 
 pub use drawn_figure::FigurePartId;
-pub(crate) use drawn_figure::{Carry, Figure, FigurePart};
+pub(crate) use drawn_figure::{Carry, Detail, Figure, FigurePart};
+pub(crate) use facing::FoundFacing;
 pub(crate) use figure::label_figure;
 pub(crate) use figure::{LabeledFigure, label_drawn};
 pub use skeleton::{Anatomy, Limb, label_clip};
@@ -113,15 +116,39 @@ pub enum Facing {
     Left,
     /// To the drawing's right.
     Right,
+    /// Away from the viewer, who sees its back.
+    Away,
 }
 
 impl Facing {
+    /// The word of `Facing` for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Viewer => "front",
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Away => "back",
+        }
+    }
+
+    /// What a word of `Facing` means.
+    pub(crate) fn from_word(word: &str) -> Option<Self> {
+        let all = [Self::Viewer, Self::Left, Self::Right, Self::Away];
+        all.into_iter().find(|facing| facing.word() == word)
+    }
+
+    /// Whether the figure is seen from one of its sides.
+    pub fn is_profile(self) -> bool {
+        matches!(self, Self::Left | Self::Right)
+    }
+
     /// The rotation from a body's own axes (x its left, y up, z its front) to the drawing's.
     pub fn turn(self) -> glam::DQuat {
         match self {
             Self::Viewer => glam::DQuat::IDENTITY,
             Self::Left => glam::DQuat::from_rotation_y(-std::f64::consts::FRAC_PI_2),
             Self::Right => glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
+            Self::Away => glam::DQuat::from_rotation_y(std::f64::consts::PI),
         }
     }
 }

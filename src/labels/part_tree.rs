@@ -4,7 +4,7 @@ use glam::DVec2;
 use rustc_hash::FxHashSet;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use crate::labels::{Figure, FigurePart, FigurePartId};
+use crate::labels::{Facing, Figure, FigurePart, FigurePartId};
 
 /// Parts whose lowest point is at most this share of the figure's height above the ground stand on it.
 const GROUND: f64 = 0.12;
@@ -30,6 +30,8 @@ pub(super) struct PartTree<'a> {
     lowest: TiVec<FigurePartId, f64>,
     ground: f64,
     pub(super) height: f64,
+    /// The direction that the figure faces, if a string says so.
+    pub(super) facing: Option<Facing>,
 }
 
 impl<'a> PartTree<'a> {
@@ -74,6 +76,7 @@ impl<'a> PartTree<'a> {
             lowest,
             ground,
             height: top - ground,
+            facing: figure.facing,
         }
     }
 
@@ -175,6 +178,12 @@ impl<'a> PartTree<'a> {
     /// Where a part turns.
     pub(super) fn joint(&self, part: FigurePartId) -> DVec2 {
         finite(self.parts[part].joint)
+    }
+
+    /// The ends of a part's axis, the far one last.
+    pub(super) fn ends(&self, part: FigurePartId) -> [DVec2; 2] {
+        let near = self.parts[part].near_end.map(finite);
+        [near.unwrap_or(self.joint(part)), self.tip(part)]
     }
 
     /// The far end of a part.

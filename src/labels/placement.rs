@@ -9,22 +9,22 @@ use super::segments::Limb;
 use super::{Class, Facing, FigurePartId, Side};
 use crate::anatomy::Term;
 
-/// A head at most this share of the trunk's width beside its middle is on the figure's upright axis.
-const ON_AXIS: f64 = 0.1;
 /// Two legs in profile whose joints are at most this share of the trunk's width apart are a pair.
 const SAME_PAIR: f64 = 0.25;
 
 /// The direction that a figure faces, and the middle of its trunk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Front {
-    /// Towards the viewer.
+    /// Towards the viewer, or away.
     Viewer {
         /// The middle of its trunk.
         axis: DVec2,
         /// −1 if its head is drawn below the trunk, as that of a spider that hangs, else 1.
         up: f64,
+        /// Whether the viewer sees its back, so that its left is drawn left.
+        is_away: bool,
     },
-    /// To one side of the drawing: the head lies more beside the trunk than above or below it.
+    /// To one side of the drawing.
     Beside {
         /// The middle of its trunk.
         axis: DVec2,
@@ -36,15 +36,8 @@ pub(super) enum Front {
 }
 
 impl Front {
-    pub(super) fn facing(self) -> Facing {
-        match self {
-            Self::Viewer { .. } => Facing::Viewer,
-            Self::Beside { toward, .. } if toward < 0.0 => Facing::Left,
-            Self::Beside { .. } => Facing::Right,
-        }
-    }
-
-    pub(super) fn of(tree: &PartTree<'_>, drafts: &Drafts) -> Self {
+    /// The front of a figure that faces in a direction.
+    pub(super) fn of(tree: &PartTree<'_>, drafts: &Drafts, facing: Facing) -> Self {
         let all = |wanted: &dyn Fn(&PartDraft) -> bool| {
             let parts = tree
                 .order
@@ -55,24 +48,24 @@ impl Front {
         };
         let [low, high] = all(&|draft| is_trunk(draft.class));
         let axis = low.midpoint(high);
-        let head = |draft: &PartDraft| draft.class == Some(Class::Head);
-        let trunk = drafts.iter().any(|draft| is_trunk(draft.class));
-        let known = trunk && drafts.iter().any(head);
-        let [low_head, high_head] = all(&head);
-        let off = low_head.midpoint(high_head) - axis;
-        let length = high.x - low.x;
-        let on_axis = off.x.abs() <= ON_AXIS * length;
-        if known && off.x.abs() > off.y.abs() && !on_axis && !tree.is_symmetric(axis.x) {
-            Self::Beside {
-                axis,
-                length,
-                toward: off.x.signum(),
-            }
-        } else {
-            let is_below = known && high_head.y < axis.y;
-            Self::Viewer {
-                axis,
-                up: if is_below { -1.0 } else { 1.0 },
+        let beside = |toward| Self::Beside {
+            axis,
+            length: high.x - low.x,
+            toward,
+        };
+        match facing {
+            Facing::Left => beside(-1.0),
+            Facing::Right => beside(1.0),
+            Facing::Viewer | Facing::Away => {
+                let is_head = |draft: &PartDraft| draft.class == Some(Class::Head);
+                let has_trunk = drafts.iter().any(|draft| is_trunk(draft.class));
+                let known = has_trunk && drafts.iter().any(is_head);
+                let is_below = known && all(&is_head)[1].y < axis.y;
+                Self::Viewer {
+                    axis,
+                    up: if is_below { -1.0 } else { 1.0 },
+                    is_away: facing == Facing::Away,
+                }
             }
         }
     }
@@ -149,7 +142,9 @@ pub(super) fn sides(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts:
                     ),
                 );
             }
-            (_, _, Front::Viewer { axis, .. }) => from_front(tree, axis.x, &open, drafts),
+            (_, _, Front::Viewer { axis, is_away, .. }) => {
+                from_front(tree, axis.x, *is_away, &open, drafts);
+            }
             (_, _, Front::Beside { toward, length, .. }) => {
                 from_side(tree, facing, [*toward, *length], &open, drafts);
             }
@@ -164,8 +159,8 @@ fn give(drafts: &mut Drafts, limb: &Limb, side: Side, why: &str) {
     }
 }
 
-/// The drawn left is the figure's right. Of two limbs the further left one, wherever the middle of the trunk is.
-fn from_front(tree: &PartTree<'_>, axis: f64, open: &[&Limb], drafts: &mut Drafts) {
+/// The drawn left is the figure's right, unless it is seen from behind. Of two limbs the further left one, wherever the middle of the trunk is.
+fn from_front(tree: &PartTree<'_>, axis: f64, is_away: bool, open: &[&Limb], drafts: &mut Drafts) {
     let place = |limb: &Limb| tree.joint(limb.root()).midpoint(tree.tip(limb.root())).x;
     let axis = match open {
         [a, b] if place(a) != place(b) => f64::midpoint(place(a), place(b)),
@@ -177,8 +172,13 @@ fn from_front(tree: &PartTree<'_>, axis: f64, open: &[&Limb], drafts: &mut Draft
         } else {
             ("right", Side::Left)
         };
+        let (side, since) = if is_away {
+            (side.other(), "turns its back to us")
+        } else {
+            (side, "faces us")
+        };
         let why = format!(
-            "; drawn on the {drawn}, so it is the {} one, since the figure faces us",
+            "; drawn on the {drawn}, so it is the {} one, since the figure {since}",
             side.name()
         );
         give(drafts, limb, side, &why);

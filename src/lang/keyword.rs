@@ -59,6 +59,7 @@ keywords! {
     Bone = motion::BONE;
     Carry = motion::CARRY;
     Swing = motion::SWING;
+    Facing = motion::FACING;
     Mark = motion::MARK;
     Follow = motion::FOLLOW;
     Tiles = terrain::TILES;

@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-use super::{Billboard, Clip, Part, Terrain, billboards, clips, parts, pretty, terrain};
+use super::{
+    Billboard, Clip, Figure, Part, Terrain, billboards, clips, figures, parts, pretty, terrain,
+};
 use crate::compile::Compiled;
 
 #[derive(Serialize)]
@@ -11,6 +13,7 @@ struct Inspection<'a> {
     parts: Vec<Part<'a>>,
     terrain: Vec<Terrain<'a>>,
     billboards: Vec<Billboard<'a>>,
+    figures: Vec<Figure<'a>>,
     clips: Vec<Clip<'a>>,
 }
 
@@ -21,6 +24,7 @@ pub(crate) fn inspection_json(path: &str, compiled: &Compiled, text: &str) -> St
         parts: parts(compiled, text),
         terrain: terrain(compiled),
         billboards: billboards(compiled),
+        figures: figures(compiled),
         clips: clips(compiled),
     })
 }

@@ -4,6 +4,7 @@
 mod billboards;
 mod clips;
 mod depths;
+mod figures;
 mod findings;
 mod inspection;
 mod joints;
@@ -16,6 +17,7 @@ mod terrain;
 pub(crate) use billboards::{Billboard, billboards, describe_character};
 pub(crate) use clips::{Clip, clips};
 pub(crate) use depths::{depth_reason, node_back_reason};
+pub(crate) use figures::{Figure, figures};
 pub use findings::Findings;
 pub(crate) use findings::{Likeness, findings_json};
 pub(crate) use inspection::inspection_json;

@@ -1,5 +1,6 @@
 //! Builds the clips of figures: matched, retargeted, performed, limited, filmed.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -9,6 +10,7 @@ use super::Context;
 use super::diagnostics::{self, MatchProblems};
 use super::figure_clip::{self, FigureClip};
 use super::figures::FigureGroup;
+use super::holding;
 use super::performed::{self, Channels, Performed};
 use super::rigging::{self, RestNodes};
 use super::tracks::AnimatedNodes;
@@ -89,6 +91,15 @@ pub(super) struct ClipBuilder<'a> {
     pub(super) memo: &'a Memo,
     pub(super) problems: MatchProblems,
     pub(super) clips: Vec<FigureClip>,
+    /// Per root of a figure the clip that takes parts off what they hang on most, and these parts, the worst first.
+    pub(super) loose: BTreeMap<PartId, LooseParts>,
+}
+
+/// Parts that a clip takes off what they hang on.
+pub(super) struct LooseParts {
+    clip: String,
+    /// Each part with what it hangs on, and by how much the gap grows, as a share of the figure's height.
+    parts: Vec<(PartId, PartId, f64)>,
 }
 
 impl<'a> ClipBuilder<'a> {
@@ -241,8 +252,31 @@ impl<'a> ClipBuilder<'a> {
             measured,
             animated: Arc::clone(&self.animated),
         };
+        self.note_loose(&clip, group, &rig);
         clip.add_to(scene);
         self.clips.push(clip);
+    }
+
+    fn note_loose(&mut self, clip: &FigureClip, group: &FigureGroup, rig: &Rig) {
+        let loose = holding::loose(self.context, group, rig, &clip.retargeted);
+        let parts = loose.iter().filter_map(|loose| {
+            let parent = group.parents[loose.part]?;
+            Some((group.parts[loose.part], group.parts[parent], loose.growth))
+        });
+        let parts: Vec<(PartId, PartId, f64)> = parts.collect();
+        let worst = |parts: &[(PartId, PartId, f64)]| parts.first().map_or(0.0, |part| part.2);
+        let known = self.loose.get(&group.root);
+        if worst(&parts) > known.map_or(0.0, |known| worst(&known.parts)) {
+            let clip = clip.name.clone();
+            self.loose.insert(group.root, LooseParts { clip, parts });
+        }
+    }
+
+    /// Reports the parts that come off, once per figure.
+    pub(super) fn report_loose(&self, diagnostics: &mut Vec<Diagnostic>) {
+        for LooseParts { clip, parts } in self.loose.values() {
+            diagnostics.extend(super::diagnostics::comes_off(self.context, clip, parts));
+        }
     }
 
     /// A motion on a figure, as it is performed, or as it is.
@@ -331,8 +365,11 @@ impl<'a> ClipBuilder<'a> {
     }
 }
 
-/// What the strings say about all clips of a figure: that of any of its parts takes precedence over one for all figures.
-fn of_figure<T>(group: &FigureGroup, said: impl Fn(PartId) -> Option<(SetBy, T)>) -> Option<T> {
+/// What the strings say about a figure: that of any of its parts takes precedence over one for all figures.
+pub(super) fn of_figure<T>(
+    group: &FigureGroup,
+    said: impl Fn(PartId) -> Option<(SetBy, T)>,
+) -> Option<T> {
     let parts = std::iter::once(&group.root).chain(&group.parts);
     let said = parts.filter_map(|part| said(*part));
     let (_, first) = said.min_by_key(|(from, _)| *from)?;

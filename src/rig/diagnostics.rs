@@ -60,6 +60,37 @@ pub(super) fn idle_motion(span: Span, link: &str) -> Diagnostic {
     Diagnostic::new(Code::IdleMotion, span, message).help(help)
 }
 
+/// Parts that a clip takes off what they hang on: each with what that is, and by how much the gap grows, the worst first.
+pub(super) fn comes_off(
+    context: &Context<'_>,
+    clip: &str,
+    parts: &[(PartId, PartId, f64)],
+) -> Option<Diagnostic> {
+    let (part, parent, growth) = *parts.first()?;
+    let bindings = context.bindings;
+    let element = |part: PartId| {
+        let shape = bindings.parts[part].shape;
+        context.drawing.shapes[shape].element.span
+    };
+    let name = bindings.describe(context.drawing, part);
+    let parent_name = bindings.describe(context.drawing, parent);
+    let others = match parts.len() {
+        1 => String::new(),
+        2 => "; so does another part".to_owned(),
+        count => format!("; so do {} other parts", count - 1),
+    };
+    let message = format!(
+        "in the clip `{clip}`, {name} comes off {parent_name} by up to {:.0} % of the figure's height{others}",
+        growth * 100.0
+    );
+    let help = "draw the two so that they overlap where the part turns, attach it to the part that it touches, or write `Origin` with the point about which it turns";
+    Some(
+        Diagnostic::new(Code::ComesOff, element(part), message)
+            .related(element(parent), "what it hangs on")
+            .help(help),
+    )
+}
+
 /// Omissions and holds that were not possible, and too many omissions in a row.
 pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mut Vec<Diagnostic>) {
     let mut report = |message: String, help: String| {

@@ -6,8 +6,11 @@
 mod builder;
 mod diagnostics;
 mod effects;
+mod facings;
 mod figure_clip;
 mod figures;
+mod holding;
+mod limbless;
 mod measured;
 mod missing_files;
 mod motion_files;
@@ -17,6 +20,7 @@ mod rigging;
 mod surface;
 mod tracks;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use typed_index_collections::{TiSlice, TiVec};
@@ -37,6 +41,7 @@ use crate::svg::Drawing;
 use builder::{ClipBuilder, Requested};
 use diagnostics::MatchProblems;
 pub(crate) use effects::{Performance, PerformedMark};
+pub(crate) use facings::{FigureFacing, facings, two_sided};
 pub use figure_clip::FigureClip;
 pub(crate) use figure_clip::{PartDrive, originals};
 pub(crate) use figures::FigureGroup;
@@ -104,6 +109,7 @@ pub(crate) fn add_clips(
         memo,
         problems: MatchProblems::default(),
         clips: Vec::new(),
+        loose: BTreeMap::new(),
     };
     let (mut files, mut performances) = (MotionFiles::default(), Performances::default());
     let (mut keys, mut matches) = (0_usize, 0_usize);
@@ -119,6 +125,7 @@ pub(crate) fn add_clips(
             continue;
         };
         let mut is_played = false;
+        let mut limbless = Vec::new();
         for group in groups
             .iter()
             .filter(|group| group.is_addressed_by(request.part))
@@ -138,6 +145,7 @@ pub(crate) fn add_clips(
                 continue;
             };
             is_played = true;
+            limbless.extend(limbless::find(context, request, &matched));
             keys = keys.saturating_add(motion.clip.frames.saturating_mul(group.parts.len()));
             if keys > MAX_KEYS {
                 diagnostics.push(diagnostics::too_many_keys(request.span));
@@ -164,11 +172,13 @@ pub(crate) fn add_clips(
             };
             builder.add_clip(requested, &matched, &motion, scene, diagnostics);
         }
+        limbless::report(&limbless, link, request.span, diagnostics);
         if !is_played {
             diagnostics.push(diagnostics::idle_motion(request.span, link));
         }
     }
     let skeleton = builder.clips.last().map(|clip| clip.skeleton());
+    builder.report_loose(diagnostics);
     builder.problems.report(context, skeleton, diagnostics);
     performances.report_unused(diagnostics);
     builder.clips

@@ -195,7 +195,7 @@ impl Channels {
                 emphasized: self.emphasized,
                 keys: request.keys,
             },
-            facing: matched.matching.facing,
+            facing: matched.matching.facing.facing,
         };
         memo.get(key, |key| {
             let marks: Vec<MarkId> = key.channels.iter().map(|(mark, _)| *mark).collect();

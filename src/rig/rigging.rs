@@ -4,20 +4,41 @@ use glam::{DQuat, DVec2, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::Context;
+use super::builder::of_figure;
 use super::figures::FigureGroup;
 use super::surface;
-use crate::bind::{self, PartId};
+use crate::bind::{self, Bindings, PartId};
 use crate::geometry::{Frame, y_up};
-use crate::labels::{Carry, Class, Facing, Figure, FigurePart, FigurePartId};
+use crate::labels::{Carry, Class, Detail, Facing, Figure, FigurePart, FigurePartId};
 use crate::memo::exact;
 use crate::mocap::Transform;
 use crate::retarget::{Drive, Matching};
 use crate::retarget::{Rig, RigPart};
+use crate::svg::Drawing;
 
 /// A figure as it is drawn, its parts in the order of the group; drawing units, y up.
 pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure {
-    let bindings = context.bindings;
+    figure(
+        context.drawing,
+        context.bindings,
+        context.parts_of_node,
+        group,
+    )
+}
+
+/// A figure as it is drawn, given per main part the shapes of its node.
+pub(super) fn figure(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    parts_of_node: &TiSlice<PartId, Vec<PartId>>,
+    group: &FigureGroup,
+) -> Figure {
     let middle = |part: PartId| y_up(bindings.parts[part].node_measure().center);
+    let bounds_of = |part: PartId| {
+        let (from, to) = bindings.parts[part].measure.bounds;
+        let (a, b) = (y_up(from), y_up(to));
+        [a.min(b), a.max(b)]
+    };
     let part = |(place, &index): (FigurePartId, &PartId)| {
         let part = &bindings.parts[index];
         let [one, other] = part.node_measure().ends.map(y_up);
@@ -42,16 +63,21 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
                 }
             }
         };
-        let own = context.parts_of_node[index]
-            .iter()
-            .map(|member| bindings.parts[*member].measure.bounds);
+        let own = parts_of_node[index].iter().map(|member| bounds_of(*member));
         let bounds = own.fold(
             [joint.min(tip), joint.max(tip)],
-            |[low, high], (from, to)| {
-                let (a, b) = (y_up(from), y_up(to));
-                [low.min(a.min(b)), high.max(a.max(b))]
-            },
+            |[low, high], [from, to]| [low.min(from), high.max(to)],
         );
+        let details = parts_of_node[index].iter().copied();
+        let details = details.filter(|member| *member != index).take(MAX_DETAILS);
+        let details = details.map(|member| {
+            let shape = &bindings.parts[member];
+            Detail {
+                name: shape_name(drawing, shape),
+                bounds: bounds_of(member),
+                color: shape.paint(drawing).color,
+            }
+        });
         let bones = bindings.attributes(index).bones();
         let bones = bones.map_or(Vec::new(), |bones| bones.value.to_vec());
         FigurePart {
@@ -59,7 +85,11 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
             parent,
             joint,
             tip,
+            near_end: Some(nearer(tip)[1]),
+            width: 2.0 * part.node_measure().half_across,
             bounds,
+            main_shape: bounds_of(index),
+            details: details.collect(),
             drawing_order: part.shape.into(),
             bones,
             carry: bindings.attributes(index).carry().map(carry),
@@ -67,7 +97,25 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
     };
     Figure {
         parts: group.parts.iter_enumerated().map(part).collect(),
+        facing: facing(bindings, group),
     }
+}
+
+/// The most details of a part that are looked at.
+const MAX_DETAILS: usize = 256;
+
+/// The name of a shape: that of its string, its label, or its id.
+fn shape_name(drawing: &Drawing, part: &bind::Part) -> String {
+    let element = &drawing.shapes[part.shape].element;
+    let own = Some(&part.name).filter(|name| !name.is_empty());
+    let own = own.or(element.label.as_ref()).or(element.id.as_ref());
+    own.cloned().unwrap_or_default()
+}
+
+/// What strings say with `Facing`: that of any part of the figure takes precedence over one for all figures.
+fn facing(bindings: &Bindings, group: &FigureGroup) -> Option<Facing> {
+    let word = of_figure(group, |part| bindings.facing_of_figure(part))?;
+    Facing::from_word(word)
 }
 
 fn carry(carry: bind::Carry) -> Carry {
@@ -141,7 +189,7 @@ pub(super) fn rig(
     };
     Rig {
         parts: figure.parts.iter_enumerated().map(part).collect(),
-        facing: matching.facing,
+        facing: matching.facing.facing,
     }
 }
 

@@ -101,6 +101,7 @@ const SUBJECTS: &[Subject] = &[
                 "",
                 "$Swing 2",
                 "$Carry change",
+                "$Facing left",
                 "$Mark green",
                 "$Walk 40",
                 "$Pose 1.5",

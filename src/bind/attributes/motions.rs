@@ -189,6 +189,15 @@ impl Bindings {
         Some((source.from, limits))
     }
 
+    /// The word of the `Facing` that applies to a part's figure, likewise.
+    pub fn facing_of_figure(&self, part: PartId) -> Option<(SetBy, &str)> {
+        let source = self.setting(part, Keyword::Facing)?;
+        match &source.setting.value {
+            Value::Word(word) => Some((source.from, word.as_str())),
+            _ => None,
+        }
+    }
+
     /// The `Perform` that applies to all clips of a part's figure, likewise.
     pub fn performance_of_clips(&self, part: PartId) -> Option<(SetBy, PerformanceRequest<'_>)> {
         let source = self.setting(part, Keyword::Perform)?;

@@ -1,19 +1,21 @@
 //! The joints of parts: where they turn.
 
 use glam::DVec2;
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiSlice;
 
 use super::limbs::Limbs;
 use super::names::Names;
 use super::{Axes, Context};
-use crate::anatomy::{self, Term};
+use crate::anatomy::{self, Role, Term};
 use crate::bind::attributes::PartAttributes;
-use crate::bind::bindings::PartId;
+use crate::bind::bindings::{NamedBy, PartId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, distance_squared};
 use crate::lang::ast::Annotation;
 use crate::lang::value::Origin;
+use crate::threads::GRAIN;
 
 /// The least ratio of length to width for the hint that a part turns about its middle.
 const LONG: f64 = 2.0;
@@ -28,6 +30,8 @@ pub(super) struct Joints<'a> {
     pub(super) names: &'a Names,
     pub(super) parents: &'a TiSlice<PartId, Option<PartId>>,
     pub(super) axes: &'a Axes,
+    /// The necks that hang on parts.
+    pub(super) necks: &'a FxHashMap<PartId, PartId>,
     /// What holds lines, and where, by these.
     pub(super) holders: &'a FxHashMap<PartId, (PartId, DVec2)>,
 }
@@ -59,24 +63,39 @@ impl Joints<'_> {
             None => match (parent, held) {
                 (None, _) => measure.center,
                 (_, Some((_, at))) => *at,
-                (Some(parent), None) if is_hinged(self.names, self.parents, index) => {
-                    // On the axis, so that the limb points along it.
-                    let on_axis = |at: DVec2| (at - measure.center).dot(measure.axis);
-                    let met = self.limbs.joint([index, parent]).map(on_axis);
-                    let met = met.map(|along| measure.center + along * measure.axis);
-                    met.unwrap_or_else(|| self.hinge(index, parent, [start, end]))
-                }
-                (Some(parent), None) => {
-                    let candidates = [start, end, measure.center];
-                    // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.
-                    let near = |p: &DVec2| p.distance_squared(center(parent));
-                    candidates
-                        .into_iter()
-                        .min_by(|a, b| near(a).total_cmp(&near(b)))
-                        .unwrap_or(measure.center)
-                }
+                (Some(parent), None) => self.of_child(index, parent, [start, end]),
             },
         }
+    }
+
+    /// The joint of a part that hangs on another one, by what it is called.
+    fn of_child(&self, index: PartId, parent: PartId, [start, end]: [DVec2; 2]) -> DVec2 {
+        let measure = self.measure(index);
+        let terms = anatomy::terms(self.names.of(index));
+        if is_hinged_by(&terms, self.names, self.parents, index) {
+            // On the axis, so that the limb points along it.
+            let on_axis = |at: DVec2| (at - measure.center).dot(measure.axis);
+            let met = self.limbs.joint([index, parent]).map(on_axis);
+            let met = met.map(|along| measure.center + along * measure.axis);
+            let end = met.unwrap_or_else(|| self.hinge(index, parent, [start, end]));
+            return self.limbs.off_its_end([index, parent], end).unwrap_or(end);
+        }
+        if Role::of(&terms) == Some(Role::Head) {
+            // A head turns about its neck, whatever sticks out of it: a chin, a beak, a tuft.
+            let neck = self.necks.get(&parent).copied();
+            let below = neck.filter(|neck| *neck != index).unwrap_or(parent);
+            if let Some(at) = self.limbs.head_joint([index, below]) {
+                return at;
+            }
+        }
+        let candidates = [start, end, measure.center];
+        let beside = self.measure(parent).center;
+        // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.
+        let near = |p: &DVec2| p.distance_squared(beside);
+        candidates
+            .into_iter()
+            .min_by(|a, b| near(a).total_cmp(&near(b)))
+            .unwrap_or(measure.center)
     }
 
     /// The end at which a limb is attached: the one that lies on its parent or nearer to its outline. Of ends that are equally near it
@@ -159,7 +178,16 @@ pub(super) fn is_hinged(
     parents: &TiSlice<PartId, Option<PartId>>,
     part: PartId,
 ) -> bool {
-    let terms = anatomy::terms(names.of(part));
+    is_hinged_by(&anatomy::terms(names.of(part)), names, parents, part)
+}
+
+/// Likewise, given the terms of the part's name.
+fn is_hinged_by(
+    terms: &[Term],
+    names: &Names,
+    parents: &TiSlice<PartId, Option<PartId>>,
+    part: PartId,
+) -> bool {
     // 足 is a leg, or a foot if it is attached to a leg.
     let is_foot = terms.contains(&Term::LegOrFoot)
         && parents[part].is_some_and(|parent| {
@@ -167,7 +195,26 @@ pub(super) fn is_hinged(
             let says = |wanted| above.contains(&wanted);
             (says(Term::Leg) || says(Term::Shin)) && !says(Term::LegOrFoot)
         });
-    anatomy::is_hinged(&terms) && !is_foot
+    anatomy::is_hinged(terms) && !is_foot
+}
+
+/// Per part with a neck that hangs on it by its name, the neck.
+pub(super) fn necks(
+    context: Context<'_>,
+    names: &Names,
+    parents: &TiSlice<PartId, Option<PartId>>,
+) -> FxHashMap<PartId, PartId> {
+    let mains: Vec<PartId> = context.mains().collect();
+    let mains = mains.into_par_iter().with_min_len(GRAIN);
+    let named = mains.filter(|part| names.of_part[*part].by != NamedBy::Automatic);
+    let necks = named.filter_map(|part| {
+        let parent = parents[part]?;
+        let role = Role::of(&anatomy::terms(names.of(part)));
+        (role == Some(Role::Neck)).then_some((parent, part))
+    });
+    // In order, so that of several necks the last one counts on every machine.
+    let necks: Vec<(PartId, PartId)> = necks.collect();
+    necks.into_iter().collect()
 }
 
 /// The ends of the axis: the one nearer to the parent's centre first; without a parent, the upper one first.

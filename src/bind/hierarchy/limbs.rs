@@ -11,7 +11,7 @@ use crate::bind::bindings::PartId;
 use crate::geometry::{
     Measure, Outline, area, centroid, distance_squared, intersect, measure, union,
 };
-use crate::memo::{Long, Memo, Same};
+use crate::memo::{Bits, Long, Memo, Same};
 
 /// The most shapes that are united. Of more, the main one stands for all.
 const MAX_SHAPES: usize = 64;
@@ -22,8 +22,14 @@ const LEADS: f64 = 0.5;
 const MAX_OVERLAP: f64 = 0.45;
 /// Points of a limb are equally near to its parent if their distances differ by at most this share of the limb's length.
 const STRETCH: f64 = 0.02;
+/// The end of a limb may be this much farther from its parent than the rest of it, as a share of its length, or else of half its width:
+/// an arm that hangs beside the body touches it with its border only, and turns about its own middle nevertheless.
+const AT_END: f64 = 0.05;
+const BESIDE: f64 = 1.2;
 /// The most points of a limb whose distances from its parent are compared.
 const MAX_POINTS: usize = 512;
+/// The most pairs of points of a limb and its parent that are compared.
+const MAX_COMPARED: usize = 1 << 18;
 
 /// Outlines that are made one.
 #[derive(Debug, PartialEq, Eq, Hash)]
@@ -34,6 +40,18 @@ struct United(Long<Same<Outline>>);
 struct Meeting {
     limb: Same<Outline>,
     parent: Same<Outline>,
+    kind: Kind,
+}
+
+/// What is asked of a limb and its parent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Kind {
+    /// Where a limb meets its parent.
+    Limb,
+    /// Where a head does.
+    Head,
+    /// Where a limb does whose end is here, unless that is there.
+    Off(Bits<[f64; 2]>),
 }
 
 /// The parts that are drawn in several shapes of one group.
@@ -112,15 +130,29 @@ impl<'a> Limbs<'a> {
 
     /// Where a limb in several shapes meets its parent: the middle of their overlap, or of the stretch that is nearest to it.
     /// `None` for one in a single shape, and for one that lies on its parent along much of its length.
-    pub(super) fn joint(&self, [limb, parent]: [PartId; 2]) -> Option<DVec2> {
-        let limb = self.area_of_group(limb)?;
-        let own = || self.outline(parent);
-        let parent = self.area_of_group(parent).unwrap_or_else(own);
-        let meeting = Meeting {
-            limb: Same(Arc::clone(limb)),
-            parent: Same(Arc::clone(parent)),
-        };
-        self.memo.get(meeting, Meeting::place)
+    pub(super) fn joint(&self, pair: [PartId; 2]) -> Option<DVec2> {
+        self.area_of_group(pair[0])?;
+        self.meet(pair, Kind::Limb)
+    }
+
+    /// Where a head meets what it hangs on: likewise, in however many shapes it is drawn.
+    pub(super) fn head_joint(&self, pair: [PartId; 2]) -> Option<DVec2> {
+        self.meet(pair, Kind::Head)
+    }
+
+    /// Where a limb meets its parent if that is elsewhere than at its end: a spider's leg bends back to the body. `None` if the end is
+    /// about as near to the parent as any point of the limb.
+    pub(super) fn off_its_end(&self, pair: [PartId; 2], end: DVec2) -> Option<DVec2> {
+        self.meet(pair, Kind::Off(Bits(end.to_array())))
+    }
+
+    fn meet(&self, pair: [PartId; 2], kind: Kind) -> Option<DVec2> {
+        let [limb, parent] = pair.map(|part| {
+            let own = || self.outline(part);
+            Same(Arc::clone(self.area_of_group(part).unwrap_or_else(own)))
+        });
+        self.memo
+            .get(Meeting { limb, parent, kind }, Meeting::place)
     }
 }
 
@@ -128,17 +160,44 @@ impl Meeting {
     fn place(&self) -> Option<DVec2> {
         let (limb, parent) = (&*self.limb.0, &*self.parent.0);
         let Measure {
-            axis, half_along, ..
+            axis,
+            half_along,
+            half_across,
+            ..
         } = measure(limb)?;
         let length = 2.0 * half_along;
+        let slack = (AT_END * length).max(BESIDE * half_across);
+        let end = match self.kind {
+            Kind::Off(Bits(end)) => Some(DVec2::from_array(end)),
+            Kind::Limb | Kind::Head => None,
+        };
+        // An end on the parent is where a limb is attached, whatever else of it lies there.
+        let gap = end.map(|end| distance_squared(parent, end).sqrt());
+        if gap.is_some_and(|gap| gap <= slack) {
+            return None;
+        }
         let overlap = intersect(limb, parent);
         if let Some(middle) = centroid(&overlap) {
-            let along = points(&overlap).map(|point| point.dot(axis));
-            let none = (f64::INFINITY, f64::NEG_INFINITY);
-            let (low, high) = along.fold(none, |(low, high), at| (low.min(at), high.max(at)));
-            return (high - low <= MAX_OVERLAP * length).then_some(middle);
+            let is_short = match self.kind {
+                // A wide head on a wide body: its axis is level, and says nothing.
+                Kind::Head => area(&overlap) <= MAX_OVERLAP * area(limb),
+                Kind::Limb | Kind::Off(_) => {
+                    let along = points(&overlap).map(|point| point.dot(axis));
+                    let none = (f64::INFINITY, f64::NEG_INFINITY);
+                    let (low, high) =
+                        along.fold(none, |(low, high), at| (low.min(at), high.max(at)));
+                    high - low <= MAX_OVERLAP * length
+                }
+            };
+            return match (is_short, end) {
+                (true, _) => Some(middle),
+                (false, Some(end)) => nearest_to(points(&overlap), end),
+                (false, None) => None,
+            };
         }
-        let step = points(limb).count().div_ceil(MAX_POINTS).max(1);
+        let (own, others) = (points(limb).count(), points(parent).count());
+        let compared = MAX_POINTS.min(MAX_COMPARED / others.max(1)).max(1);
+        let step = own.div_ceil(compared).max(1);
         let some = points(limb).step_by(step);
         let gaps = some.map(|point| (point, distance_squared(parent, point).sqrt()));
         let gaps: Vec<(DVec2, f64)> = gaps.collect();
@@ -146,10 +205,22 @@ impl Meeting {
         let near = gaps
             .iter()
             .filter(|(_, gap)| *gap <= nearest + STRETCH * length);
-        let near: Vec<DVec2> = near.map(|(point, _)| *point).collect();
-        let sum: DVec2 = near.iter().sum();
-        Some(sum / near.len() as f64)
+        let near = near.map(|(point, _)| *point);
+        match (end, gap) {
+            (Some(_), Some(gap)) if gap <= nearest + slack => None,
+            (Some(end), _) => nearest_to(near, end),
+            (None, _) => {
+                let near: Vec<DVec2> = near.collect();
+                let sum: DVec2 = near.iter().sum();
+                Some(sum / near.len() as f64)
+            }
+        }
     }
+}
+
+fn nearest_to(points: impl Iterator<Item = DVec2>, to: DVec2) -> Option<DVec2> {
+    let distance = |point: &DVec2| point.distance_squared(to);
+    points.min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
 /// The points of an outline's borders.

@@ -154,6 +154,7 @@ pub(in crate::bind) fn build(
     let is_limb = |part: PartId| joints::is_hinged(&names, &parents, part);
     let axis = |part: PartId| attributes.attributes(matched, part).axis();
     axes.of_groups = limbs.measures(is_limb, axis);
+    let necks = joints::necks(context, &names, &parents);
     let joints = Joints {
         context,
         limbs: &limbs,
@@ -161,6 +162,7 @@ pub(in crate::bind) fn build(
         names: &names,
         parents: &parents,
         axes: &axes,
+        necks: &necks,
         holders: &holders,
     };
     let mains: Vec<PartId> = context.mains().collect();

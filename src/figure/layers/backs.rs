@@ -74,7 +74,8 @@ struct Garment {
     wraps: bool,
 }
 
-/// Per shape whether it shows on the back as well, mirrored: details with `Side both`.
+/// Per shape whether it shows on the back as well, mirrored: details with `Side both`, and those of figures in profile that `Side
+/// near` does not keep where they are drawn.
 pub(super) fn mirrored(
     context: &FigureContext<'_>,
     shapes: &[Shape],
@@ -82,7 +83,12 @@ pub(super) fn mirrored(
 ) -> Vec<bool> {
     let shapes = shapes.iter().zip(covers);
     let is_mirrored = shapes.map(|(shape, cover)| {
-        cover.is_detail && !shape.is_given && context.bindings.side(shape.part) == Some(Side::Both)
+        cover.is_detail
+            && !shape.is_given
+            && match context.bindings.side(shape.part) {
+                Some(side) => side == Side::Both,
+                None => context.two_sided[shape.main],
+            }
     });
     is_mirrored.collect()
 }

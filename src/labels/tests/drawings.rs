@@ -177,7 +177,7 @@ fn a_spider_faces_the_viewer_on_eight_legs() {
     let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
     check(&spider(), &expected);
     let labeled = label_drawn(&figure(&spider()));
-    assert_eq!(labeled.facing, Facing::Viewer);
+    assert_eq!(labeled.facing.facing, Facing::Viewer);
     assert_eq!(labeled.splayed.raw[..3], [false; 3]);
     assert!(labeled.splayed.raw[3..].iter().all(|splayed| *splayed));
 }

@@ -27,10 +27,12 @@ pub(crate) fn figure(rows: &[Row<'_>]) -> Figure {
                 drawing_order: drawn,
                 bones: Vec::new(),
                 carry: None,
+                ..FigurePart::default()
             }
         });
     Figure {
         parts: parts.collect(),
+        facing: None,
     }
 }
 

@@ -2,8 +2,10 @@
 
 mod conventions;
 mod drawings;
+mod facing;
 pub(crate) mod figures;
 mod files;
+mod held;
 mod programs;
 mod random;
 

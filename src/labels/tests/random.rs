@@ -90,10 +90,12 @@ fn figure() -> impl Strategy<Value = Figure> {
                 drawing_order: drawn / 2,
                 bones,
                 carry: None,
+                ..FigurePart::default()
             },
         );
         Figure {
             parts: parts.collect(),
+            facing: None,
         }
     })
 }
@@ -210,6 +212,7 @@ fn cycles_and_parents_out_of_range() {
             part("e", 0),
         ]
         .into(),
+        facing: None,
     };
     assert_eq!(label_figure(&figure).len(), 6);
     // A root with children is a trunk.

@@ -82,6 +82,25 @@ pub(super) static SWING: Row = Row {
     ..Row::ROW
 };
 
+pub(super) static FACING: Row = Row {
+    forms: &[Form::one(&choice(
+        "where",
+        &vocabulary::FACING,
+        "where the figure looks",
+    ))],
+    allowed: Allowed::PartAndDrawing,
+    default: "found from the drawing",
+    summary: "where the figure looks",
+    long: "A figure in profile walks to the side that it looks to, and its limbs drawn last are on the \
+           near side. okoshi finds the direction from the drawing: from a head beside the trunk, legs \
+           that overlap, one eye, a nose that leaves the head, a tail at the other side, and words such \
+           as `front leg`; `okoshi inspect` tells which, and why. Where it is wrong, `Facing` in the \
+           string of one of the figure's parts says so; in a `%` string, it says so of all figures. \
+           `back` is a figure that is seen from behind: its left arm is drawn on the left.",
+    example: "Dog$Facing left",
+    ..Row::ROW
+};
+
 pub(super) static CARRY: Row = Row {
     forms: &[Form::one(&choice(
         "what",

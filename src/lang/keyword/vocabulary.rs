@@ -83,6 +83,14 @@ pub(crate) static SIDE: [Word; 2] = [
     word("both", "on the back as well, mirrored"),
 ];
 
+/// The words of `Facing`.
+pub(crate) static FACING: [Word; 4] = [
+    word("left", "to the drawing's left"),
+    word("right", "to the drawing's right"),
+    word("front", "towards the viewer"),
+    word("back", "away from the viewer, who sees its back"),
+];
+
 /// The signed axes of `Axes`.
 pub(crate) static AXES: [Word; 6] = [
     word("+x", "along the world's x"),
@@ -295,6 +303,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
         .chain(&TILE)
         .chain(&CARRY)
         .chain(&SIDE)
+        .chain(&FACING)
         .chain(&AXES)
         .chain(&CLIPS)
 }

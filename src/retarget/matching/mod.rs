@@ -11,8 +11,8 @@ use glam::DVec3;
 use typed_index_collections::{TiSlice, TiVec};
 
 use crate::labels::{
-    Anatomy, Carry, Class, Facing, Figure, FigurePartId, Label, LabeledFigure, Limb, LimbSegment,
-    Side, Tip, label_drawn,
+    Anatomy, Carry, Class, Figure, FigurePartId, FoundFacing, Label, LabeledFigure, Limb,
+    LimbSegment, Side, Tip, label_drawn,
 };
 use crate::mocap::{JointId, Skeleton, Transform};
 pub(crate) use elbows::bent_arms;
@@ -23,8 +23,8 @@ use names::Names;
 pub(crate) struct Matching {
     /// The parts, in the figure's order.
     pub parts: TiVec<FigurePartId, MatchedPart>,
-    /// The direction that the figure faces.
-    pub facing: Facing,
+    /// The direction that the figure faces, and why.
+    pub facing: FoundFacing,
     /// What was wrong or missing.
     pub problems: Vec<Problem>,
 }
@@ -162,6 +162,8 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
         labels,
         splayed,
         facing,
+        held,
+        ..
     } = label_drawn(figure);
     let mut problems = Vec::new();
     let names = Names::new(skeleton);
@@ -177,7 +179,9 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
             Some(drive) => Ok(drive),
             None => match &label {
                 Some(label) => matcher.drive(part, label, &mut lacking),
-                None => Err("no limb, head or trunk by its name or place".to_owned()),
+                None => Err(held[part]
+                    .clone()
+                    .unwrap_or_else(|| "no limb, head or trunk by its name or place".to_owned())),
             },
         };
         let (drive, why) = match found {

@@ -1,0 +1,66 @@
+//! Where the figures of a drawing look.
+
+use typed_index_collections::{TiVec, ti_vec};
+
+use super::{figures, rigging};
+use crate::bind::{Bindings, PartId, PartKind};
+use crate::labels::{FoundFacing, Label, label_drawn};
+use crate::svg::Drawing;
+
+/// A figure, and the direction that it faces.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FigureFacing {
+    /// The part that carries the others.
+    pub root: PartId,
+    /// All its parts that are in the hierarchy.
+    pub parts: Vec<PartId>,
+    /// Those of them that are limbs.
+    pub limbs: Vec<PartId>,
+    /// The direction, and why.
+    pub found: FoundFacing,
+}
+
+/// The main parts of figures in profile, limbs left out: what is drawn on them is on their far side, too.
+pub(crate) fn two_sided(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, bool> {
+    let mut two_sided = ti_vec![false; bindings.parts.len()];
+    let figures = facings(drawing, bindings);
+    for figure in figures
+        .iter()
+        .filter(|figure| figure.found.facing.is_profile())
+    {
+        figure.parts.iter().for_each(|part| two_sided[*part] = true);
+        figure
+            .limbs
+            .iter()
+            .for_each(|part| two_sided[*part] = false);
+    }
+    two_sided
+}
+
+/// Where those figures look that have limbs, or whose strings say so. Without names that tell a body, what sticks out of a thing is no limb.
+pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacing> {
+    let mut parts_of_node: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); bindings.parts.len()];
+    for (index, part) in bindings.parts.iter_enumerated() {
+        if matches!(part.kind, PartKind::Main | PartKind::Sub) {
+            parts_of_node[part.main].push(index);
+        }
+    }
+    let groups = figures::find(bindings);
+    let groups = groups.into_iter().filter(|group| group.parts.len() > 1);
+    let found = groups.filter_map(|group| {
+        let figure = rigging::figure(drawing, bindings, &parts_of_node, &group);
+        let labeled = label_drawn(&figure);
+        let labels = group.parts.iter().zip(&labeled.labels);
+        let is_limb = |label: &Label| label.class.is_limb();
+        let limbs = labels.filter(|(_, label)| label.as_ref().is_some_and(is_limb));
+        let limbs: Vec<PartId> = limbs.map(|(part, _)| *part).collect();
+        let has_limbs = labeled.has_names && !limbs.is_empty();
+        (has_limbs || labeled.facing.by_string).then(|| FigureFacing {
+            root: group.root,
+            limbs,
+            parts: group.parts.raw,
+            found: labeled.facing,
+        })
+    });
+    found.collect()
+}

@@ -1,0 +1,116 @@
+//! Figures that play a motion without the limbs that it moves.
+
+use std::collections::BTreeMap;
+
+use super::Context;
+use super::builder::MatchedFigure;
+use crate::bind::{ClipRequest, MotionSource, PartId};
+use crate::clips::BuiltIn;
+use crate::diagnostic::{Code, Diagnostic, listed};
+use crate::labels::Class;
+use crate::source::Span;
+
+/// The most names that are listed of a class of parts.
+const MAX_NAMES: usize = 3;
+
+/// A figure without the limbs that its motion moves.
+pub(super) struct Limbless {
+    /// Its name.
+    name: String,
+    /// Whether the motion is a gait, which needs legs.
+    is_gait: bool,
+    /// What it has instead, for people to read.
+    has: String,
+}
+
+/// A figure without limbs, or without legs for a gait. Parts with `Bone` may be anything.
+pub(super) fn find(
+    context: &Context<'_>,
+    request: &ClipRequest<'_>,
+    matched: &MatchedFigure,
+) -> Option<Limbless> {
+    let is_gait = match request.source {
+        MotionSource::BuiltIn(word) => BuiltIn::from_name(word).is_some_and(BuiltIn::is_gait),
+        MotionSource::File(_) => false,
+    };
+    let parts = &context.bindings.parts;
+    let mut found: BTreeMap<Class, Vec<&str>> = BTreeMap::new();
+    for (index, part) in matched.matching.parts.iter_enumerated() {
+        if !matched.figure.parts[index].bones.is_empty() {
+            return None;
+        }
+        if let Some(label) = &part.label {
+            let name = parts[matched.group.parts[index]].name.as_str();
+            found.entry(label.class).or_default().push(name);
+        }
+    }
+    let has = |class: Class| found.contains_key(&class);
+    let has_limbs = has(Class::Arm) || has(Class::Leg);
+    if has(Class::Leg) || has_limbs && !is_gait {
+        return None;
+    }
+    let classes = found.iter().map(|(class, names)| {
+        let count = match (names.len(), class) {
+            (1, Class::Arm) => "an arm".to_owned(),
+            (1, Class::Hips) => "hips".to_owned(),
+            (1, class) => format!("a {}", class.name()),
+            (count, Class::Body) => format!("{count} pieces of a body"),
+            (count, class) => format!("{count} {}s", class.name()),
+        };
+        let more = if names.len() > MAX_NAMES { ", …" } else { "" };
+        let names = names.iter().take(MAX_NAMES).map(|name| format!("`{name}`"));
+        format!("{count} ({}{more})", names.collect::<Vec<_>>().join(", "))
+    });
+    let listed_classes: Vec<String> = classes.collect();
+    Some(Limbless {
+        name: name(context, matched.group.root),
+        is_gait,
+        has: listed(listed_classes.into_iter()),
+    })
+}
+
+fn name(context: &Context<'_>, root: PartId) -> String {
+    context.bindings.parts[root].name.clone()
+}
+
+/// Reports the figures that play one motion without the limbs that it moves.
+pub(super) fn report(
+    figures: &[Limbless],
+    link: &str,
+    span: Span,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let Some(first) = figures.first() else {
+        return;
+    };
+    let what = if first.is_gait { "legs" } else { "limbs" };
+    let whose = match figures {
+        [_] => format!("the figure of `{}`", first.name),
+        _ => {
+            let names = figures.iter().map(|figure| format!("`{}`", figure.name));
+            format!("the figures of {}", listed(names))
+        }
+    };
+    let effect = match (first.is_gait, figures.len()) {
+        (true, 1) => format!("it glides in `{link}`"),
+        (true, _) => format!("they glide in `{link}`"),
+        (false, _) => format!("`{link}` hardly moves anything"),
+    };
+    let has = match figures {
+        [only] if !only.has.is_empty() => format!(": it has {}", only.has),
+        _ => String::new(),
+    };
+    let message = format!("no {what} are found in {whose}, so {effect}{has}");
+    let root = &first.name;
+    let (left, right) = (format!("`Lleg@{root}`"), format!("`Rleg@{root}`"));
+    let help = if figures.len() == 1 {
+        format!(
+            "name what it stands on after what it is, such as {left} and {right}, or say which joints drive a part: `Bone LeftUpLeg LeftFoot`"
+        )
+    } else {
+        format!(
+            "if they are to stay, write `Motion` in the string of the figure that moves; else name what they stand on, such as {left} and {right}"
+        )
+    };
+    diagnostics.push(Diagnostic::new(Code::NoLimbs, span, message).help(help));
+}
