@@ -34,6 +34,8 @@ mod weight {
     pub(super) const EYE: f64 = 0.5;
     /// Two eyes beside each other: many animals in profile show both.
     pub(super) const TWO_EYES: f64 = 1.0;
+    /// Added to that if they lie on both sides of the head's middle.
+    pub(super) const AROUND_MIDDLE: f64 = 1.0;
     /// A tail at the other side.
     pub(super) const TAIL: f64 = 1.0;
     /// A near limb that is called left or right.
@@ -62,6 +64,10 @@ const EYE_OFF: f64 = 0.08;
 const MUZZLE: f64 = 1.2;
 /// The least and the greatest width of an eye, as a share of the head's.
 const EYE: [f64; 2] = [0.03, 0.4];
+/// Two eyes lie around the head's middle if theirs is at most this share of the head's width away.
+const AROUND: f64 = 0.12;
+/// A shape with the name of an eye that is this much wider than high is two of them.
+const BOTH_EYES: f64 = 2.2;
 /// Two eyes have extents that differ by at most this share, and heights that differ by at most this share of the head's.
 const ALIKE: f64 = 0.3;
 const LEVEL: f64 = 0.12;
@@ -457,12 +463,29 @@ impl<'a> Observed<'a> {
                 vote(For::Side(off.signum()), weight::EYE, why);
             }
         };
-        if let Some(first) = named.first() {
-            let is_beside = named.iter().any(|eye| shared_width(*eye, *first) <= 0.0);
-            if is_beside {
-                vote(For::Front, weight::TWO_EYES, two.to_owned());
+        let eyes = |pair: [Bounds; 2], vote: &mut dyn FnMut(For, f64, String)| {
+            let [a, b] = pair.map(|eye| middle(eye).x);
+            let off = a.midpoint(b) - middle(head).x;
+            let is_around = off.abs() <= AROUND * size.x;
+            let more = if is_around {
+                weight::AROUND_MIDDLE
             } else {
-                one(*first, vote);
+                0.0
+            };
+            vote(For::Front, weight::TWO_EYES + more, two.to_owned());
+        };
+        if let Some(first) = named.first() {
+            let mut beside = named.iter();
+            let beside = beside.find(|eye| shared_width(**eye, *first) <= 0.0);
+            // Both may be drawn as one shape.
+            let both = named.iter().find(|[low, high]| {
+                let size = *high - *low;
+                size.x > BOTH_EYES * size.y
+            });
+            match (beside, both) {
+                (Some(other), _) => eyes([*first, *other], vote),
+                (None, Some(both)) => eyes([*both; 2], vote),
+                (None, None) => one(*first, vote),
             }
             return;
         }
@@ -477,21 +500,22 @@ impl<'a> Observed<'a> {
             .filter(|detail| may_be(detail.bounds))
             .take(MAX_DETAILS);
         let details: Vec<_> = details.collect();
-        let mut has_pair = false;
+        let mut pair = None;
         for (place, one) in details.iter().enumerate() {
             for other in &details[place + 1..] {
                 let [a, b] = [one, other].map(|eye| eye.bounds[1] - eye.bounds[0]);
                 let alike = (a - b).abs().cmple(ALIKE * a.max(b)).all();
                 let way = middle(other.bounds) - middle(one.bounds);
-                has_pair |= alike
+                let is_pair = alike
                     && one.color == other.color
                     && way.y.abs() <= LEVEL * size.y
                     && way.x.abs() >= EYES_APART * size.x
                     && shared_width(one.bounds, other.bounds) <= 0.0;
+                pair = pair.or_else(|| is_pair.then_some([one.bounds, other.bounds]));
             }
         }
-        if has_pair {
-            vote(For::Front, weight::TWO_EYES, two.to_owned());
+        if let Some(pair) = pair {
+            eyes(pair, vote);
             return;
         }
         let dark = details

@@ -40,6 +40,14 @@ pub(super) struct Lifting<'a> {
 /// The depths of plane faces, back and front, both measured outwards; `None` for a side without one.
 type Faces = [Option<f64>; 2];
 
+/// What has become of the shapes so far.
+struct Moved {
+    /// Per shape whether it is not laid on others.
+    is_exact: Vec<bool>,
+    /// Per shape its faces, moved outwards, as far as they are plane.
+    faces: Vec<Faces>,
+}
+
 /// How a shape comes out in front of what it lies on.
 enum Form {
     /// Its faces are moved outwards by these distances, back and front.
@@ -63,23 +71,30 @@ impl Lifting<'_> {
             offsets[shape.part] = shape.offset;
         }
         let mut raised = ti_vec![[0.0; 2]; offsets.len()];
-        // Per shape its faces, moved outwards, if it is not laid on others.
-        let mut moved: Vec<Option<Faces>> = Vec::with_capacity(self.arrangement.shapes.len());
-        let mut lays: Vec<Option<Lay>> = Vec::with_capacity(self.arrangement.shapes.len());
+        let count = self.arrangement.shapes.len();
+        let mut moved = Moved {
+            is_exact: Vec::with_capacity(count),
+            faces: Vec::with_capacity(count),
+        };
+        let mut lays: Vec<Option<Lay>> = Vec::with_capacity(count);
         for (index, shape) in self.arrangement.shapes.iter().enumerate() {
-            let (faces, lay) = match self.form(index, &moved) {
-                Form::Raised(by) => {
-                    raised[shape.part] = by;
-                    let [back, front] = self.faces(index);
-                    let faces = [
-                        back.map(|back| back + by[0]),
-                        front.map(|front| front + by[1]),
-                    ];
-                    (Some(faces), None)
+            let (by, lay) = match self.form(index, &moved) {
+                Form::Raised(by) => (by, None),
+                // The backs of plates are plane, whatever lifts their fronts.
+                Form::Laid(lay) if lay.form == LayForm::Volume && !shape.is_soft => {
+                    ([self.raise(index, &moved)[0], 0.0], Some(lay))
                 }
-                Form::Laid(lay) => (None, Some(lay)),
+                Form::Laid(lay) => ([0.0; 2], Some(lay)),
             };
-            moved.push(faces);
+            raised[shape.part] = by;
+            let [back, front] = self.faces(index);
+            let is_exact = lay.is_none();
+            let has_back = is_exact || !shape.is_soft;
+            moved.is_exact.push(is_exact);
+            moved.faces.push([
+                back.filter(|_| has_back).map(|back| back + by[0]),
+                front.filter(|_| is_exact).map(|front| front + by[1]),
+            ]);
             lays.push(lay);
         }
         let (pile, places, backs) = self.pile(lays, &raised, recent);
@@ -93,7 +108,7 @@ impl Lifting<'_> {
         }
     }
 
-    fn form(&self, index: usize, moved: &[Option<Faces>]) -> Form {
+    fn form(&self, index: usize, moved: &Moved) -> Form {
         let shape = &self.arrangement.shapes[index];
         let cover = &self.arrangement.covers[index];
         let below = || {
@@ -105,7 +120,7 @@ impl Lifting<'_> {
             return Form::Raised(self.raise(index, moved));
         }
         let is_plate =
-            |other: usize| moved[other].is_some() && !self.arrangement.shapes[other].is_soft;
+            |other: usize| moved.is_exact[other] && !self.arrangement.shapes[other].is_soft;
         if !shape.is_soft && below().all(is_plate) {
             let by = self.raise(index, moved);
             if by[1] <= MAX_RAISE * shape.height().max(self.arrangement.steps[index])
@@ -179,7 +194,7 @@ impl Lifting<'_> {
     }
 
     /// How far the plane faces of a shape are moved outwards, back and front, because of those of others that it lies over.
-    fn raise(&self, index: usize, moved: &[Option<Faces>]) -> [f64; 2] {
+    fn raise(&self, index: usize, moved: &Moved) -> [f64; 2] {
         let shape = &self.arrangement.shapes[index];
         let step = self.arrangement.steps[index];
         let faces = self.faces(index);
@@ -188,7 +203,7 @@ impl Lifting<'_> {
             let below = self.arrangement.overlaps[index]
                 .iter()
                 .filter_map(|overlap| {
-                    let moved = moved[overlap.below]?[side]?;
+                    let moved = moved.faces[overlap.below][side]?;
                     Some((self.faces(overlap.below)[side]?, moved))
                 });
             let below: Vec<(f64, f64)> = below.collect();

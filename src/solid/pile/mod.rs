@@ -344,15 +344,20 @@ impl Pile {
     fn field(&self, index: usize, known: &FxHashMap<usize, BodyHeights>) -> Option<Field> {
         let body = &self.bodies[index];
         let lay = body.lay.as_ref()?;
-        let in_frame = |other: &usize, heights: BodyHeights| BodyInFrame {
-            body: if self.bodies[*other].is_behind == body.is_behind {
-                heights
-            } else {
-                heights.mirrored()
-            },
-            to: self.bodies[*other].to_plane.inverse() * body.to_plane,
-            is_given: self.bodies[*other].is_given,
-            is_detail: self.bodies[*other].is_detail,
+        let in_frame = |other: &usize, heights: BodyHeights| {
+            let other = &self.bodies[*other];
+            let is_seen_from_behind = other.is_behind != body.is_behind;
+            BodyInFrame {
+                body: if is_seen_from_behind {
+                    heights.mirrored()
+                } else {
+                    heights
+                },
+                to: other.to_plane.inverse() * body.to_plane,
+                // From behind, what is drawn later need not come out in front.
+                is_given: other.is_given || is_seen_from_behind,
+                is_detail: other.is_detail,
+            }
         };
         let lies_on = |other: &usize| in_frame(other, known[other].clone());
         let behind = lay.behind.iter();
