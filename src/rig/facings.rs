@@ -7,6 +7,9 @@ use crate::bind::{Bindings, PartId, PartKind};
 use crate::labels::{FoundFacing, label_drawn};
 use crate::svg::Drawing;
 
+/// Without a name that tells part of a body, what sticks out of a thing is no limb unless there are as many as this.
+const FEWEST_UNNAMED: usize = 3;
+
 /// A figure, and the direction that it faces.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FigureFacing {
@@ -18,7 +21,7 @@ pub(crate) struct FigureFacing {
     pub found: FoundFacing,
 }
 
-/// Where those figures look that have limbs, or whose strings say so. Without names that tell a body, what sticks out of a thing is no limb.
+/// Where those figures look that have limbs, or whose strings say so.
 pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacing> {
     let mut parts_of_node: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); bindings.parts.len()];
     for (index, part) in bindings.parts.iter_enumerated() {
@@ -31,8 +34,9 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
     let found = groups.filter_map(|group| {
         let figure = rigging::figure(drawing, bindings, &parts_of_node, &group);
         let labeled = label_drawn(&figure);
-        let mut labels = labeled.labels.iter().flatten();
-        let has_limbs = labeled.has_names && labels.any(|label| label.class.is_limb());
+        let labels = labeled.labels.iter().flatten();
+        let limbs = labels.filter(|label| label.class.is_limb()).count();
+        let has_limbs = limbs >= if labeled.has_names { 1 } else { FEWEST_UNNAMED };
         (has_limbs || labeled.facing.by_string).then(|| FigureFacing {
             root: group.root,
             parts: group.parts.raw,
