@@ -10,6 +10,7 @@ use okoshi::FolderResolver;
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::diagnostic::Code;
 use okoshi::internals::mocap::Transform;
+use okoshi::internals::rig::FigureClip;
 use okoshi::scene::{Animation, NodeId, Scene, TiVec, Values};
 
 use crate::model::world;
@@ -238,14 +239,15 @@ fn loose(scene: &Scene, clip: &Animation) -> Vec<(String, f64)> {
     found
 }
 
-/// How far a figure travels in a clip.
-fn travel(clip: &Animation) -> DVec3 {
-    let ways = clip.tracks.iter().filter_map(|track| match &track.values {
-        Values::Translations(places) => Some(*places.last()? - *places.first()?),
+/// How far a node travels in a clip.
+fn travel(scene: &Scene, clip: &Animation, node: &str) -> DVec3 {
+    let mut ways = clip.tracks.iter().filter_map(|track| match &track.values {
+        Values::Translations(places) if scene.nodes[track.node].name == node => {
+            Some(*places.last()? - *places.first()?)
+        }
         _ => None,
     });
-    let farther = |a: DVec3, b: DVec3| if b.length() > a.length() { b } else { a };
-    ways.reduce(farther).unwrap_or_default()
+    ways.next().unwrap_or_default()
 }
 
 #[test]
@@ -259,18 +261,14 @@ fn figures_with_legs_hold_together_and_go_where_they_look() {
             continue;
         }
         let compiled = walking(&path);
-        let walks: Vec<_> = compiled
-            .clips
-            .iter()
-            .filter(|clip| clip.file == "walk")
-            .collect();
-        let has_legs = walks.iter().any(|clip| {
+        let has_legs = |clip: &&FigureClip| {
             let mut parts = clip.parts.iter();
-            parts.any(|drive| drive.why.contains("UpLeg"))
-        });
-        if !has_legs {
+            clip.file == "walk" && parts.any(|drive| drive.why.contains("UpLeg"))
+        };
+        let Some(walk) = compiled.clips.iter().find(has_legs) else {
             continue;
-        }
+        };
+        let root = &compiled.bindings.parts[walk.root].name;
         figures += 1;
         let said = compiled
             .diagnostics
@@ -286,7 +284,7 @@ fn figures_with_legs_hold_together_and_go_where_they_look() {
                 .find(|clip| clip.name.starts_with(gait));
             let clip = clip.expect("the gait");
             assert_eq!(loose(scene, clip), [], "{name}: {gait}");
-            let way = travel(clip).normalize_or_zero();
+            let way = travel(scene, clip, root).normalize_or_zero();
             let profile = PROFILES.iter().find(|(drawing, _)| *drawing == name);
             let toward = match profile {
                 Some((_, side)) => DVec3::X * *side,
