@@ -15,6 +15,8 @@ const ASIDE: f64 = 40.0;
 const SLENDER: f64 = 1.5;
 /// What is held reaches beyond the hand at both sides by at least this share of its own length.
 const BEYOND: f64 = 0.1;
+/// A forearm is at least and at most this much as wide as the arm above it, and at most as long.
+const FOREARM: [f64; 2] = [0.5, 1.5];
 /// The most pieces of an arm that are measured.
 const MAX_PIECES: usize = 8;
 
@@ -37,6 +39,9 @@ pub(super) fn by_arm(
 ) -> Option<String> {
     let above = tree.parents[part].filter(|above| drafts[*above].class == Some(Class::Arm))?;
     let is_hand = |part: FigurePartId| drafts[part].says(&[Term::Hand]);
+    if drafts[part].says(&[Term::Upper, Term::Lower, Term::Fore]) {
+        return None;
+    }
     // An arm without a name may have any number of pieces, and an upper arm has another one.
     let is_end = is_hand(above)
         || drafts[above].named
@@ -65,7 +70,14 @@ pub(super) fn by_arm(
     if crosses && (is_end || !drafts[above].named) {
         return held("reaches beyond the hand at both sides");
     }
-    if !is_end {
+    // What goes on where the arm ends, and is about as wide and as long as that, is its forearm, whatever it is called.
+    let alike =
+        |own: f64, arms: f64, range: [f64; 2]| (range[0]..=range[1]).contains(&(own / arms));
+    let goes_on = !is_hand(above)
+        && near.distance(hand).min(far.distance(hand)) <= tree.parts[above].width
+        && alike(tree.parts[part].width, tree.parts[above].width, FOREARM)
+        && length <= FOREARM[1] * whole;
+    if !is_end || goes_on {
         return None;
     }
     if length > LONG * whole {

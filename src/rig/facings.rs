@@ -7,6 +7,9 @@ use crate::bind::{Bindings, PartId, PartKind};
 use crate::labels::{FoundFacing, Label, label_drawn};
 use crate::svg::Drawing;
 
+/// Without a name that tells part of a body, what sticks out of a thing is no limb unless there are as many as this.
+const FEWEST_UNNAMED: usize = 3;
+
 /// A figure, and the direction that it faces.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FigureFacing {
@@ -20,6 +23,7 @@ pub(crate) struct FigureFacing {
     pub found: FoundFacing,
 }
 
+<<<<<<< HEAD
 /// The main parts of figures in profile, limbs left out: what is drawn on them is on their far side, too.
 pub(crate) fn two_sided(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, bool> {
     let mut two_sided = ti_vec![false; bindings.parts.len()];
@@ -38,6 +42,9 @@ pub(crate) fn two_sided(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId,
 }
 
 /// Where those figures look that have limbs, or whose strings say so. Without names that tell a body, what sticks out of a thing is no limb.
+=======
+/// Where those figures look that have limbs, or whose strings say so.
+>>>>>>> h_b_2
 pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacing> {
     let mut parts_of_node: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); bindings.parts.len()];
     for (index, part) in bindings.parts.iter_enumerated() {
@@ -50,11 +57,17 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
     let found = groups.filter_map(|group| {
         let figure = rigging::figure(drawing, bindings, &parts_of_node, &group);
         let labeled = label_drawn(&figure);
+<<<<<<< HEAD
         let labels = group.parts.iter().zip(&labeled.labels);
         let is_limb = |label: &Label| label.class.is_limb();
         let limbs = labels.filter(|(_, label)| label.as_ref().is_some_and(is_limb));
         let limbs: Vec<PartId> = limbs.map(|(part, _)| *part).collect();
         let has_limbs = labeled.has_names && !limbs.is_empty();
+=======
+        let labels = labeled.labels.iter().flatten();
+        let limbs = labels.filter(|label| label.class.is_limb()).count();
+        let has_limbs = limbs >= if labeled.has_names { 1 } else { FEWEST_UNNAMED };
+>>>>>>> h_b_2
         (has_limbs || labeled.facing.by_string).then(|| FigureFacing {
             root: group.root,
             limbs,

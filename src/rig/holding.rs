@@ -95,7 +95,7 @@ struct Pair<'a> {
     points: Vec<DVec3>,
     /// The shapes of what it hangs on.
     below: Vec<&'a Outline>,
-    /// How far the depths of both differ.
+    /// How far apart the middles of both may be in depth, as they are drawn and as thick as they are.
     depth: f64,
     /// The gap between both in the drawing.
     drawn: f64,
@@ -115,7 +115,9 @@ impl<'a> Pair<'a> {
         let [shapes, below] = [part, parent].map(|part| outlines(context, group.parts[part]));
         let joint = own.joint.truncate();
         let [from_part, from_parent] = [&shapes, &below].map(|shapes| distance(shapes, joint));
-        let depth = (own.joint.z - rig.parts[parent].node.position.z).abs();
+        let apart = (own.joint.z - rig.parts[parent].node.position.z).abs();
+        let thick = [part, parent].map(|part| half_thickness(context, group.parts[part]));
+        let depth = apart + thick[0] + thick[1];
         let edges: usize = below.iter().map(|outline| points(outline).count()).sum();
         let most = (MAX_PAIRS / (TIMES * edges.max(1))).clamp(4, MAX_POINTS);
         let all = shapes
@@ -160,6 +162,17 @@ impl<'a> Pair<'a> {
         });
         gaps.fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Half the thickness of a node's thickest solid, a little within its outline.
+fn half_thickness(context: &Context<'_>, part: PartId) -> f64 {
+    let shapes = context.parts_of_node[part].iter();
+    let solids = shapes.filter_map(|shape| context.thicknesses.get(*shape).copied().flatten());
+    let halves = solids.map(|solid| {
+        let half = (solid.depths[1] - solid.depths[0]) / 2.0;
+        if solid.is_soft { half / 2.0 } else { half }
+    });
+    halves.fold(0.0, f64::max)
 }
 
 /// The outlines of the shapes of a node.

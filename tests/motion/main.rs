@@ -14,3 +14,4 @@ mod model;
 mod performance;
 mod performed;
 mod retarget;
+mod walking;

@@ -41,7 +41,7 @@ fn compiled(text: &str) -> Compiled {
 }
 
 /// The world transforms of the nodes at a key of a clip.
-fn world(scene: &Scene, clip: &Animation, key: usize) -> TiVec<NodeId, Transform> {
+pub(crate) fn world(scene: &Scene, clip: &Animation, key: usize) -> TiVec<NodeId, Transform> {
     let mut local: TiVec<NodeId, Transform> = scene
         .nodes
         .iter()

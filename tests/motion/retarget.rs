@@ -70,6 +70,7 @@ impl Body {
             // Its right side is near the viewer.
             Facing::Right => DVec3::new(front, up, -left),
             Facing::Left => DVec3::new(-front, up, left),
+            Facing::Away => DVec3::new(-left, up, -front),
         }
     }
 

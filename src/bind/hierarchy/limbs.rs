@@ -25,7 +25,7 @@ const STRETCH: f64 = 0.02;
 /// The end of a limb may be this much farther from its parent than the rest of it, as a share of its length, or else of half its width:
 /// an arm that hangs beside the body touches it with its border only, and turns about its own middle nevertheless.
 const AT_END: f64 = 0.05;
-const BESIDE: f64 = 1.2;
+const BESIDE: f64 = 1.6;
 /// The most points of a limb whose distances from its parent are compared.
 const MAX_POINTS: usize = 512;
 /// The most pairs of points of a limb and its parent that are compared.
@@ -160,13 +160,12 @@ impl Meeting {
     fn place(&self) -> Option<DVec2> {
         let (limb, parent) = (&*self.limb.0, &*self.parent.0);
         let Measure {
-            axis,
-            half_along,
-            half_across,
-            ..
+            axis, half_along, ..
         } = measure(limb)?;
         let length = 2.0 * half_along;
-        let slack = (AT_END * length).max(BESIDE * half_across);
+        // Not the extent across the axis, which is large where a limb is bent.
+        let half_width = area(limb) / length / 2.0;
+        let slack = (AT_END * length).max(BESIDE * half_width);
         let end = match self.kind {
             Kind::Off(Bits(end)) => Some(DVec2::from_array(end)),
             Kind::Limb | Kind::Head => None,

@@ -24,6 +24,7 @@ pub(crate) fn figure(rows: &[Row<'_>]) -> Figure {
                 joint,
                 tip,
                 bounds: [joint.min(tip) - across, joint.max(tip) + across],
+                width: 2.0 * *half,
                 drawing_order: drawn,
                 bones: Vec::new(),
                 carry: None,

@@ -106,6 +106,14 @@ fn pieces_of_an_arm_are_not_held() {
         let last = labels.last().and_then(Option::as_ref).map(Label::describe);
         assert_eq!(last.as_deref(), Some("right arm, lower"));
     }
+    // So is what is as wide as an arm by its name, and begins where that ends.
+    let mut figure = holding(&person(false, false), "Rfore", 0.9, 80.0, 0.0);
+    figure.parts.last_mut().expect("a forearm").width = 5.0;
+    let last = labels(&figure).pop().flatten();
+    assert_eq!(
+        last.as_ref().map(Label::describe).as_deref(),
+        Some("right arm, lower")
+    );
     // A name says so too, and so does a short thing that goes on where the arm ends.
     for (name, length, angle) in [
         ("Forearm", 1.0, 60.0),
