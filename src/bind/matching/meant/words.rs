@@ -1,0 +1,225 @@
+//! What the words in a text's name say about the shape that it means: a head is at the top, a leg reaches down.
+//!
+//! The words count little beside the place of the text: they decide between what lies about equally near.
+
+use glam::DVec2;
+
+use crate::anatomy::{self, Role, Term};
+
+/// What a unit of which words and shape agree costs less, font sizes.
+const FITS: f64 = 0.5;
+/// What a unit costs more that contradicts the words, font sizes.
+const CONTRADICTS: f64 = 1.0;
+/// What scenery costs more for a text that names a piece of a figure, font sizes: it is taken only if nothing else is left.
+pub(super) const NEVER: f64 = 100.0;
+
+/// What scenery costs more for a text that names scenery.
+pub(super) const FITS_SCENERY: f64 = -FITS;
+
+/// What a name is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(in crate::bind::matching) enum Topic {
+    Body,
+    /// A piece of the trunk.
+    Torso,
+    Hips,
+    Neck,
+    Head,
+    /// Hair, a hat.
+    OnHead,
+    /// A piece of a face, an ear.
+    Feature,
+    Arm,
+    Hand,
+    Leg,
+    Foot,
+    Tail,
+    Wing,
+    Cape,
+    /// What lies behind figures.
+    Scenery,
+}
+
+/// What a name says, as far as it tells what is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub(in crate::bind::matching) struct Sense {
+    pub(in crate::bind::matching) topic: Option<Topic>,
+    /// The name as such, by its number among those of the drawing; 0 for none.
+    pub(in crate::bind::matching) name: u32,
+    /// -1 for what the drawing's texts call left or right if that is on the left of the drawing, 1 if it is on the right, 0 otherwise.
+    pub(in crate::bind::matching) side: i8,
+}
+
+impl Sense {
+    /// What a name says; its number and its side are still to be found.
+    pub(in crate::bind::matching) fn of(name: &str) -> Self {
+        Self {
+            topic: topic(name),
+            ..Self::default()
+        }
+    }
+}
+
+/// Whether a name says left (-1) or right (1); 0 for neither or both.
+pub(in crate::bind::matching) fn said_side(name: &str) -> i8 {
+    match anatomy::sides(&anatomy::terms(name)) {
+        [true, false] => -1,
+        [false, true] => 1,
+        _ => 0,
+    }
+}
+
+fn topic(name: &str) -> Option<Topic> {
+    let terms = anatomy::terms(name);
+    let says = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
+    if terms.is_empty() {
+        return anatomy::is_scenery(name).then_some(Topic::Scenery);
+    }
+    if says(&[Term::Cape]) {
+        return Some(Topic::Cape);
+    }
+    if says(&[Term::Hair, Term::HeadWear]) {
+        return Some(Topic::OnHead);
+    }
+    if says(&[Term::Wing]) {
+        return Some(Topic::Wing);
+    }
+    if says(&[Term::HipWear]) {
+        return Some(Topic::Hips);
+    }
+    if says(&[Term::BodyWear]) {
+        return Some(Topic::Torso);
+    }
+    Some(match Role::of(&terms)? {
+        Role::Body => Topic::Body,
+        Role::Chest | Role::Belly | Role::Shoulder => Topic::Torso,
+        Role::Hips => Topic::Hips,
+        Role::Neck => Topic::Neck,
+        Role::Head => Topic::Head,
+        Role::OfHead => Topic::Feature,
+        Role::UpperArm | Role::LowerArm => Topic::Arm,
+        Role::Hand => Topic::Hand,
+        Role::Thigh | Role::Shin => Topic::Leg,
+        Role::Foot | Role::Toe => Topic::Foot,
+        Role::Tail => Topic::Tail,
+    })
+}
+
+/// Where a unit is in its figure.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    /// The corners of its box, as shares of the figure's.
+    pub(super) low: DVec2,
+    pub(super) high: DVec2,
+    /// Its area beside that of the figure's largest unit.
+    pub(super) size: f64,
+    /// How much of its box it fills.
+    pub(super) fills: f64,
+    /// Whether it lies on another unit.
+    pub(super) is_detail: bool,
+    /// The share of the figure's units that are drawn before it.
+    pub(super) drawn: f64,
+}
+
+/// What a unit costs more, or less, because of the words of a text. `own` is what its own name says, from its label or id.
+pub(super) fn cost(text: Sense, own: Sense, place: Option<&Place>) -> f64 {
+    if text.name != 0 && text.name == own.name {
+        return -FITS;
+    }
+    let Some(topic) = text.topic else { return 0.0 };
+    let by_name = own.topic.and_then(|own| agrees(topic, own));
+    let by_place = || place.and_then(|place| suits(topic, text.side, place));
+    match by_name.or_else(by_place) {
+        Some(true) => -FITS,
+        Some(false) => CONTRADICTS,
+        None => 0.0,
+    }
+}
+
+/// Whether two names are about the same; `None` if they may be.
+fn agrees(one: Topic, other: Topic) -> Option<bool> {
+    use Topic as T;
+    if one == other {
+        return Some(true);
+    }
+    // A mermaid's body is her tail, and trousers are legs.
+    let region = |topic| match topic {
+        T::Head => Some(0),
+        T::OnHead => Some(1),
+        T::Feature => Some(2),
+        T::Arm => Some(3),
+        T::Hand => Some(4),
+        T::Foot => Some(5),
+        T::Leg | T::Hips => Some(6),
+        T::Torso => Some(7),
+        T::Wing => Some(8),
+        T::Body | T::Tail | T::Neck | T::Cape | T::Scenery => None,
+    };
+    (region(one)? != region(other)?).then_some(false)
+}
+
+/// Whether a unit suits a topic by its place and shape; `None` if it may.
+fn suits(topic: Topic, side: i8, place: &Place) -> Option<bool> {
+    use Topic as T;
+    let Place {
+        low,
+        high,
+        size,
+        fills,
+        is_detail,
+        drawn,
+    } = *place;
+    let middle = low.midpoint(high);
+    let extent = high - low;
+    let long = extent.max_element() > 1.5 * extent.min_element();
+    let (fits, contradicts) = match topic {
+        T::Body => (size >= 0.4, size < 0.1 || is_detail && size < 0.4),
+        T::Torso => (
+            size >= 0.15 && middle.y > 0.25 && middle.y < 0.75,
+            size < 0.05 || high.y < 0.25 || low.y > 0.8,
+        ),
+        T::Hips => (
+            middle.y > 0.45 && middle.y < 0.85 && size > 0.1,
+            high.y < 0.4 || size < 0.03,
+        ),
+        T::Neck => (
+            size < 0.6 && middle.y < 0.5 && high.y < 0.7,
+            low.y > 0.6 || high.y > 0.95,
+        ),
+        T::Head => (
+            low.y < 0.3 && high.y < 0.75 && size >= 0.15 && fills > 0.5,
+            low.y > 0.6 || size < 0.08,
+        ),
+        T::OnHead => (low.y < 0.2 && high.y < 0.75, low.y > 0.6),
+        T::Feature => (size < 0.15 && middle.y < 0.6, low.y > 0.7 || size > 0.5),
+        T::Arm => (
+            long && size < 0.6 && middle.y > 0.15 && middle.y < 0.75,
+            size >= 1.0 || high.y < 0.15 || low.y > 0.85 || size < 0.02,
+        ),
+        T::Hand => (size < 0.2, size > 0.5 || high.y < 0.15),
+        T::Leg => (
+            low.y > 0.4 && high.y > 0.8 && size < 0.9,
+            high.y < 0.55 || size < 0.02,
+        ),
+        T::Foot => (low.y > 0.75 && size < 0.5, high.y < 0.6 || extent.y > 0.5),
+        T::Tail => {
+            let reach = low.min(1.0 - high);
+            let out = reach.min_element();
+            (
+                out < 0.03 && size < 0.9 && !is_detail,
+                out > 0.2 && is_detail,
+            )
+        }
+        T::Wing => (size > 0.1, size < 0.03 || size >= 1.0),
+        T::Cape => (drawn < 0.5 && extent.x > 0.3, size < 0.1),
+        T::Scenery => (false, size < 0.1),
+    };
+    let beside = f64::from(side) * (middle.x - 0.5);
+    if contradicts || beside < -0.15 {
+        Some(false)
+    } else if fits && beside >= 0.0 {
+        Some(true)
+    } else {
+        None
+    }
+}
