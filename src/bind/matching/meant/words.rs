@@ -8,20 +8,24 @@ use crate::anatomy::{self, Role, Term};
 
 /// What a unit of which words and shape agree costs less, font sizes.
 const FITS: f64 = 0.5;
+/// What a unit costs less that the drawing calls as the text does, font sizes.
+const CALLED: f64 = 0.75;
 /// What a unit costs more that contradicts the words, font sizes.
 const CONTRADICTS: f64 = 1.0;
 /// What scenery costs more for a text that names a piece of a figure, font sizes: it is taken only if nothing else is left.
 pub(super) const NEVER: f64 = 100.0;
 
 /// What scenery costs more for a text that names scenery.
-pub(super) const FITS_SCENERY: f64 = -FITS;
+pub(super) const FITS_SCENERY: f64 = CALLED - FITS;
 
 /// What a name is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(in crate::bind::matching) enum Topic {
     Body,
-    /// A piece of the trunk.
+    /// Clothes of the trunk.
     Torso,
+    /// A piece of the trunk.
+    Piece,
     Hips,
     Neck,
     Head,
@@ -75,33 +79,35 @@ fn topic(name: &str) -> Option<Topic> {
     if terms.is_empty() {
         return anatomy::is_scenery(name).then_some(Topic::Scenery);
     }
-    if says(&[Term::Cape]) {
-        return Some(Topic::Cape);
+    let by_words = [
+        (Term::Cape, Topic::Cape),
+        (Term::Hair, Topic::OnHead),
+        (Term::HeadWear, Topic::OnHead),
+    ];
+    if let Some((_, topic)) = by_words.iter().find(|(term, _)| terms.contains(term)) {
+        return Some(*topic);
     }
-    if says(&[Term::Hair, Term::HeadWear]) {
-        return Some(Topic::OnHead);
+    if says(&[Term::Detail]) {
+        return says(&[Term::OfHead]).then_some(Topic::Feature);
     }
     if says(&[Term::Wing]) {
         return Some(Topic::Wing);
     }
-    if says(&[Term::HipWear]) {
-        return Some(Topic::Hips);
-    }
-    if says(&[Term::BodyWear]) {
-        return Some(Topic::Torso);
-    }
-    Some(match Role::of(&terms)? {
-        Role::Body => Topic::Body,
-        Role::Chest | Role::Belly | Role::Shoulder => Topic::Torso,
-        Role::Hips => Topic::Hips,
-        Role::Neck => Topic::Neck,
-        Role::Head => Topic::Head,
-        Role::OfHead => Topic::Feature,
-        Role::UpperArm | Role::LowerArm => Topic::Arm,
-        Role::Hand => Topic::Hand,
-        Role::Thigh | Role::Shin => Topic::Leg,
-        Role::Foot | Role::Toe => Topic::Foot,
-        Role::Tail => Topic::Tail,
+    Some(match Role::of(&terms) {
+        Some(Role::Body) => Topic::Body,
+        Some(Role::Chest | Role::Belly | Role::Shoulder) => Topic::Piece,
+        Some(Role::Hips) => Topic::Hips,
+        Some(Role::Neck) => Topic::Neck,
+        Some(Role::Head) => Topic::Head,
+        Some(Role::OfHead) => Topic::Feature,
+        Some(Role::UpperArm | Role::LowerArm) => Topic::Arm,
+        Some(Role::Hand) => Topic::Hand,
+        Some(Role::Thigh | Role::Shin) => Topic::Leg,
+        Some(Role::Foot | Role::Toe) => Topic::Foot,
+        Some(Role::Tail) => Topic::Tail,
+        None if says(&[Term::BodyWear]) => Topic::Torso,
+        None if says(&[Term::HipWear]) => Topic::Hips,
+        None => return None,
     })
 }
 
@@ -121,41 +127,45 @@ pub(super) struct Place {
     pub(super) drawn: f64,
 }
 
-/// What a unit costs more, or less, because of the words of a text. `own` is what its own name says, from its label or id.
+/// What a unit costs more because of the words of a text; nothing if the drawing calls it as the text does, so that no cost is negative.
+/// `own` is what its own name says, from its label or id.
 pub(super) fn cost(text: Sense, own: Sense, place: Option<&Place>) -> f64 {
     if text.name != 0 && text.name == own.name {
-        return -FITS;
+        return 0.0;
     }
-    let Some(topic) = text.topic else { return 0.0 };
-    let by_name = own.topic.and_then(|own| agrees(topic, own));
-    let by_place = || place.and_then(|place| suits(topic, text.side, place));
-    match by_name.or_else(by_place) {
-        Some(true) => -FITS,
-        Some(false) => CONTRADICTS,
-        None => 0.0,
+    let Some(topic) = text.topic else {
+        return CALLED;
+    };
+    if own.topic == Some(topic) {
+        return 0.0;
+    }
+    if own.topic.is_some_and(|own| !go_together(topic, own)) {
+        return CALLED + CONTRADICTS;
+    }
+    match place.and_then(|place| suits(topic, text.side, place)) {
+        Some(true) => CALLED - FITS,
+        Some(false) => CALLED + CONTRADICTS,
+        None => CALLED,
     }
 }
 
-/// Whether two names are about the same; `None` if they may be.
-fn agrees(one: Topic, other: Topic) -> Option<bool> {
+/// Whether one part may have names about both: a mermaid's body is her tail, and trousers are legs.
+fn go_together(one: Topic, other: Topic) -> bool {
     use Topic as T;
-    if one == other {
-        return Some(true);
-    }
-    // A mermaid's body is her tail, and trousers are legs.
-    let region = |topic| match topic {
-        T::Head => Some(0),
-        T::OnHead => Some(1),
-        T::Feature => Some(2),
-        T::Arm => Some(3),
-        T::Hand => Some(4),
-        T::Foot => Some(5),
-        T::Leg | T::Hips => Some(6),
-        T::Torso => Some(7),
-        T::Wing => Some(8),
-        T::Body | T::Tail | T::Neck | T::Cape | T::Scenery => None,
+    let with = |topic| -> &[Topic] {
+        match topic {
+            T::Body => &[T::Torso, T::Piece, T::Hips, T::Tail, T::Neck],
+            T::Torso => &[T::Piece, T::Hips, T::Neck, T::Cape],
+            T::Piece => &[T::Neck, T::Arm],
+            T::Hips => &[T::Leg, T::Tail, T::Piece],
+            T::Leg => &[T::Foot],
+            T::Arm => &[T::Hand, T::Wing],
+            T::Wing => &[T::Cape, T::Hand],
+            T::Head => &[T::Neck],
+            _ => &[],
+        }
     };
-    (region(one)? != region(other)?).then_some(false)
+    one == other || with(one).contains(&other) || with(other).contains(&one)
 }
 
 /// Whether a unit suits a topic by its place and shape; `None` if it may.
@@ -171,47 +181,52 @@ fn suits(topic: Topic, side: i8, place: &Place) -> Option<bool> {
     } = *place;
     let middle = low.midpoint(high);
     let extent = high - low;
-    let long = extent.max_element() > 1.5 * extent.min_element();
+    let is_long = extent.max_element() > 1.5 * extent.min_element();
+    // Spots, outlines and pairs of things are no trunk and no head.
+    let is_scattered = fills < 0.3;
     let (fits, contradicts) = match topic {
-        T::Body => (size >= 0.4, size < 0.1 || is_detail && size < 0.4),
-        T::Torso => (
-            size >= 0.15 && middle.y > 0.25 && middle.y < 0.75,
-            size < 0.05 || high.y < 0.25 || low.y > 0.8,
+        T::Body => (
+            size >= 0.6,
+            size < 0.1 || is_scattered || is_detail && size < 0.4,
         ),
+        T::Torso => (
+            size >= 0.2 && middle.y > 0.25 && middle.y < 0.75,
+            size < 0.05 || high.y < 0.25 || low.y > 0.8 || is_scattered,
+        ),
+        T::Piece => (false, high.y < 0.1 || low.y > 0.9),
         T::Hips => (
             middle.y > 0.45 && middle.y < 0.85 && size > 0.1,
-            high.y < 0.4 || size < 0.03,
+            high.y < 0.4 || size < 0.03 || is_scattered,
         ),
         T::Neck => (
-            size < 0.6 && middle.y < 0.5 && high.y < 0.7,
+            low.y > 0.05 && high.y < 0.5 && size < 0.3 && (middle.x - 0.5).abs() < 0.2,
             low.y > 0.6 || high.y > 0.95,
         ),
         T::Head => (
             low.y < 0.3 && high.y < 0.75 && size >= 0.15 && fills > 0.5,
-            low.y > 0.6 || size < 0.08,
+            low.y > 0.6 || size < 0.08 || is_scattered,
         ),
-        T::OnHead => (low.y < 0.2 && high.y < 0.75, low.y > 0.6),
-        T::Feature => (size < 0.15 && middle.y < 0.6, low.y > 0.7 || size > 0.5),
+        T::OnHead => (low.y < 0.01 && high.y < 0.75, low.y > 0.6),
+        T::Feature => (size < 0.15 && middle.y < 0.45, low.y > 0.7 || size > 0.5),
         T::Arm => (
-            long && size < 0.6 && middle.y > 0.15 && middle.y < 0.75,
+            is_long && size < 0.6 && middle.y > 0.15 && middle.y < 0.75,
             size >= 1.0 || high.y < 0.15 || low.y > 0.85 || size < 0.02,
         ),
-        T::Hand => (size < 0.2, size > 0.5 || high.y < 0.15),
+        T::Hand => (false, size > 0.5 || high.y < 0.15),
         T::Leg => (
-            low.y > 0.4 && high.y > 0.8 && size < 0.9,
+            low.y > 0.4 && high.y > 0.75 && size < 0.9,
             high.y < 0.55 || size < 0.02,
         ),
         T::Foot => (low.y > 0.75 && size < 0.5, high.y < 0.6 || extent.y > 0.5),
         T::Tail => {
-            let reach = low.min(1.0 - high);
-            let out = reach.min_element();
+            let out = low.x.min(1.0 - high.x);
             (
-                out < 0.03 && size < 0.9 && !is_detail,
+                out < 0.03 && size < 0.95 && !is_detail,
                 out > 0.2 && is_detail,
             )
         }
-        T::Wing => (size > 0.1, size < 0.03 || size >= 1.0),
-        T::Cape => (drawn < 0.5 && extent.x > 0.3, size < 0.1),
+        T::Wing => (false, size < 0.03),
+        T::Cape => (drawn < 0.5 && extent.x > 0.3 && size > 0.2, size < 0.1),
         T::Scenery => (false, size < 0.1),
     };
     let beside = f64::from(side) * (middle.x - 0.5);
