@@ -8,22 +8,19 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::leaders::Leaders;
-use super::meant::{self, Scope, Sense, TextPlace, UnitName};
+use super::meant::{self, Scope, TextPlace};
 use super::nearest::{self, DistanceMode};
 use super::node_groups::{self, GroupRole, NodeGroups};
 use super::parts::MatchedPart;
+use super::said::Said;
 use super::settings::BindRule;
 use super::stacking::Stacking;
 use super::strings::ReadString;
-use crate::anatomy::name_words;
 use crate::bind::bindings::{Binding, BoundBy, PartId, StringHolder, StringId};
-use crate::bind::names;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::index::par_keys;
 use crate::lang::ast::Annotation;
 use crate::memo::{Bits, Memo};
 use crate::svg::{Drawing, GroupId, ShapeId};
-use crate::threads::GRAIN;
 
 /// How often groups are opened for the texts in them: as deep as a person nests groups. Deeper ones stay closed.
 const MAX_OPENINGS: usize = 32;
@@ -228,30 +225,37 @@ impl<'a> Binder<'a> {
         if strings.is_empty() {
             return;
         }
-        let names = Names::read(self, &strings);
+        let point = |string: StringId| leaders.points.get(&string).copied();
+        let points = |string: StringId| match (point(string), self.strings[string].holder) {
+            (Some(point), _) => [point; 3],
+            (None, StringHolder::Label(label)) => self.drawing.labels[label].0.position.points,
+            (None, StringHolder::Shape(_) | StringHolder::Group(_)) => Default::default(),
+        };
+        let waiting = strings
+            .iter()
+            .map(|(_, string)| (*string, points(*string)[1].x));
+        let said = Said::read(self.drawing, self.strings, waiting);
         let place = |(scope, string): &(Scope, StringId)| {
-            let (points, em) = match self.strings[*string].holder {
-                StringHolder::Label(label) => {
-                    let label = &self.drawing.labels[label].0;
-                    (label.position.points, label.font_size)
-                }
-                StringHolder::Shape(_) | StringHolder::Group(_) => Default::default(),
+            let em = match self.strings[*string].holder {
+                StringHolder::Label(label) => self.drawing.labels[label].0.font_size,
+                StringHolder::Shape(_) | StringHolder::Group(_) => 0.0,
             };
-            let led_to = leaders.points.get(string);
-            let points = led_to.map_or(points, |point| [*point; 3]);
             TextPlace {
-                points: Bits(points.map(|point| point.to_array())),
+                points: Bits(points(*string).map(|point| point.to_array())),
                 em: Bits(if em > 0.0 { em } else { 1.0 }),
-                has_leader: led_to.is_some(),
+                has_leader: point(*string).is_some(),
                 scope: *scope,
-                sense: names.senses.get(string).copied().unwrap_or_default(),
+                sense: said.by(*string),
             }
         };
         let places: Vec<TextPlace> = strings.iter().map(place).collect();
         let stacking = self.stacking();
         for round in 0.. {
             let scope = |part: PartId| self.scope_of(part, is_free);
-            let name = |part: PartId| names.of_unit(self, part);
+            let name = |part: PartId| {
+                let backgrounds = &self.node_groups.backgrounds;
+                said.of_unit(&self.parts[part], backgrounds)
+            };
             let meant = meant::find(&places, &stacking, &self.parts, scope, name, self.memo);
             if meant.opened.is_empty() || round == MAX_OPENINGS {
                 let pairs = strings.iter().zip(&meant.found);
@@ -268,49 +272,6 @@ impl<'a> Binder<'a> {
                 return;
             }
             self.open(&meant.opened);
-        }
-    }
-
-    /// Finds on which side of the drawing is what the names of texts call left and right: people write a figure's own sides as well as
-    /// the drawing's, and the texts of a pair stand in the order of what they mean.
-    fn find_sides<'s>(
-        &self,
-        strings: &[(Scope, StringId)],
-        said: impl Fn(StringId) -> Option<&'s str>,
-        senses: &mut FxHashMap<StringId, Sense>,
-    ) {
-        let mut middles: FxHashMap<Sense, [(f64, u32); 2]> = FxHashMap::default();
-        let mut sided = Vec::new();
-        for (_, string) in strings {
-            let side = said(*string).map_or(0, meant::said_side);
-            if side == 0 {
-                continue;
-            }
-            sided.push((*string, side));
-            if let (Some(sense), StringHolder::Label(label)) =
-                (senses.get(string), self.strings[*string].holder)
-            {
-                let points = self.drawing.labels[label].0.position.points;
-                let point = self.leaders.points.get(string).copied();
-                let middle = point.unwrap_or(points[1]).x;
-                let topic = Sense { name: 0, ..*sense };
-                let (sum, count) = &mut middles.entry(topic).or_default()[usize::from(side > 0)];
-                *sum += middle;
-                *count += 1;
-            }
-        }
-        let order = middles.values().map(|[left, right]| {
-            if left.1 == 0 || right.1 == 0 {
-                return 0;
-            }
-            let [left, right] = [left, right].map(|(sum, count)| sum / f64::from(*count));
-            i32::from(left < right) - i32::from(left > right)
-        });
-        let order = order.sum::<i32>().signum() as i8;
-        for (string, side) in sided {
-            if let Some(sense) = senses.get_mut(&string) {
-                sense.side = side * order;
-            }
         }
     }
 
@@ -462,83 +423,6 @@ impl<'a> Binder<'a> {
         self.parts[part].string = Some(string);
         self.bound[string].binding = Some(Binding { part, by });
     }
-}
-
-/// What the names in texts say, and those of the shapes and groups that they may mean.
-struct Names {
-    /// Per string that names a part.
-    senses: FxHashMap<StringId, Sense>,
-    /// Per element that has a name from a person.
-    of_groups: FxHashMap<GroupId, Sense>,
-    of_shapes: FxHashMap<ShapeId, Sense>,
-}
-
-impl Names {
-    fn read(binder: &Binder<'_>, strings: &[(Scope, StringId)]) -> Self {
-        let drawing = binder.drawing;
-        // Only names that texts say count, so that their numbers depend on nothing else.
-        let mut numbers: FxHashMap<String, u32> = FxHashMap::default();
-        let said = |string: StringId| match &binder.strings[string].annotation {
-            Annotation::Part(part) => Some(part.name.as_ref()?.text.as_str()),
-            _ => None,
-        };
-        let mut senses = FxHashMap::default();
-        for (_, string) in strings {
-            let Some(name) = said(*string) else { continue };
-            let next = numbers.len() as u32 + 1;
-            let number = *numbers.entry(as_written(name)).or_insert(next);
-            let sense = Sense {
-                name: number,
-                ..Sense::of(name)
-            };
-            senses.insert(*string, sense);
-        }
-        if senses.is_empty() {
-            return Self {
-                senses,
-                of_groups: FxHashMap::default(),
-                of_shapes: FxHashMap::default(),
-            };
-        }
-        binder.find_sides(strings, said, &mut senses);
-        let sense = |own: names::OwnName| Sense {
-            name: numbers.get(&as_written(&own.name)).copied().unwrap_or(0),
-            ..Sense::of(&own.name)
-        };
-        let groups = par_keys(&drawing.groups).with_min_len(GRAIN);
-        let of_groups = groups.filter_map(|group| {
-            let own = names::of_element(&drawing.groups[group].element, None)?;
-            Some((group, sense(own)))
-        });
-        let shapes = par_keys(&drawing.shapes).with_min_len(GRAIN);
-        let of_shapes = shapes.filter_map(|shape| {
-            let own = names::of_element(&drawing.shapes[shape].element, None)?;
-            Some((shape, sense(own)))
-        });
-        Self {
-            senses,
-            of_groups: of_groups.collect(),
-            of_shapes: of_shapes.collect(),
-        }
-    }
-
-    /// What is known of the unit of a main part.
-    fn of_unit(&self, binder: &Binder<'_>, part: PartId) -> UnitName {
-        let MatchedPart {
-            shape, node_group, ..
-        } = binder.parts[part];
-        let by_group = node_group.and_then(|group| self.of_groups.get(&group));
-        let own = by_group.or_else(|| self.of_shapes.get(&shape));
-        UnitName {
-            own: own.copied().unwrap_or_default(),
-            is_background: binder.node_groups.backgrounds[shape],
-        }
-    }
-}
-
-/// A name as it is compared with others: its words, without signs between them.
-fn as_written(name: &str) -> String {
-    name_words::split(name).concat()
 }
 
 /// How the parts of a drawing cover each other. Ink covers nothing, and parts in a tile layer count only if there are strings for

@@ -29,7 +29,7 @@ const UNBOUND: f64 = 1e7;
 /// How many candidates all texts have at most; where more texts compete for the units in one place, the rest get the nearest free ones.
 const MAX_CANDIDATES: usize = 1 << 17;
 /// A binding is uncertain if all texts together would cost less than this more without it, font sizes.
-const UNCERTAIN: f64 = 0.53;
+const UNCERTAIN: f64 = 0.6;
 /// How much more certain a binding is for each point of the text at which the unit shows.
 const SHOWS: f64 = 0.5;
 

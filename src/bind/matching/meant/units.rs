@@ -8,7 +8,7 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::words::{self, NEVER, Place, Sense, Topic};
+use super::words::{self, Place, Sense};
 use crate::bind::bindings::PartId;
 use crate::bind::matching::parts::MatchedPart;
 use crate::bind::matching::stacking::{Facts, Stacking};
@@ -32,8 +32,6 @@ const DETAIL: f64 = 0.33;
 const HIDDEN: f64 = 1.5;
 /// The share of its area below which a unit hardly shows.
 const HARDLY_SHOWS: f64 = 0.25;
-/// The ground.
-const GROUND: f64 = 5.0;
 /// A text beside a unit: each font size that it is off the unit's middle, up to [`MAX_OFF`].
 const OFF: f64 = 0.2;
 /// A text that is farther off the middle than this costs no more, font sizes.
@@ -66,6 +64,7 @@ pub(super) struct Unit {
     /// Whether so little of it shows that it was hardly meant.
     hidden: bool,
     ground: bool,
+    is_background: bool,
     /// What its own name says, which its label or id gives it.
     own: Sense,
     /// Where it is in its figure; `None` for ground and backgrounds.
@@ -197,6 +196,7 @@ impl Units {
                     host: host.map(|part| of_part[part]),
                     hidden: facts.shown < HARDLY_SHOWS * facts.area,
                     ground: is_ground || is_background,
+                    is_background,
                     own,
                     place: None,
                     scope,
@@ -310,15 +310,10 @@ impl Units {
         if unit.hidden && candidate.shows_at == 0 {
             cost += HIDDEN;
         }
-        let names_piece = text
-            .sense
-            .topic
-            .is_some_and(|topic| topic != Topic::Scenery);
-        cost += match unit.ground {
-            true if names_piece => NEVER,
-            true if text.sense.topic.is_some() => words::FITS_SCENERY,
-            true => GROUND,
-            false => words::cost(text.sense, unit.own, unit.place.as_ref()),
+        cost += if unit.ground {
+            words::cost_of_ground(text.sense, unit.own, unit.is_background)
+        } else {
+            words::cost(text.sense, unit.own, unit.place.as_ref())
         };
         let (low, high) = unit.bounds;
         let middle = points[0].midpoint(points[2]);
@@ -428,12 +423,13 @@ fn find_places(units: &mut [Unit]) {
         for (drawn, index) in members.iter().enumerate() {
             let unit = &mut units[*index];
             let (from, to) = unit.bounds;
-            let whole = (to - from).element_product().max(f64::MIN_POSITIVE);
+            let extent = (to - from).max(DVec2::splat(f64::MIN_POSITIVE));
             unit.place = Some(Place {
                 low: (from - low) / size,
                 high: (to - low) / size,
                 size: unit.area / largest,
-                fills: unit.area / whole,
+                slender: extent.max_element() / extent.min_element(),
+                fills: unit.area / extent.element_product().max(f64::MIN_POSITIVE),
                 is_detail: unit.host.is_some(),
                 drawn: drawn as f64 / members.len() as f64,
             });

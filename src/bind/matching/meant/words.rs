@@ -4,7 +4,7 @@
 
 use glam::DVec2;
 
-use crate::anatomy::{self, Role, Term};
+use crate::anatomy::{self, Role, Term, Thing};
 
 /// What a unit of which words and shape agree costs less, font sizes.
 const FITS: f64 = 0.5;
@@ -12,11 +12,10 @@ const FITS: f64 = 0.5;
 const CALLED: f64 = 0.75;
 /// What a unit costs more that contradicts the words, font sizes.
 const CONTRADICTS: f64 = 1.0;
-/// What scenery costs more for a text that names a piece of a figure, font sizes: it is taken only if nothing else is left.
+/// The ground, for a text that may mean it, font sizes.
+const GROUND: f64 = 5.0;
+/// The ground, for a text that names something else, font sizes: it is taken only if nothing else is left.
 pub(super) const NEVER: f64 = 100.0;
-
-/// What scenery costs more for a text that names scenery.
-pub(super) const FITS_SCENERY: f64 = CALLED - FITS;
 
 /// What a name is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -40,6 +39,7 @@ pub(in crate::bind::matching) enum Topic {
     Tail,
     Wing,
     Cape,
+    Wheel,
     /// What lies behind figures.
     Scenery,
 }
@@ -77,7 +77,10 @@ fn topic(name: &str) -> Option<Topic> {
     let terms = anatomy::terms(name);
     let says = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
     if terms.is_empty() {
-        return anatomy::is_scenery(name).then_some(Topic::Scenery);
+        return anatomy::thing(name).map(|thing| match thing {
+            Thing::Scenery => Topic::Scenery,
+            Thing::Wheel => Topic::Wheel,
+        });
     }
     let by_words = [
         (Term::Cape, Topic::Cape),
@@ -117,6 +120,8 @@ pub(super) struct Place {
     /// The corners of its box, as shares of the figure's.
     pub(super) low: DVec2,
     pub(super) high: DVec2,
+    /// The longer side of its box, measured by the shorter.
+    pub(super) slender: f64,
     /// Its area beside that of the figure's largest unit.
     pub(super) size: f64,
     /// How much of its box it fills.
@@ -149,6 +154,22 @@ pub(super) fn cost(text: Sense, own: Sense, place: Option<&Place>) -> f64 {
     }
 }
 
+/// What ground costs more because of the words of a text. What is drawn down to the lower corners of the page may be a bust.
+pub(super) fn cost_of_ground(text: Sense, own: Sense, is_background: bool) -> f64 {
+    use Topic as T;
+    if text.name != 0 && text.name == own.name {
+        return 0.0;
+    }
+    match text.topic {
+        Some(T::Scenery) => CALLED - FITS,
+        Some(T::Body | T::Torso | T::Piece | T::Hips | T::OnHead | T::Cape) if !is_background => {
+            CALLED + GROUND
+        }
+        Some(_) => NEVER,
+        None => CALLED + GROUND,
+    }
+}
+
 /// Whether one part may have names about both: a mermaid's body is her tail, and trousers are legs.
 fn go_together(one: Topic, other: Topic) -> bool {
     use Topic as T;
@@ -174,6 +195,7 @@ fn suits(topic: Topic, side: i8, place: &Place) -> Option<bool> {
     let Place {
         low,
         high,
+        slender,
         size,
         fills,
         is_detail,
@@ -181,7 +203,7 @@ fn suits(topic: Topic, side: i8, place: &Place) -> Option<bool> {
     } = *place;
     let middle = low.midpoint(high);
     let extent = high - low;
-    let is_long = extent.max_element() > 1.5 * extent.min_element();
+    let is_long = slender > 1.5;
     // Spots, outlines and pairs of things are no trunk and no head.
     let is_scattered = fills < 0.3;
     let (fits, contradicts) = match topic {
@@ -203,7 +225,7 @@ fn suits(topic: Topic, side: i8, place: &Place) -> Option<bool> {
             low.y > 0.6 || high.y > 0.95,
         ),
         T::Head => (
-            low.y < 0.3 && high.y < 0.75 && size >= 0.15 && fills > 0.5,
+            low.y < 0.15 && high.y < 0.75 && size >= 0.15 && fills > 0.5,
             low.y > 0.6 || size < 0.08 || is_scattered,
         ),
         T::OnHead => (low.y < 0.01 && high.y < 0.75, low.y > 0.6),
@@ -227,6 +249,10 @@ fn suits(topic: Topic, side: i8, place: &Place) -> Option<bool> {
         }
         T::Wing => (false, size < 0.03),
         T::Cape => (drawn < 0.5 && extent.x > 0.3 && size > 0.2, size < 0.1),
+        T::Wheel => (
+            slender < 1.2 && (0.7..0.85).contains(&fills) && high.y > 0.6,
+            high.y < 0.3,
+        ),
         T::Scenery => (false, size < 0.1),
     };
     let beside = f64::from(side) * (middle.x - 0.5);
@@ -236,5 +262,52 @@ fn suits(topic: Topic, side: i8, place: &Place) -> Option<bool> {
         Some(true)
     } else {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(low: [f64; 2], high: [f64; 2]) -> Place {
+        Place {
+            low: low.into(),
+            high: high.into(),
+            slender: 3.0,
+            size: 0.3,
+            fills: 0.8,
+            is_detail: false,
+            drawn: 0.5,
+        }
+    }
+
+    #[test]
+    fn sides_decide_between_limbs_and_place_between_topics() {
+        let left = place([0.0, 0.3], [0.2, 0.6]);
+        let right = place([0.8, 0.3], [1.0, 0.6]);
+        assert_eq!(suits(Topic::Arm, -1, &left), Some(true));
+        assert_eq!(suits(Topic::Arm, -1, &right), Some(false));
+        assert_eq!(suits(Topic::Arm, 1, &left), Some(false));
+        assert_eq!(suits(Topic::Arm, 0, &right), Some(true));
+        let low = place([0.3, 0.65], [0.45, 1.0]);
+        assert_eq!(suits(Topic::Leg, 0, &low), Some(true));
+        assert_eq!(suits(Topic::Head, 0, &low), Some(false));
+        assert_eq!(suits(Topic::Leg, 0, &left), None);
+    }
+
+    #[test]
+    fn no_cost_is_negative() {
+        let names = ["Head", "Arm", "Sky", "Wheel", "Zork", "Cape", "髪"];
+        let places = [None, Some(place([0.0, 0.0], [0.5, 0.2]))];
+        for text in names {
+            for own in names {
+                let [text, own] = [text, own].map(Sense::of);
+                for place in &places {
+                    assert!(cost(text, own, place.as_ref()) >= 0.0);
+                }
+                assert!(cost_of_ground(text, own, true) >= 0.0);
+                assert!(cost_of_ground(text, own, false) >= 0.0);
+            }
+        }
     }
 }
