@@ -67,15 +67,19 @@ pub(crate) enum Term {
     Eye,
     /// A nose, a beak, a muzzle.
     Nose,
+    /// Hair, which is a detail of a head.
+    Hair,
+    /// A cape, which is a detail.
+    Cape,
     /// Only in skeletons: twist, share and end joints, controls.
     Helper,
 }
 
 use Term::{
-    Arm, Back, Belly, Body, BodyWear, Chest, Collar, Detail, Ear, Eye, Face, Foot, Fore, Hand,
-    Head, HeadWear, Helper, Hind, Hip, HipWear, Hips, Left, Leg, LegOrFoot, Lower, LowerArm,
-    Middle, Neck, Nose, OfHead, Right, Shin, Shoulder, Tail, Thigh, Toe, Upper, UpperArm, Waist,
-    Wing, Worn,
+    Arm, Back, Belly, Body, BodyWear, Cape, Chest, Collar, Detail, Ear, Eye, Face, Foot, Fore,
+    Hair, Hand, Head, HeadWear, Helper, Hind, Hip, HipWear, Hips, Left, Leg, LegOrFoot, Lower,
+    LowerArm, Middle, Neck, Nose, OfHead, Right, Shin, Shoulder, Tail, Thigh, Toe, Upper, UpperArm,
+    Waist, Wing, Worn,
 };
 
 /// Words, and what they mean.
@@ -135,15 +139,20 @@ const ENGLISH: Table = &[
         "nose beak bill snout muzzle proboscis",
     ),
     (
+        &[Detail, OfHead, Hair],
+        "hair bangs fringe ponytail braid bun",
+    ),
+    (
         &[Detail, OfHead],
-        "earring crown hair bangs fringe ponytail braid bun brow eyebrow eyelid lid eyelash mouth lip \
+        "earring crown brow eyebrow eyelid lid eyelash mouth lip \
          lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler horn mask",
     ),
+    (&[Detail, Cape], "cape cloak"),
     (
         &[Detail],
         "breast bust boob bag backpack rucksack satchel pack pouch tank sword shield stick staff spear axe gun bow weapon prop ribbon \
          scarf tie belt sash button pocket buckle strap band sleeve cuff sock stocking apron pauldron plume visor panel screen dial hose \
-         patch cape cloak shadow logo badge medal necklace watch ring mane saddle bridle rein harness finger thumb index pinky little \
+         patch shadow logo badge medal necklace watch ring mane saddle bridle rein harness finger thumb index pinky little \
          metacarpal carpal palm knuckle heel",
     ),
     (
@@ -201,13 +210,15 @@ const JAPANESE: Table = &[
     (&[Detail, OfHead, Ear], "耳 みみ"),
     (&[Detail, OfHead, Eye], "目 眼 め"),
     (&[Detail, OfHead, Nose], "鼻 はな 嘴 くちばし"),
+    (&[Detail, OfHead, Hair], "髪 かみ 前髪 後髪 後ろ髪"),
     (
         &[Detail, OfHead],
-        "髪 かみ 前髪 後髪 後ろ髪 口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
+        "口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
     ),
+    (&[Detail, Cape], "まんと"),
     (
         &[Detail],
-        "首輪 袖 剣 盾 槍 斧 杖 武器 鞄 かばん りゅっく りゅっくさっく らんどせる 影 ねくたい まふらー りぼん べると ぼたん ぽけっと まんと 靴下 \
+        "首輪 袖 剣 盾 槍 斧 杖 武器 鞄 かばん りゅっく りゅっくさっく らんどせる 影 ねくたい まふらー りぼん べると ぼたん ぽけっと 靴下 \
          くつした 首飾り 鞍 くら 手綱 たてがみ 親指 人指 人差指 中指 薬指 小指 指 ゆび",
     ),
     (

@@ -504,3 +504,80 @@ fn marks_and_what_follows_them_have_places() {
         .collect();
     assert_eq!(follows, [("B", 1), ("left foot", "\"left foot\"".len())]);
 }
+
+/// A figure of rectangles with texts.
+fn figure_of_rectangles(texts: &str) -> Compiled {
+    let rectangle = |id: &str, [x, y, width, height]: [i32; 4]| {
+        format!(r#"<rect id="{id}" x="{x}" y="{y}" width="{width}" height="{height}"/>"#)
+    };
+    let shapes = [
+        rectangle("s1", [80, 60, 40, 60]),
+        rectangle("s2", [84, 20, 32, 40]),
+        rectangle("s3", [80, 120, 16, 60]),
+        rectangle("s4", [104, 120, 16, 60]),
+        rectangle("s5", [60, 62, 20, 10]),
+        rectangle("s6", [120, 62, 20, 10]),
+    ];
+    drawing(&format!("{}{texts}", shapes.concat()))
+}
+
+/// The id of the shape that a name is bound to.
+fn bound_shape(compiled: &Compiled, name: &str) -> String {
+    let shape = compiled.bindings.parts[part(compiled, name)].shape;
+    let id = &compiled.drawing.shapes[shape].element.id;
+    id.clone().unwrap_or_default()
+}
+
+#[test]
+fn words_decide_between_what_lies_about_equally_near() {
+    // The same places, and other words.
+    for (words, found) in [
+        (["Head$", "Torso$"], ["s2", "s1"]),
+        (["Torso$", "Head$"], ["s1", "s2"]),
+        (["頭$", "胴$"], ["s2", "s1"]),
+        (["胴$", "頭$"], ["s1", "s2"]),
+        // Words that nobody knows are bound by place alone, whatever they are.
+        (["Quux$", "Zork$"], ["s2", "s1"]),
+        (["Zork$", "Quux$"], ["s2", "s1"]),
+    ] {
+        let texts = [text(86, 61, words[0]), text(104, 62, words[1])].concat();
+        let compiled = figure_of_rectangles(&texts);
+        let names = words.map(|word| word.trim_end_matches('$'));
+        assert_eq!(names.map(|name| bound_shape(&compiled, name)), found);
+    }
+}
+
+#[test]
+fn words_never_outweigh_a_text_that_lies_well_on_something() {
+    let texts = [text(88, 40, "Leg$"), text(82, 150, "Head$")].concat();
+    let compiled = figure_of_rectangles(&texts);
+    let found = ["Leg", "Head"].map(|name| bound_shape(&compiled, name));
+    assert_eq!(found, ["s2", "s3"]);
+}
+
+#[test]
+fn what_the_drawing_calls_so_is_meant() {
+    let shapes = r#"<rect id="lamp" x="20" y="20" width="40" height="40"/>
+        <rect id="blade" x="62" y="20" width="40" height="40"/>"#;
+    for (name, found) in [("Lamp", "lamp"), ("Blade", "blade"), ("Quux", "blade")] {
+        let text = text(57, 43, &format!("{name}$"));
+        let compiled = drawing(&format!("{shapes}{text}"));
+        assert_eq!(bound_shape(&compiled, name), found);
+    }
+}
+
+#[test]
+fn ground_takes_no_name_of_a_limb() {
+    let sky = r#"<rect id="sky1" width="200" height="100"/><rect id="ground1" y="100" width="200" height="100"/>"#;
+    let figure = r#"<circle id="s1" cx="100" cy="80" r="12"/><rect id="s2" x="90" y="92" width="20" height="60"/>"#;
+    // Far from everything else.
+    let texts = [
+        text(8, 20, "Head$"),
+        text(12, 180, "Leg$"),
+        text(150, 20, "Sky$"),
+    ]
+    .concat();
+    let compiled = drawing(&format!("{sky}{figure}{texts}"));
+    let found = ["Head", "Leg", "Sky"].map(|name| bound_shape(&compiled, name));
+    assert_eq!(found, ["s1", "s2", "sky1"]);
+}

@@ -19,19 +19,21 @@ pub(crate) struct FigureFacing {
     pub parts: Vec<PartId>,
     /// Those of them that are limbs.
     pub limbs: Vec<PartId>,
+    /// Whether names tell parts of a body.
+    pub has_names: bool,
     /// The direction, and why.
     pub found: FoundFacing,
 }
 
-<<<<<<< HEAD
 /// The main parts of figures in profile, limbs left out: what is drawn on them is on their far side, too.
 pub(crate) fn two_sided(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, bool> {
     let mut two_sided = ti_vec![false; bindings.parts.len()];
     let figures = facings(drawing, bindings);
-    for figure in figures
-        .iter()
-        .filter(|figure| figure.found.facing.is_profile())
-    {
+    let in_profile = figures.iter().filter(|figure| {
+        let is_known = figure.has_names || figure.found.by_string;
+        is_known && figure.found.facing.is_profile()
+    });
+    for figure in in_profile {
         figure.parts.iter().for_each(|part| two_sided[*part] = true);
         figure
             .limbs
@@ -41,10 +43,7 @@ pub(crate) fn two_sided(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId,
     two_sided
 }
 
-/// Where those figures look that have limbs, or whose strings say so. Without names that tell a body, what sticks out of a thing is no limb.
-=======
 /// Where those figures look that have limbs, or whose strings say so.
->>>>>>> h_b_2
 pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacing> {
     let mut parts_of_node: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); bindings.parts.len()];
     for (index, part) in bindings.parts.iter_enumerated() {
@@ -57,20 +56,16 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
     let found = groups.filter_map(|group| {
         let figure = rigging::figure(drawing, bindings, &parts_of_node, &group);
         let labeled = label_drawn(&figure);
-<<<<<<< HEAD
         let labels = group.parts.iter().zip(&labeled.labels);
         let is_limb = |label: &Label| label.class.is_limb();
         let limbs = labels.filter(|(_, label)| label.as_ref().is_some_and(is_limb));
         let limbs: Vec<PartId> = limbs.map(|(part, _)| *part).collect();
-        let has_limbs = labeled.has_names && !limbs.is_empty();
-=======
-        let labels = labeled.labels.iter().flatten();
-        let limbs = labels.filter(|label| label.class.is_limb()).count();
-        let has_limbs = limbs >= if labeled.has_names { 1 } else { FEWEST_UNNAMED };
->>>>>>> h_b_2
+        let fewest = if labeled.has_names { 1 } else { FEWEST_UNNAMED };
+        let has_limbs = limbs.len() >= fewest;
         (has_limbs || labeled.facing.by_string).then(|| FigureFacing {
             root: group.root,
             limbs,
+            has_names: labeled.has_names,
             parts: group.parts.raw,
             found: labeled.facing,
         })

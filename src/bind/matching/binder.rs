@@ -12,6 +12,7 @@ use super::meant::{self, Scope, TextPlace};
 use super::nearest::{self, DistanceMode};
 use super::node_groups::{self, GroupRole, NodeGroups};
 use super::parts::MatchedPart;
+use super::said::Said;
 use super::settings::BindRule;
 use super::stacking::Stacking;
 use super::strings::ReadString;
@@ -224,28 +225,38 @@ impl<'a> Binder<'a> {
         if strings.is_empty() {
             return;
         }
+        let point = |string: StringId| leaders.points.get(&string).copied();
+        let points = |string: StringId| match (point(string), self.strings[string].holder) {
+            (Some(point), _) => [point; 3],
+            (None, StringHolder::Label(label)) => self.drawing.labels[label].0.position.points,
+            (None, StringHolder::Shape(_) | StringHolder::Group(_)) => Default::default(),
+        };
+        let waiting = strings
+            .iter()
+            .map(|(_, string)| (*string, points(*string)[1].x));
+        let said = Said::read(self.drawing, self.strings, waiting);
         let place = |(scope, string): &(Scope, StringId)| {
-            let (points, em) = match self.strings[*string].holder {
-                StringHolder::Label(label) => {
-                    let label = &self.drawing.labels[label].0;
-                    (label.position.points, label.font_size)
-                }
-                StringHolder::Shape(_) | StringHolder::Group(_) => Default::default(),
+            let em = match self.strings[*string].holder {
+                StringHolder::Label(label) => self.drawing.labels[label].0.font_size,
+                StringHolder::Shape(_) | StringHolder::Group(_) => 0.0,
             };
-            let led_to = leaders.points.get(string);
-            let points = led_to.map_or(points, |point| [*point; 3]);
             TextPlace {
-                points: Bits(points.map(|point| point.to_array())),
+                points: Bits(points(*string).map(|point| point.to_array())),
                 em: Bits(if em > 0.0 { em } else { 1.0 }),
-                has_leader: led_to.is_some(),
+                has_leader: point(*string).is_some(),
                 scope: *scope,
+                sense: said.by(*string),
             }
         };
         let places: Vec<TextPlace> = strings.iter().map(place).collect();
         let stacking = self.stacking();
         for round in 0.. {
             let scope = |part: PartId| self.scope_of(part, is_free);
-            let meant = meant::find(&places, &stacking, &self.parts, scope, self.memo);
+            let name = |part: PartId| {
+                let backgrounds = &self.node_groups.backgrounds;
+                said.of_unit(&self.parts[part], backgrounds)
+            };
+            let meant = meant::find(&places, &stacking, &self.parts, scope, name, self.memo);
             if meant.opened.is_empty() || round == MAX_OPENINGS {
                 let pairs = strings.iter().zip(&meant.found);
                 let matches = pairs.filter_map(|((_, string), found)| {

@@ -14,6 +14,7 @@ mod meant;
 mod nearest;
 mod node_groups;
 mod parts;
+mod said;
 mod settings;
 mod stacking;
 mod strings;

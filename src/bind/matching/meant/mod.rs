@@ -1,6 +1,7 @@
 //! Which shape a text means: the one that its beginning, middle or end lies on or is nearest to, all texts together.
 
 mod units;
+mod words;
 
 use std::sync::Arc;
 
@@ -15,7 +16,9 @@ use crate::assignment::{self, Assignment};
 use crate::bind::bindings::PartId;
 use crate::memo::{Bits, Memo};
 use units::{Candidate, Candidates, Units};
-pub(in crate::bind::matching) use units::{Scope, TextPlace};
+pub(in crate::bind::matching) use units::{Scope, TextPlace, UnitName};
+use words::NEVER;
+pub(in crate::bind::matching) use words::{Sense, said_side};
 
 /// How many of the nearest units a text can have at first.
 const NEAREST: usize = 8;
@@ -26,7 +29,7 @@ const UNBOUND: f64 = 1e7;
 /// How many candidates all texts have at most; where more texts compete for the units in one place, the rest get the nearest free ones.
 const MAX_CANDIDATES: usize = 1 << 17;
 /// A binding is uncertain if all texts together would cost less than this more without it, font sizes.
-const UNCERTAIN: f64 = 0.53;
+const UNCERTAIN: f64 = 0.6;
 /// How much more certain a binding is for each point of the text at which the unit shows.
 const SHOWS: f64 = 0.5;
 
@@ -45,9 +48,10 @@ pub(super) fn find(
     stacking: &Arc<Stacking>,
     parts: &TiSlice<PartId, MatchedPart>,
     scope: impl Fn(PartId) -> Option<Scope>,
+    name: impl Fn(PartId) -> UnitName,
     memo: &Memo,
 ) -> Meant {
-    let units = Units::read(stacking, parts, scope, memo);
+    let units = Units::read(stacking, parts, scope, name, memo);
     let counts = units.count_by_scope();
     let count = |text: usize| counts.get(&texts[text].scope).copied().unwrap_or(0);
     let mut wanted = vec![NEAREST; texts.len()];
@@ -62,7 +66,9 @@ pub(super) fn find(
         let mut sum: usize = wanted.iter().sum();
         let mut widened = false;
         for (text, unit) in assignment.column_of.iter().enumerate() {
-            if unit.is_none() && wanted[text] < count(text) && sum < MAX_CANDIDATES {
+            let cost = || candidate(&candidates[text], (*unit)?).map(|found| found.cost);
+            let lacks = cost().is_none_or(|cost| cost >= NEVER / 2.0);
+            if lacks && wanted[text] < count(text) && sum < MAX_CANDIDATES {
                 sum += wanted[text];
                 wanted[text] *= 2;
                 widened = true;

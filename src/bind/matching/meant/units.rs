@@ -8,10 +8,11 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
+use super::words::{self, Place, Sense};
 use crate::bind::bindings::PartId;
 use crate::bind::matching::parts::MatchedPart;
 use crate::bind::matching::stacking::{Facts, Stacking};
-use crate::geometry::{Outline, distance_squared};
+use crate::geometry::{BoxTree, Outline, area_around, connected, distance_squared, indexed_box};
 use crate::memo::{Bits, Long, Memo, Same};
 use crate::svg::GroupId;
 use crate::threads::GRAIN;
@@ -31,8 +32,6 @@ const DETAIL: f64 = 0.33;
 const HIDDEN: f64 = 1.5;
 /// The share of its area below which a unit hardly shows.
 const HARDLY_SHOWS: f64 = 0.25;
-/// The ground.
-const GROUND: f64 = 5.0;
 /// A text beside a unit: each font size that it is off the unit's middle, up to [`MAX_OFF`].
 const OFF: f64 = 0.2;
 /// A text that is farther off the middle than this costs no more, font sizes.
@@ -65,6 +64,11 @@ pub(super) struct Unit {
     /// Whether so little of it shows that it was hardly meant.
     hidden: bool,
     ground: bool,
+    is_background: bool,
+    /// What its own name says, which its label or id gives it.
+    own: Sense,
+    /// Where it is in its figure; `None` for ground and backgrounds.
+    place: Option<Place>,
     /// Which texts may name it; `None` if none may.
     pub(super) scope: Option<Scope>,
 }
@@ -88,7 +92,16 @@ pub(super) struct Units {
 struct UnitsKey {
     stacking: Same<Stacking>,
     /// Per part the main part candidate of its node, and for such a candidate the scope, if texts may name it.
-    parts: Long<(PartId, Option<Scope>)>,
+    parts: Long<(PartId, Option<Scope>, UnitName)>,
+}
+
+/// What is known of a unit apart from its shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub(in crate::bind::matching) struct UnitName {
+    /// What its own name says.
+    pub(in crate::bind::matching) own: Sense,
+    /// Whether it is a background.
+    pub(in crate::bind::matching) is_background: bool,
 }
 
 /// Where a text lies.
@@ -101,6 +114,8 @@ pub(in crate::bind) struct TextPlace {
     /// Whether a leader points to what it names.
     pub(in crate::bind) has_leader: bool,
     pub(in crate::bind) scope: Scope,
+    /// What its name says.
+    pub(in crate::bind) sense: Sense,
 }
 
 /// Which units would a text name at the least cost?
@@ -130,11 +145,15 @@ impl Units {
         stacking: &Arc<Stacking>,
         parts: &TiSlice<PartId, MatchedPart>,
         scope: impl Fn(PartId) -> Option<Scope>,
+        name: impl Fn(PartId) -> UnitName,
         memo: &Memo,
     ) -> Arc<Self> {
         let part = |(index, part): (PartId, &MatchedPart)| {
-            let scope = (part.main == index).then(|| scope(index)).flatten();
-            (part.main, scope)
+            if part.main == index {
+                (part.main, scope(index), name(index))
+            } else {
+                (part.main, None, UnitName::default())
+            }
         };
         let key = UnitsKey {
             stacking: Same(Arc::clone(stacking)),
@@ -148,7 +167,7 @@ impl Units {
         let parts: &TiSlice<PartId, _> = TiSlice::from_ref(&key.parts.0);
         let mut of_part = ti_vec![usize::MAX; parts.len()];
         let mut members: Vec<Vec<PartId>> = Vec::new();
-        for (index, (main, _)) in parts.iter_enumerated() {
+        for (index, (main, ..)) in parts.iter_enumerated() {
             // The main part is the back-most of its node.
             if *main == index {
                 of_part[index] = members.len();
@@ -161,7 +180,7 @@ impl Units {
             }
         }
         let units = members.into_par_iter().with_min_len(GRAIN);
-        let units: Vec<Unit> = units
+        let mut units: Vec<Unit> = units
             .map(|members| {
                 let bounds = members.iter().map(|part| stacking.bounds(*part));
                 let (low, high) = bounds
@@ -169,17 +188,23 @@ impl Units {
                     .unwrap_or_default();
                 let facts = stacking.of_unit(&members);
                 let host = host(stacking, &facts);
+                let (_, scope, UnitName { own, is_background }) = parts[members[0]];
+                let is_ground = members.iter().all(|part| stacking.is_ground(*part));
                 Unit {
                     bounds: (low, high),
                     area: facts.area,
                     host: host.map(|part| of_part[part]),
                     hidden: facts.shown < HARDLY_SHOWS * facts.area,
-                    ground: members.iter().all(|part| stacking.is_ground(*part)),
-                    scope: parts[members[0]].1,
+                    ground: is_ground || is_background,
+                    is_background,
+                    own,
+                    place: None,
+                    scope,
                     members,
                 }
             })
             .collect();
+        find_places(&mut units);
         let mut leaves: FxHashMap<Scope, Vec<Member>> = FxHashMap::default();
         for (index, unit) in units.iter().enumerate() {
             let Some(scope) = unit.scope else { continue };
@@ -285,9 +310,11 @@ impl Units {
         if unit.hidden && candidate.shows_at == 0 {
             cost += HIDDEN;
         }
-        if unit.ground {
-            cost += GROUND;
-        }
+        cost += if unit.ground {
+            words::cost_of_ground(text.sense, unit.own, unit.is_background)
+        } else {
+            words::cost(text.sense, unit.own, unit.place.as_ref())
+        };
         let (low, high) = unit.bounds;
         let middle = points[0].midpoint(points[2]);
         let off = (low.midpoint(high) - middle).abs() / em;
@@ -354,6 +381,59 @@ fn cost_of(distance: f64) -> f64 {
         NEAR * (1.0 + (distance / NEAR).ln())
     } else {
         distance
+    }
+}
+
+/// With how many others a unit is found to touch at most; a heap of shapes is not a figure.
+const MAX_TOUCHED: usize = 64;
+
+/// Finds where units are in their figures: those whose boxes overlap are one, apart from ground.
+fn find_places(units: &mut [Unit]) {
+    let figures = units.iter().enumerate();
+    let figures: Vec<usize> = figures
+        .filter_map(|(index, unit)| (!unit.ground && unit.area > 0.0).then_some(index))
+        .collect();
+    let boxes = figures.iter().enumerate();
+    let boxes = boxes.map(|(place, index)| indexed_box(units[*index].bounds, place));
+    let tree = BoxTree::bulk_load(boxes.collect());
+    let touched = figures.par_iter().with_min_len(GRAIN).map(|index| {
+        let around = area_around(units[*index].bounds, 0.0);
+        let found = tree.locate_in_envelope_intersecting(around);
+        found.map(|found| found.data).take(MAX_TOUCHED).collect()
+    });
+    let mut touched: Vec<Vec<usize>> = touched.collect();
+    // What touches nothing that touches it was beyond the most.
+    for place in 0..touched.len() {
+        for other in touched[place].clone() {
+            if other < place && touched[other].len() >= MAX_TOUCHED {
+                touched[other].push(place);
+            }
+        }
+    }
+    for members in connected(&touched) {
+        let members = members.into_iter().map(|place| figures[place]);
+        let members: Vec<usize> = members.collect();
+        let bounds = members.iter().map(|index| units[*index].bounds);
+        let Some((low, high)) = bounds.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
+            continue;
+        };
+        let largest = members.iter().map(|index| units[*index].area);
+        let largest = largest.fold(f64::MIN_POSITIVE, f64::max);
+        let size = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
+        for (drawn, index) in members.iter().enumerate() {
+            let unit = &mut units[*index];
+            let (from, to) = unit.bounds;
+            let extent = (to - from).max(DVec2::splat(f64::MIN_POSITIVE));
+            unit.place = Some(Place {
+                low: (from - low) / size,
+                high: (to - low) / size,
+                size: unit.area / largest,
+                slender: extent.max_element() / extent.min_element(),
+                fills: unit.area / extent.element_product().max(f64::MIN_POSITIVE),
+                is_detail: unit.host.is_some(),
+                drawn: drawn as f64 / members.len() as f64,
+            });
+        }
     }
 }
 

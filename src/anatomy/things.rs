@@ -1,0 +1,58 @@
+//! Words for things that are no parts of a body, but that are known by where they are or by their form.
+
+use super::name_words;
+
+/// What a name means that is none of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Thing {
+    /// What lies behind and under figures, such as sky and ground.
+    Scenery,
+    Wheel,
+}
+
+/// English and Japanese words; katakana words are written in hiragana here.
+const WORDS: [(Thing, &str); 2] = [
+    (
+        Thing::Scenery,
+        "sky ground background backdrop bg floor wall grass lawn meadow field land landscape earth soil sea ocean water lake river road \
+         street path sand beach desert snow ice horizon hill mountain paper page canvas scene stage space \
+         空 そら 地面 じめん 背景 はいけい 床 ゆか 壁 かべ 草原 芝生 野原 海 うみ 水 みず 湖 川 道 みち 道路 砂 砂浜 雪 丘 山 大地 土 宇宙 夜空 舞台",
+    ),
+    (
+        Thing::Wheel,
+        "wheel tyre tire 車輪 しゃりん 車 たいや ほいーる",
+    ),
+];
+
+/// What a name means: what the last of its known words says, so that a `water wheel` is a wheel.
+pub(crate) fn thing(name: &str) -> Option<Thing> {
+    let means = |word: &str| {
+        let singular = word.strip_suffix('s').unwrap_or(word);
+        let mut tables = WORDS.iter();
+        let found = tables.find(|(_, words)| {
+            let mut words = words.split_whitespace();
+            words.any(|known| known == word || known == singular)
+        });
+        found.map(|(thing, _)| *thing)
+    };
+    let words = name_words::split(name);
+    words.iter().rev().find_map(|word| means(word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Thing, thing};
+
+    #[test]
+    fn things_are_told_from_parts_of_a_body() {
+        for name in ["Sky", "blue sky", "Ground2", "空", "背景", "Hills"] {
+            assert_eq!(thing(name), Some(Thing::Scenery), "{name}");
+        }
+        for name in ["Wheel2", "front wheels", "water wheel", "タイヤ"] {
+            assert_eq!(thing(name), Some(Thing::Wheel), "{name}");
+        }
+        for name in ["Head", "Skirt", "Leg", "頭", "Groundhog", ""] {
+            assert_eq!(thing(name), None, "{name}");
+        }
+    }
+}
