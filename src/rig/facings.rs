@@ -37,7 +37,7 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
         let labels = labeled.labels.iter().flatten();
         let limbs = labels.filter(|label| label.class.is_limb()).count();
         let has_limbs = limbs >= if labeled.has_names { 1 } else { FEWEST_UNNAMED };
-        (has_limbs || labeled.facing.by_string).then(|| FigureFacing {
+        (has_limbs || labeled.facing.by_string).then_some(FigureFacing {
             root: group.root,
             parts: group.parts.raw,
             found: labeled.facing,
