@@ -39,9 +39,46 @@ pub(crate) fn thing(name: &str) -> Option<Thing> {
     words.iter().rev().find_map(|word| means(word))
 }
 
+/// Words for what is thin and limp; katakana words are written in hiragana here.
+const SHEETS: &str = "cape cloak wing leaf petal flag banner paper veil curtain sail kite page cloth towel blanket マント まんと 翼 つばさ \
+     羽 はね 羽根 旗 はた 葉 葉っぱ 花びら 紙 べーる かーてん 帆 布 ぬの";
+
+/// Whether a name is that of something thin: a cape, a wing, a leaf. It is what the last of its known words says.
+pub(crate) fn is_sheet(name: &str) -> bool {
+    let words = name_words::split(name);
+    let Some(last) = words
+        .iter()
+        .rev()
+        .find(|word| word.chars().any(char::is_alphabetic))
+    else {
+        return false;
+    };
+    let singular = last.strip_suffix('s').unwrap_or(last);
+    let mut known = SHEETS.split_whitespace();
+    known.any(|known| known == last || known == singular) || matches!(last.as_str(), "leaves")
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Thing, thing};
+    use super::{Thing, is_sheet, thing};
+
+    #[test]
+    fn sheets_are_thin() {
+        for name in [
+            "Cape",
+            "left wing",
+            "Wings2",
+            "leaves",
+            "翼",
+            "マント",
+            "Red_flag",
+        ] {
+            assert!(is_sheet(name), "{name}");
+        }
+        for name in ["Head", "wing tip", "Tentacle", "capelet holder", ""] {
+            assert!(!is_sheet(name), "{name}");
+        }
+    }
 
     #[test]
     fn things_are_told_from_parts_of_a_body() {

@@ -197,6 +197,9 @@ pub struct Part {
     pub outline: Arc<Outline>,
     /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
     pub(super) is_balloon: bool,
+    /// How far it reaches to either side of its plane at most if it is cloth that is inflated because no string says otherwise,
+    /// drawing units.
+    pub(super) sheet: Option<f64>,
     /// The axis, centre and ends of its shape. `Axis` replaces the measured axis.
     pub measure: Measure,
     /// Those of all shapes of its node together, if its own are not the node's.
@@ -223,6 +226,11 @@ impl Part {
     /// The axis, centre and ends of its node.
     pub fn node_measure(&self) -> &Measure {
         self.of_group.as_deref().unwrap_or(&self.measure)
+    }
+
+    /// Whether it is cloth by its name, or belongs to cloth.
+    pub fn is_sheet(&self) -> bool {
+        self.sheet.is_some()
     }
 
     /// Whether the program chose its name.

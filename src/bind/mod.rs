@@ -11,6 +11,7 @@ mod hierarchy;
 mod matching;
 mod names;
 mod reports;
+mod sheets;
 #[cfg(test)]
 mod tests;
 mod words;
@@ -27,6 +28,8 @@ pub use matching::in_layers_of_pixels;
 pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
 pub(crate) use names::written_by_a_person;
 pub(crate) use reports::locate;
+
+use typed_index_collections::TiVec;
 
 use crate::diagnostic::Diagnostic;
 use crate::memo::Memo;
@@ -56,6 +59,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         host: part.host,
         outline: part.outline,
         is_balloon: part.is_balloon,
+        sheet: None,
         measure: tree.axes.turned(index).unwrap_or(part.measure),
         of_group: tree.axes.of_group(index).map(Box::new),
         string: part.string,
@@ -65,10 +69,15 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         origin: tree.origins[index],
         index,
     });
+    let mut parts: TiVec<PartId, Part> = parts.collect();
+    let sheets = sheets::reaches(&parts);
+    for (part, sheet) in parts.iter_mut().zip(sheets) {
+        part.sheet = sheet;
+    }
     Bindings {
         annotated: matched.annotated,
         strings: matched.strings,
-        parts: parts.collect(),
+        parts,
         defaults: matched.defaults,
         legends: attributes.legends,
         variables: matched.variables,

@@ -62,7 +62,7 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
         let limbs: Vec<PartId> = limbs.map(|(part, _)| *part).collect();
         let fewest = if labeled.has_names { 1 } else { FEWEST_UNNAMED };
         let has_limbs = limbs.len() >= fewest;
-        (has_limbs || labeled.facing.by_string).then(|| FigureFacing {
+        (has_limbs || labeled.facing.by_string).then_some(FigureFacing {
             root: group.root,
             limbs,
             has_names: labeled.has_names,

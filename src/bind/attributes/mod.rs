@@ -284,7 +284,14 @@ impl Bindings {
     pub fn profile(&self, drawing: &Drawing, part: PartId) -> Option<Profile> {
         let form = self.form(part);
         let profile = self.attributes(form).profile(drawing)?;
-        let Part { shape, host, .. } = &self.parts[part];
+        let Part {
+            shape, host, sheet, ..
+        } = &self.parts[part];
+        let is_set = || self.setting(form, Keyword::Shape).is_some();
+        let profile = match sheet.filter(|_| !is_set()) {
+            Some(most) => profile.at_most(most),
+            None => profile,
+        };
         let stroke = drawing.shapes[*shape].stroke.as_ref();
         let profile = match stroke.filter(|_| self.parts[part].is_stroke && host.is_none()) {
             Some(line) => profile.of_line(line.width()),

@@ -19,6 +19,8 @@ const RAMP: f64 = 0.25;
 const FARTHEST: f64 = 1.5;
 /// How much of a backdrop a later shape of what it hangs on covers, at least.
 const BACKDROP: f64 = 0.5;
+/// The same for a cape or a wing.
+const SHEET: f64 = 0.01;
 /// How high a backdrop is at most, in heights of what covers it.
 const THIN: f64 = 0.5;
 /// How far a near limb is in front of its parent, at least, in its own heights.
@@ -46,12 +48,18 @@ pub(super) fn backdrops(
         for overlap in below.iter().filter(|_| shapes[above].is_main) {
             let shape = &shapes[overlap.below];
             let [node, later] = [overlap.below, above].map(|shape| nodes.of_shape[shape]);
+            // A cape hangs behind arms and legs, too.
+            let parent = nodes.parent[node].filter(|_| shape.is_sheet);
+            let (is_near, least) = match parent {
+                Some(parent) => (nodes.hangs_on(later, parent), SHEET),
+                None => (nodes.hangs_on(node, later), BACKDROP),
+            };
             if shape.is_soft
                 && shape.is_main
                 && !shape.is_given
                 && node != later
-                && nodes.hangs_on(node, later)
-                && overlap.area >= BACKDROP * shape.area
+                && is_near
+                && overlap.area >= least * shape.area
             {
                 found[overlap.below].push(above);
             }

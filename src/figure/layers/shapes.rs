@@ -26,6 +26,8 @@ pub(super) struct Shape {
     pub(super) is_main: bool,
     pub(super) is_named: bool,
     pub(super) is_ink: bool,
+    /// Whether it is cloth by its name.
+    pub(super) is_sheet: bool,
     /// Whether it is rounded or pointed.
     pub(super) is_soft: bool,
     /// Whether its depth is given by numbers.
@@ -115,6 +117,7 @@ fn shape(context: &FigureContext<'_>, index: PartId) -> Option<Shape> {
         is_main: part.main == index,
         is_named: !part.is_automatic() && !part.name.is_empty(),
         is_ink,
+        is_sheet: part.is_sheet(),
         is_soft,
         is_given: !is_ink && (has_depth || is_mirrored),
         offset: context.stand(part.main, index).0,

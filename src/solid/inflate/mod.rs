@@ -62,6 +62,8 @@ pub(super) struct Balloon {
     /// Without it the field is not scaled: a ball over a disc, about 0.7 of the width over a narrow bar. The height is then
     /// at most half the smaller side of the box, so that a ring or a letter stays thin.
     pub(super) height: Option<f64>,
+    /// What the height is at most where none is given, drawing units: that of cloth.
+    pub(super) most: Option<f64>,
     /// For the stroke of a line its width, drawing units: it becomes a tube.
     pub(super) line: Option<f64>,
 }
@@ -93,19 +95,23 @@ impl Balloon {
     pub(super) fn heights(&self, mesh: &Mesh, half: DVec2, scale: f64) -> Vec<f64> {
         match self.line {
             Some(width) => tube::heights(mesh, width * scale, self.most(half) * scale),
-            None => balloon(mesh, self.height, half, scale),
+            None => balloon(mesh, self.height, self.most(half), scale),
         }
     }
 
     /// The largest height over an outline whose bounding box has these half extents, drawing units.
     pub(super) fn most(&self, half: DVec2) -> f64 {
         let own = self.line.map(|width| width / 2.0);
-        height(self.height.or(own), half)
+        let height = height(self.height.or(own), half);
+        match self.most {
+            Some(most) if self.height.is_none() => height.min(most),
+            _ => height,
+        }
     }
 }
 
-fn balloon(mesh: &Mesh, given: Option<f64>, half: DVec2, scale: f64) -> Vec<f64> {
-    let most = height(given, half);
+/// The heights of a balloon over a mesh: at most `most`, or exactly that if the height is given.
+fn balloon(mesh: &Mesh, given: Option<f64>, most: f64, scale: f64) -> Vec<f64> {
     let Some(first) = mesh.points.first() else {
         return Vec::new();
     };

@@ -21,6 +21,14 @@ const STEP: f64 = 4.0;
 pub struct Inflate(Balloon);
 
 impl Inflate {
+    /// The same, no higher than this where no height is given, drawing units.
+    pub(super) fn at_most(&self, height: f64) -> Self {
+        Self(Balloon {
+            most: Some(height),
+            ..self.0
+        })
+    }
+
     /// The same for the stroke of a line of this width, drawing units.
     pub(super) fn of_line(&self, width: f64) -> Self {
         Self(Balloon {
@@ -35,14 +43,15 @@ impl Kind for Inflate {
         let balloon = Balloon {
             height: numbers.first().copied(),
             line: None,
+            most: None,
         };
         (numbers.len() <= 1).then_some(Self(balloon))
     }
 
     fn numbers(&self) -> Vec<f64> {
-        let Balloon { height, line } = self.0;
-        // Hashes tell a height from a width.
-        [height, line]
+        let Balloon { height, most, line } = self.0;
+        // Hashes tell one from the other.
+        [height, most, line]
             .map(|number| number.unwrap_or(f64::NAN))
             .to_vec()
     }

@@ -79,6 +79,14 @@ kinds! {
 }
 
 impl Profile {
+    /// The same; what is inflated without a given height is no higher than this, drawing units.
+    pub fn at_most(self, height: f64) -> Self {
+        match self {
+            Self::Inflate(inflate) => Self::Inflate(inflate.at_most(height)),
+            other => other,
+        }
+    }
+
     /// The same for the stroke of a line of this width, drawing units: what is inflated becomes a tube.
     pub fn of_line(self, width: f64) -> Self {
         match self {
