@@ -11,7 +11,7 @@ use super::{Outcome, counted, fail, print_out, sarif, style};
 use crate::bind;
 use crate::diagnostic;
 use crate::disk::is_standard_stream;
-use crate::look;
+use crate::look::{self, Look};
 use crate::report::findings_json;
 
 /// The larger side of the pictures that `--look` compares, pixels.
@@ -99,14 +99,29 @@ fn human(read: &[Checked], arguments: &Check, common: Common) -> String {
             };
             out.push_str(&format!("{}: {fixed}{findings}\n", loaded.path));
             if let Some(look) = &loaded.look {
-                // Rounded down, so that 100 % means all of them.
-                let percent = (look.right * 1000.0).floor() / 10.0;
-                out.push_str(&format!(
-                    "{}: {percent:.1} % of the drawing's pixels show the right colour from the front\n",
-                    loaded.path
-                ));
+                out.push_str(&format!("{}: {}\n", loaded.path, likeness(look)));
             }
         }
+    }
+    out
+}
+
+/// How much of the drawing a model shows, in words.
+fn likeness(look: &Look) -> String {
+    // Rounded down, so that 100 % means all of them.
+    let down = |share: f64| (share * 1000.0).floor() / 10.0;
+    let mut out = format!(
+        "{:.1} % of the drawing's pixels show the right colour from the front",
+        down(look.right)
+    );
+    if let Some(lines) = look.lines {
+        out += &format!(
+            "; {:.1} % belong to lines that are not built, which `%Strokes {}` builds, and without them {:.1} % are right",
+            // Rounded up, so that 0 % means none.
+            (lines.share * 1000.0).ceil() / 10.0,
+            lines.built_by,
+            down(look.right_without_lines)
+        );
     }
     out
 }

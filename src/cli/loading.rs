@@ -35,6 +35,9 @@ impl Loaded {
             look: self.look.as_ref().map(|look| Likeness {
                 right: look.right,
                 pixels: look.pixels,
+                right_without_lines: look.right_without_lines,
+                lines: look.lines.map_or(0.0, |lines| lines.share),
+                lines_built_by: look.lines.map(|lines| lines.built_by),
             }),
         }
     }

@@ -68,6 +68,7 @@ mod tests {
         let drawn = Drawn {
             size: [8, 2],
             colors: vec![[0; 4]; 16],
+            lines: None,
             owners: [row, row].concat(),
             models: vec![false].into(),
             regions: FxHashMap::default(),

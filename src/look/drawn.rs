@@ -6,15 +6,23 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::LookError;
 use crate::assemble::Owner;
-use crate::bind::{Bindings, Part, PartId, PartKind};
+use crate::bind::{Bindings, HAIRLINE, Part, PartId, PartKind};
 use crate::compile::Compiled;
 use crate::geometry::Outline;
 use crate::resolver::Resolver;
-use crate::svg::{self, Drawing, LeftOut, ShapeId};
+use crate::svg::{self, Drawing, LeftOut, ShapeId, StrokeSource};
 use crate::terrain::LandscapeId;
 
 /// Shapes with less opacity are not seen.
 const CLEAR: f64 = 1.0 / 255.0;
+
+/// Strokes that a drawing shows and its model does not.
+pub(super) struct Lines {
+    /// Per pixel the colour, as in [`Drawn::colors`], of what is built together with these strokes.
+    pub(super) colors: Vec<[u8; 4]>,
+    /// The argument of `Strokes` that builds them.
+    pub(super) built_by: &'static str,
+}
 
 /// A picture of a drawing, of what is built.
 pub(super) struct Drawn {
@@ -22,6 +30,8 @@ pub(super) struct Drawn {
     pub(super) size: [u32; 2],
     /// Per pixel the sRGB colour multiplied by alpha, and alpha.
     pub(super) colors: Vec<[u8; 4]>,
+    /// The strokes that are drawn and not built, if there are any.
+    pub(super) lines: Option<Lines>,
     /// Per pixel what was drawn last there.
     pub(super) owners: Vec<Option<Owner>>,
     /// Per part whether a linked model is in its place.
@@ -44,14 +54,29 @@ impl Drawn {
         } = compiled;
         let regions = regions(compiled);
         let owners = owners_of_parts(compiled, &regions);
-        let left_out = left_out(drawing, bindings, &owners);
-        let raster = svg::raster(text, resolver, &left_out, size, scale);
-        let raster = raster.ok_or(LookError::Drawing)?;
+        let NotBuilt { guides, lines } = not_built(drawing, bindings, &owners);
+        let colors = |left_out: &FxHashMap<usize, LeftOut>| {
+            let raster = svg::raster(text, resolver, left_out, size, scale);
+            raster.map(|raster| raster.pixels).ok_or(LookError::Drawing)
+        };
+        let with_lines = match lines.is_empty() {
+            true => None,
+            false => Some(Lines {
+                colors: colors(&guides)?,
+                built_by: match lines.values().any(|what| *what == LeftOut::Stroke) {
+                    true => "all",
+                    false => "lines",
+                },
+            }),
+        };
+        let mut left_out = guides;
+        left_out.extend(lines);
         let models = bindings.parts.keys();
         let is_model = |part: PartId| bindings.attributes(part).shape().kind == "model";
         Ok(Self {
             size,
-            colors: raster.pixels,
+            colors: colors(&left_out)?,
+            lines: with_lines,
             owners: last_drawn(drawing, bindings, &owners, size, scale)?,
             models: models.map(is_model).collect(),
             regions,
@@ -117,12 +142,19 @@ fn landscape_of(compiled: &Compiled, shape: ShapeId) -> Option<LandscapeId> {
         .position(|landscape| landscape.index == layer)
 }
 
-/// What of the file is not drawn: all that is not built. Keys are the first bytes of elements.
-fn left_out(
+/// What of a file is not built. Keys are the first bytes of elements.
+struct NotBuilt {
+    /// What is not meant to be: guides, samples of paints in legends, and what strings leave out.
+    guides: FxHashMap<usize, LeftOut>,
+    /// Strokes that another `Strokes` would build.
+    lines: FxHashMap<usize, LeftOut>,
+}
+
+fn not_built(
     drawing: &Drawing,
     bindings: &Bindings,
     owners: &TiSlice<PartId, Option<Owner>>,
-) -> FxHashMap<usize, LeftOut> {
+) -> NotBuilt {
     /// What is built of an element, and how many shapes it has.
     #[derive(Default)]
     struct Built {
@@ -130,6 +162,13 @@ fn left_out(
         stroke: bool,
         has_stroke: bool,
         is_clone: bool,
+        is_filled: bool,
+        is_guide: bool,
+    }
+    let hairline = HAIRLINE * drawing.page.1.max_element();
+    let mut is_part: TiVec<ShapeId, bool> = vec![false; drawing.shapes.len()].into();
+    for part in &bindings.parts {
+        is_part[part.shape] = true;
     }
     let mut elements: FxHashMap<usize, Built> = FxHashMap::default();
     for (index, shape) in drawing.shapes.iter_enumerated() {
@@ -138,6 +177,15 @@ fn left_out(
         built.fill |= bindings.is_picture_of_layer(drawing, index);
         built.has_stroke |= shape.stroke.is_some();
         built.is_clone |= shape.element.tag == "use";
+        // Strokes of maps and of views have a meaning of their own there.
+        built.is_guide |= bindings.is_in_layer(shape.group);
+        built.is_filled |= !shape.outline.polygons.is_empty();
+        if shape.outline.polygons.is_empty() {
+            let is_thin = |stroke: &StrokeSource| stroke.width() <= hairline;
+            built.is_guide |= is_part[index]
+                || bindings.is_leader(index)
+                || shape.stroke.as_deref().is_none_or(is_thin);
+        }
     }
     for (part, _) in bindings
         .parts
@@ -154,26 +202,35 @@ fn left_out(
             }
         }
     }
-    let left_out = elements.into_iter().filter_map(|(start, built)| {
-        let what = match built {
+    let mut not_built = NotBuilt {
+        guides: FxHashMap::default(),
+        lines: FxHashMap::default(),
+    };
+    for (start, built) in elements {
+        let (what, may_be_line) = match built {
             Built {
                 fill: false,
                 stroke: false,
                 ..
-            } => LeftOut::Element,
+            // A filled shape that is not built is left out with its outline.
+            } => (LeftOut::Element, !built.is_filled),
             // What a clone shows has paints of its own.
-            Built { is_clone: true, .. } => return None,
-            Built { fill: false, .. } => LeftOut::Fill,
+            Built { is_clone: true, .. } => continue,
+            Built { fill: false, .. } => (LeftOut::Fill, false),
             Built {
                 stroke: false,
                 has_stroke: true,
                 ..
-            } => LeftOut::Stroke,
-            _ => return None,
+            } => (LeftOut::Stroke, true),
+            _ => continue,
         };
-        Some((start, what))
-    });
-    left_out.collect()
+        let those = match may_be_line && built.has_stroke && !built.is_guide {
+            true => &mut not_built.lines,
+            false => &mut not_built.guides,
+        };
+        those.insert(start, what);
+    }
+    not_built
 }
 
 /// Per pixel what was drawn last over its middle.

@@ -46,10 +46,24 @@ const TOLERANCE: u8 = 24;
 pub struct Look {
     /// The share of the counted pixels that show the right colour, 0 to 1; 1 if none is counted.
     pub right: f64,
-    /// The number of counted pixels: those where the drawing or the model shows something, away from borders.
+    /// The number of counted pixels: those where the drawing or the model shows something, away from borders, and those of lines
+    /// that are not built.
     pub pixels: usize,
+    /// The same share of the drawing without the lines that are not built.
+    pub right_without_lines: f64,
+    /// The lines that are not built, if the model does not look as they do.
+    pub lines: Option<LinesLeftOut>,
     /// The parts that have counted pixels in the drawing, back-most first.
     pub parts: Vec<PartLook>,
+}
+
+/// Lines and outlines that a drawing shows and its model does not. Guides, leaders and hairlines beside all shapes are none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinesLeftOut {
+    /// The share of the counted pixels that do not show the right colour because of these lines, above 0 and at most 1.
+    pub share: f64,
+    /// What `Strokes` would have to be for them to be built: `lines` or `all`.
+    pub built_by: &'static str,
 }
 
 /// How a part looks.
@@ -186,10 +200,23 @@ fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look
     let borders = Borders::find(drawn);
     let recolored = Recolored::new(compiled);
     let (mut pixels, mut right) = (0, 0);
+    // Of the pixels of lines: how many there are, how many of them show the line's colour, and of those that are counted without
+    // the lines too, how many there are and how many are right.
+    let mut of_lines = [0; 2];
+    let mut under_lines = [0; 2];
     let mut parts: FxHashMap<PartId, PartLook> = FxHashMap::default();
     let mut instead: FxHashMap<(PartId, Instead), usize> = FxHashMap::default();
     for (at, (shown, color)) in shown.iter().enumerate() {
         let (owner, drawn_color) = (drawn.owners[at], drawn.colors[at]);
+        let line = drawn.lines.as_ref().map(|lines| lines.colors[at]);
+        let line = line.filter(|line| !is_alike(*line, drawn_color));
+        if let Some(line) = line
+            && *shown != Shown::File
+            && !drawn.is_model(owner)
+        {
+            of_lines[0] += 1;
+            of_lines[1] += usize::from(is_alike(line, *color));
+        }
         let is_empty = drawn_color[3] == 0 && color[3] == 0;
         if is_empty || borders.is_near(at) || *shown == Shown::File || drawn.is_model(owner) {
             continue;
@@ -200,6 +227,10 @@ fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look
         let is_right = is_excused || is_alike(drawn_color, *color);
         pixels += 1;
         right += usize::from(is_right);
+        if line.is_some() {
+            under_lines[0] += 1;
+            under_lines[1] += usize::from(is_right);
+        }
         let Some(Owner::Part(part)) = owner else {
             continue;
         };
@@ -232,12 +263,22 @@ fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look
     }
     let mut parts: Vec<PartLook> = parts.into_values().collect();
     parts.sort_unstable_by_key(|look| look.part);
+    let share = |right: usize, pixels: usize| match pixels {
+        0 => 1.0,
+        _ => right as f64 / pixels as f64,
+    };
+    let [line_pixels, right_lines] = of_lines;
+    let counted = pixels - under_lines[0] + line_pixels;
+    let shown_right = right - under_lines[1] + right_lines;
+    let lines = drawn.lines.as_ref().filter(|_| right_lines < line_pixels);
     Look {
-        right: match pixels {
-            0 => 1.0,
-            _ => right as f64 / pixels as f64,
-        },
-        pixels,
+        right: share(shown_right, counted),
+        pixels: counted,
+        right_without_lines: share(right, pixels),
+        lines: lines.map(|lines| LinesLeftOut {
+            share: share(line_pixels - right_lines, counted),
+            built_by: lines.built_by,
+        }),
         parts,
     }
 }

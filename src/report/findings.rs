@@ -29,6 +29,13 @@ pub struct Likeness {
     pub right: f64,
     /// The number of pixels that were compared.
     pub pixels: usize,
+    /// The share of right pixels of the drawing without the lines that are not built, 0 to 1.
+    pub right_without_lines: f64,
+    /// The share of pixels that are wrong because lines are not built, 0 to 1.
+    pub lines: f64,
+    /// The argument of `Strokes` that would build these lines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lines_built_by: Option<&'static str>,
 }
 
 /// The findings as JSON, with a line feed at the end.
@@ -112,6 +119,9 @@ fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
         diagnostics: diagnostics.map(|one| finding(one, &lines)).collect(),
         look: findings.look.map(|look| Likeness {
             right: (look.right * 1e4).floor() / 1e4,
+            right_without_lines: (look.right_without_lines * 1e4).floor() / 1e4,
+            // Rounded up, so that 0 means none.
+            lines: (look.lines * 1e4).ceil() / 1e4,
             ..look
         }),
     }

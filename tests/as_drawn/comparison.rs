@@ -60,18 +60,58 @@ fn the_picture_lies_on_the_drawing() {
 }
 
 #[test]
-fn what_is_not_built_is_not_compared() {
+fn what_is_not_meant_to_be_built_is_not_compared() {
     let (_, look) = looked_at(&page(
-        r##"<rect x="0" y="20" width="40" height="40" fill="#3060c0" stroke="#ff0000" stroke-width="6"/>
-        <text x="20" y="40" font-size="5">Body</text>
-        <rect x="50" y="20" width="20" height="20" fill="#000000"/>
+        r##"<rect x="0" y="20" width="40" height="40" fill="#3060c0"/>
+        <text x="20" y="40" font-size="5">Body$Shape default</text>
+        <rect x="50" y="20" width="20" height="20" fill="#000000" stroke="#ff0000" stroke-width="6"/>
         <text x="60" y="30" font-size="5">*</text>
-        <path d="M 5 85 H 60" stroke="#00ff00" stroke-width="8" fill="none"/>"##,
+        <path d="M 5 85 H 60" stroke="#00ff00" stroke-width="0.3" fill="none"/>"##,
     ));
-    assert_eq!(look.right, 1.0);
+    assert_eq!((look.right, look.right_without_lines), (1.0, 1.0));
+    assert_eq!(look.lines, None);
     assert_eq!(look.parts.len(), 1);
     // What is near the border of the only part does not count.
     assert_eq!(look.pixels, 76 * 76);
+}
+
+#[test]
+fn lines_that_are_not_built_are_missing() {
+    let body = |strokes: &str| {
+        page(&format!(
+            r##"<rect x="0" y="20" width="40" height="40" fill="#3060c0" stroke="#ff0000" stroke-width="6"/>
+            <text x="20" y="40" font-size="5">Body$Shape default</text>
+            <path d="M 5 80 H 65" stroke="#00a000" stroke-width="8" fill="none"/>
+            <text x="0" y="15" font-size="5">{strokes}</text>"##
+        ))
+    };
+    // Of the outline 46 × 46 − 34 × 34 squares of two pixels, of the line 60 × 8.
+    let (outline, line) = (4.0 * (46.0 * 46.0 - 34.0 * 34.0), 4.0 * 60.0 * 8.0);
+    for (strokes, missing, built_by) in [
+        ("", outline + line, Some("all")),
+        ("%Strokes none", outline + line, Some("all")),
+        ("%Strokes lines", outline, Some("all")),
+        ("%Strokes all", 0.0, None),
+    ] {
+        let (_, look) = looked_at(&body(strokes));
+        let lines = look.lines;
+        assert_eq!(lines.map(|lines| lines.built_by), built_by, "{strokes}");
+        let pixels = lines.map_or(0.0, |lines| lines.share * look.pixels as f64);
+        assert!(
+            (pixels - missing).abs() < 0.01 * missing + 1.0,
+            "{strokes}: {pixels}"
+        );
+        assert_eq!(look.right_without_lines, 1.0, "{strokes}");
+        let wrong = (1.0 - look.right) * look.pixels as f64;
+        assert!((wrong - pixels).abs() < 1.0, "{strokes}: {wrong} {pixels}");
+    }
+    let (_, look) = looked_at(&body("").replace(" stroke=\"#ff0000\"", ""));
+    let lines = look.lines.expect("a line is missing");
+    assert_eq!(lines.built_by, "lines");
+    assert!(
+        (lines.share * look.pixels as f64 - line).abs() < 1.0,
+        "{lines:?}"
+    );
 }
 
 #[test]

@@ -92,7 +92,9 @@ impl Sample {
 
     /// Whether at least this share of the model looks like its drawing, and `check --look` says so too and misses no part.
     pub(crate) fn is_right(&self, least: f64) -> bool {
-        self.truth.share() >= least && self.look.right >= least && self.lost().is_empty()
+        self.truth.share() >= least
+            && self.look.right_without_lines >= least
+            && self.lost().is_empty()
     }
 
     /// A row of the table.
@@ -102,7 +104,7 @@ impl Sample {
             "{name:36} {kind:8} {:7.2} % of {:6} pixels; by itself {:7.2} % of {:6}, {:3} lost of {:3}",
             truth.share() * 100.0,
             truth.pixels,
-            look.right * 100.0,
+            look.right_without_lines * 100.0,
             look.pixels,
             lost.len(),
             look.parts.len()

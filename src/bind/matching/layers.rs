@@ -256,6 +256,11 @@ impl Bindings {
         self.layers.of_kind(LayerKind::View)
     }
 
+    /// Whether a group is a layer whose shapes are no ordinary parts, or is in one: a map, a view.
+    pub fn is_in_layer(&self, group: GroupId) -> bool {
+        self.layers.of_group(group).is_some()
+    }
+
     /// The tile layer that a group is, or is in.
     pub fn tile_layer_of_group(&self, group: GroupId) -> Option<LayerId> {
         self.layers.of_group_and_kind(group, LayerKind::Tiles)

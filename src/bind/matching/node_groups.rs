@@ -24,7 +24,7 @@ use crate::memo::Memo;
 use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId, StrokeSource};
 
 /// Unfilled lines beside all shapes that are not wider than this share of the page are guides.
-pub(in crate::bind) const HAIRLINE: f64 = 1.0 / 300.0;
+pub(crate) const HAIRLINE: f64 = 1.0 / 300.0;
 
 /// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
