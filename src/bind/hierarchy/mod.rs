@@ -136,6 +136,7 @@ pub(in crate::bind) fn build(
     let (mut parents, unnamed) = automatic(context, &mut names, &holders, memo);
     if by_contact {
         set(&mut parents, contact::parents(context, &names));
+        set(&mut parents, parents::of_groups(context));
     }
     parents::other_signs(matched, &names, diagnostics);
     set(

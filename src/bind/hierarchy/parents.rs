@@ -11,7 +11,7 @@ use crate::bind::matching::{Hold, LayerId, LayerKind, Matched};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
-use crate::svg::ShapeId;
+use crate::svg::{GroupId, ShapeId};
 
 /// Finds the parents that strings name.
 pub(super) fn of_strings(
@@ -32,6 +32,25 @@ pub(super) fn of_strings(
         }
     }
     found
+}
+
+/// Finds the parents that groups in groups give: a hand in the group of its arm hangs on that, whatever else it touches.
+pub(super) fn of_groups(context: Context<'_>) -> Vec<(PartId, Option<PartId>)> {
+    let Context { matched, .. } = context;
+    let mains = context.mains();
+    let grouped = mains.filter_map(|part| Some((part, matched.parts[part].node_group?)));
+    let grouped: Vec<(PartId, GroupId)> = grouped.collect();
+    let of_group: FxHashMap<GroupId, PartId> = grouped
+        .iter()
+        .rev()
+        .map(|(part, group)| (*group, *part))
+        .collect();
+    let carried = grouped.into_iter().filter_map(|(part, group)| {
+        let carrier = matched.node_groups.carrier(group)?;
+        let parent = *of_group.get(&carrier)?;
+        (parent != part).then_some((part, Some(parent)))
+    });
+    carried.collect()
 }
 
 /// The part that a part's string names after `@`.

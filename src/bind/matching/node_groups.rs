@@ -18,7 +18,7 @@ use super::parts::MatchedPart;
 use super::settings::Strokes;
 use super::stacking::ground_count;
 use super::strings::ReadString;
-use super::wrappers;
+use super::wrappers::{self, Wrappers};
 use crate::bind::bindings::{PartId, StringHolder, StringId};
 use crate::memo::Memo;
 use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId, StrokeSource};
@@ -48,6 +48,8 @@ pub(super) enum GroupRole {
     Container,
     /// Its content becomes one node.
     Node,
+    /// Its content becomes one node, apart from further pieces of a body in it, which become its children.
+    Carrier,
 }
 
 /// The roles of a drawing's groups, and the sources of its parts.
@@ -101,10 +103,10 @@ impl NodeGroups {
             node_group: vec![],
             container: vec![],
             in_layer: vec![],
-            backgrounds: wrappers.backgrounds,
             holds_parts: ti_vec![false; drawing.groups.len()],
             sources: vec![],
-            roles: roles(drawing, &counts, &layer, &wrappers.groups_nothing),
+            roles: roles(drawing, &counts, &layer, &wrappers),
+            backgrounds: wrappers.backgrounds,
             parents,
             layer,
         }
@@ -166,9 +168,17 @@ impl NodeGroups {
                 GroupRole::Transparent => {}
                 GroupRole::Node => outermost = Some(group),
                 GroupRole::Container => break,
+                GroupRole::Carrier => return outermost.or(Some(group)),
             }
         }
         outermost
+    }
+
+    /// The nearest group around that of a node that carries it.
+    pub(in crate::bind) fn carrier(&self, node_group: GroupId) -> Option<GroupId> {
+        let around = self.chain(node_group).skip(1);
+        let mut around = around.take_while(|group| self.roles[*group] != GroupRole::Container);
+        around.find(|group| self.roles[*group] == GroupRole::Carrier)
     }
 
     /// Opens the group of a node: its children become nodes of their own. If one of them is a group that holds all
@@ -339,14 +349,15 @@ fn roles(
     drawing: &Drawing,
     strings: &TiSlice<GroupId, usize>,
     layer: &TiSlice<GroupId, Option<GroupId>>,
-    groups_nothing: &TiSlice<GroupId, bool>,
+    wrappers: &Wrappers,
 ) -> TiVec<GroupId, GroupRole> {
     let groups = drawing.groups.iter_enumerated();
     groups
         .map(|(index, group)| match group.kind {
             GroupKind::Root | GroupKind::Layer => GroupRole::Transparent,
             GroupKind::Group if layer[index] == Some(index) => GroupRole::Transparent,
-            GroupKind::Group if groups_nothing[index] => GroupRole::Transparent,
+            GroupKind::Group if wrappers.carries[index] => GroupRole::Carrier,
+            GroupKind::Group if wrappers.groups_nothing[index] => GroupRole::Transparent,
             GroupKind::Group if strings[index] > 1 => GroupRole::Container,
             GroupKind::Group => GroupRole::Node,
         })

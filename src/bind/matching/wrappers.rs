@@ -51,6 +51,9 @@ const ARTBOARDS: &[&str] = &[
 pub(super) struct Wrappers {
     /// Per group whether it groups nothing; always for the root and for layers that are not in a group.
     pub(super) groups_nothing: TiVec<GroupId, bool>,
+    /// Per group whether it is a piece of a body with further pieces in it that are its children: an arm that holds the group of its
+    /// hand.
+    pub(super) carries: TiVec<GroupId, bool>,
     /// Per shape whether it is a background, unless a string names it.
     pub(super) backgrounds: TiVec<ShapeId, bool>,
 }
@@ -78,18 +81,25 @@ pub(super) fn find(
             }
         });
     }
+    let mut carries = ti_vec![false; drawing.groups.len()];
     if counts.iter().all(|count| *count == 0) {
-        open_figures(drawing, &mut groups_nothing);
+        open_figures(drawing, &mut groups_nothing, &mut carries);
     }
     Wrappers {
         groups_nothing,
+        carries,
         backgrounds,
     }
 }
 
 /// Opens the groups that are figures or limbs in pieces: two or more different parts of a body have names in them, such as arm and
-/// head, or left and right arm. Eyes and hair stay with their head.
-fn open_figures(drawing: &Drawing, groups_nothing: &mut TiSlice<GroupId, bool>) {
+/// head, or left and right arm. Eyes and hair stay with their head. A piece of a body with shapes of its own and further pieces in
+/// named groups carries these.
+fn open_figures(
+    drawing: &Drawing,
+    groups_nothing: &mut TiSlice<GroupId, bool>,
+    carries: &mut TiSlice<GroupId, bool>,
+) {
     let role = |element: &Element| {
         let terms = anatomy::terms(&names::of_element(element, None)?.name);
         let role = Role::of(&terms).filter(|role| *role != Role::OfHead)?;
@@ -98,9 +108,14 @@ fn open_figures(drawing: &Drawing, groups_nothing: &mut TiSlice<GroupId, bool>) 
     let mut drawn: TiVec<GroupId, bool> = ti_vec![false; drawing.groups.len()];
     let mut pieces: TiVec<GroupId, FxHashSet<_>> =
         ti_vec![FxHashSet::default(); drawing.groups.len()];
+    // Per group whether it holds a shape that no name makes a piece of its own, and whether it holds a group that one does.
+    let mut has_own: TiVec<GroupId, bool> = ti_vec![false; drawing.groups.len()];
+    let mut holds_piece: TiVec<GroupId, bool> = ti_vec![false; drawing.groups.len()];
     for shape in drawing.shapes.iter().filter(|shape| is_filled(shape)) {
         drawn[shape.group] = true;
-        pieces[shape.group].extend(role(&shape.element));
+        let own = role(&shape.element);
+        has_own[shape.group] |= own.is_none();
+        pieces[shape.group].extend(own);
     }
     // A group comes after the group that contains it.
     for (index, group) in drawing.groups.iter_enumerated().skip(1).rev() {
@@ -109,10 +124,16 @@ fn open_figures(drawing: &Drawing, groups_nothing: &mut TiSlice<GroupId, bool>) 
         }
         drawn[group.parent] = true;
         let own = role(&group.element);
-        let opens = group.kind == GroupKind::Group && pieces[index].len() > 1;
+        let is_group = group.kind == GroupKind::Group;
+        carries[index] = is_group && own.is_some() && has_own[index] && holds_piece[index];
+        let opens = is_group && !carries[index] && pieces[index].len() > 1;
         groups_nothing[index] |= opens;
+        holds_piece[group.parent] |= own.is_some() || holds_piece[index];
+        // What a program calls a group, or nobody calls anything, is drawn with what is around it.
+        let is_unnamed = names::of_element(&group.element, None).is_none();
+        has_own[group.parent] |= is_unnamed && has_own[index];
         let inner = std::mem::take(&mut pieces[index]);
-        if opens {
+        if opens || carries[index] {
             pieces[group.parent].extend(inner);
         }
         pieces[group.parent].extend(own);
