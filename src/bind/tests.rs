@@ -230,10 +230,12 @@ fn settings_of_the_drawing_have_defaults() {
     assert_eq!(default.axes, DQuat::IDENTITY);
     assert_eq!(default.ground, None);
     assert_eq!(default.bind, BindRule::Meant);
-    assert_eq!(default.strokes, Strokes::Ink);
+    assert_eq!(default.strokes, Strokes::Visible);
+    let said = settings(&text(100, 100, "%Shape round"));
+    assert_eq!(said.strokes, Strokes::Ink);
     assert_eq!(
         drawing(&square(20, 20, "")).bindings.settings.strokes,
-        Strokes::Lines
+        Strokes::All
     );
     let strings = "%Scale 2 Axes +x -z +y Ground 30 40 Bind outline Strokes all";
     let set = settings(&text(100, 100, strings));

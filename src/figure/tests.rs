@@ -121,13 +121,13 @@ fn parts_drawn_later_stand_out_where_faces_would_coincide() {
         rect([40, 40, 50, 50], "Other$Shape default 0 20"),
     ];
     let scene = drawing(&elements.concat()).scene;
-    // A step is a five-hundredth of the larger extent.
+    // A step is a five-hundredth of the larger extent. From behind, what is drawn first hides the others.
     for (name, back, front) in [
         ("First", 0.0, 10.0),
-        ("Second", -0.1, 10.1),
-        ("Third", -0.2, 10.2),
+        ("Second", 0.1, 10.1),
+        ("Third", 0.2, 10.2),
         ("Apart", 0.0, 10.0),
-        ("Other", -0.3, 20.0),
+        ("Other", 0.3, 20.0),
     ] {
         let [low, high] = bounds(&scene, name);
         assert!(

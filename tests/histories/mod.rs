@@ -101,6 +101,7 @@ const SUBJECTS: &[Subject] = &[
                 "",
                 "$Swing 2",
                 "$Carry change",
+                "$Side both",
                 "$Facing left",
                 "$Mark green",
                 "$Walk 40",

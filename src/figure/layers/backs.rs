@@ -14,7 +14,9 @@ use super::overlaps::Overlap;
 use super::shapes::Shape;
 use super::{Cover, FigureContext, Nodes};
 use crate::bind::Side;
-use crate::geometry::{Outline, Polygon, Ring, area, bounds, contains, intersect, shoelace};
+use crate::geometry::{
+    Outline, Polygon, Ring, area, bounds, contains, intersect, offset, shoelace,
+};
 use crate::threads::GRAIN;
 
 /// Points along the border of a volume.
@@ -208,6 +210,9 @@ struct Sample {
     outside: DVec2,
 }
 
+/// How far inside the border a skin on a plate ends, as a share of the plate's larger extent: beyond the border it would have nothing
+/// to lie on.
+const SHRINK: f64 = 1e-3;
 /// Pieces of a volume's outline that are smaller than this share of the largest have no skin of their own.
 const PIECE: f64 = 0.2;
 /// Limit of the pieces that are looked at.
@@ -331,7 +336,9 @@ fn of_piece(
         let largest = same
             .iter()
             .max_by(|a, b| a.area.total_cmp(&b.area).then(b.shape.cmp(&a.shape)));
-        let outline = region(outline, ring, &samples, &along);
+        // At the border of a soft volume front and back meet, so that a skin has something to lie on there.
+        let inset = (!shape.is_soft).then_some(SHRINK * size.max_element());
+        let outline = region(outline, ring, &samples, &along, inset);
         if let (Some(outline), Some(largest)) = (outline, largest) {
             let back = Back {
                 of: largest.shape,
@@ -441,11 +448,13 @@ fn region(
     ring: &Ring,
     samples: &[Sample],
     along: &[bool],
+    inset: Option<f64>,
 ) -> Option<Arc<Outline>> {
+    let inside = |outline: &Outline| inset.map(|inset| Arc::new(offset(outline, -inset)));
     let n = samples.len();
     let count = along.iter().filter(|is_along| **is_along).count();
     if count as f64 >= WHOLE * n as f64 {
-        return Some(Arc::clone(whole));
+        return Some(inside(whole).unwrap_or_else(|| Arc::clone(whole)));
     }
     let start = (0..n).find(|index| along[*index] && !along[(index + n - 1) % n])?;
     let mut border = Ring::new();
@@ -475,5 +484,6 @@ fn region(
     };
     // The lines between stretches may leave the outline where that is hollow.
     let outline = intersect(&outline, whole);
-    (area(&outline) > LEAST * area(whole)).then(|| Arc::new(outline))
+    let outline = inside(&outline).unwrap_or_else(|| Arc::new(outline));
+    (area(&outline) > LEAST * area(whole)).then_some(outline)
 }
