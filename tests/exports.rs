@@ -617,6 +617,7 @@ fn exported_drawings_have_the_names_of_their_layers() {
                 .diagnostics
                 .iter()
                 .map(|found| found.code)
+                .filter(|code| *code != Code::FirstLook)
                 .collect();
             let backgrounds = if program.background {
                 vec![Code::Background]
