@@ -8,7 +8,7 @@ use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
-use super::elements::{Ids, element, labels};
+use super::elements::{Ids, NOT_DRAWN, element, labels};
 use super::fit::ImageViewports;
 use super::links::{options, report_links, unusable};
 use super::paths::{StrokeSource, affine, bez_path, is_curved, open_line, rings};
@@ -59,6 +59,7 @@ pub(super) fn read(
         unshown.into_inner().unwrap_or_default(),
         diagnostics,
     );
+    report_foreign(document, prepared, &styles, diagnostics);
     let offset = page_corner(document);
     let mut walk = Walk {
         prepared,
@@ -192,6 +193,45 @@ fn report_losses(losses: impl Iterator<Item = Loss>, diagnostics: &mut Vec<Diagn
         |count| format!("clips leave nothing of {count} shapes: {}", names()),
         diagnostics,
     );
+}
+
+/// Reports pages of other languages in the drawing, such as the HTML of exported diagrams. Where the drawing offers something in their
+/// place (`switch`), or they are for one program alone, nothing is lost.
+fn report_foreign(
+    document: &roxmltree::Document<'_>,
+    prepared: &Prepared,
+    styles: &Styles<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    if !prepared.text.contains("foreignObject") {
+        return;
+    }
+    let is_lost = |node: &Node<'_, '_>| {
+        let mut parent = node.parent().into_iter();
+        let is_alternative = parent.any(|parent| parent.tag_name().name() == "switch");
+        let mut around = node.ancestors();
+        node.tag_name().name() == "foreignObject"
+            && !node.has_attribute("requiredExtensions")
+            && !is_alternative
+            && !around.any(|node| NOT_DRAWN.contains(&node.tag_name().name()))
+            && styles.is_shown(*node)
+    };
+    let found: Vec<Element> = document
+        .descendants()
+        .filter(is_lost)
+        .map(|node| element(node, prepared))
+        .collect();
+    let Some(first) = found.first() else { return };
+    let message = match found.len() {
+        1 => "a `<foreignObject>`, which holds no shapes but a page of another language, is not built"
+            .to_owned(),
+        count => format!(
+            "{count} `<foreignObject>`s, which hold no shapes but pages of another language, are not built"
+        ),
+    };
+    diagnostics.push(Diagnostic::new(Code::NoSolidMeaning, first.span, message).help(
+        "export texts and diagrams as shapes or as SVG text, or draw what they show; strings in them are not read",
+    ));
 }
 
 /// Whether a path has coordinates that cannot be built.
