@@ -202,11 +202,7 @@ fn not_built(
             }
         }
     }
-    let mut not_built = NotBuilt {
-        guides: FxHashMap::default(),
-        lines: FxHashMap::default(),
-    };
-    for (start, built) in elements {
+    let found = elements.into_iter().filter_map(|(start, built)| {
         let (what, may_be_line) = match built {
             Built {
                 fill: false,
@@ -215,22 +211,27 @@ fn not_built(
             // A filled shape that is not built is left out with its outline.
             } => (LeftOut::Element, !built.is_filled),
             // What a clone shows has paints of its own.
-            Built { is_clone: true, .. } => continue,
+            Built { is_clone: true, .. } => return None,
             Built { fill: false, .. } => (LeftOut::Fill, false),
             Built {
                 stroke: false,
                 has_stroke: true,
                 ..
             } => (LeftOut::Stroke, true),
-            _ => continue,
+            _ => return None,
         };
-        let those = match may_be_line && built.has_stroke && !built.is_guide {
-            true => &mut not_built.lines,
-            false => &mut not_built.guides,
-        };
-        those.insert(start, what);
+        let is_line = may_be_line && built.has_stroke && !built.is_guide;
+        Some((is_line, start, what))
+    });
+    let (lines, guides): (Vec<_>, Vec<_>) = found.partition(|(is_line, ..)| *is_line);
+    let by_element = |found: Vec<(bool, usize, LeftOut)>| {
+        let found = found.into_iter();
+        found.map(|(_, start, what)| (start, what)).collect()
+    };
+    NotBuilt {
+        guides: by_element(guides),
+        lines: by_element(lines),
     }
-    not_built
 }
 
 /// Per pixel what was drawn last over its middle.
