@@ -76,21 +76,33 @@ struct Garment {
     wraps: bool,
 }
 
+/// Whether nothing can be seen through a shape. What lies on the back of another one would show in front.
+fn is_opaque(context: &FigureContext<'_>, shape: &Shape) -> bool {
+    let [.., alpha] = context
+        .bindings
+        .material_factors(context.drawing, shape.part)
+        .color;
+    alpha >= 1.0
+}
+
 /// Per shape whether it shows on the back as well, mirrored: details with `Side both`, and those of figures in profile that `Side
 /// near` does not keep where they are drawn.
 pub(super) fn mirrored(
     context: &FigureContext<'_>,
     shapes: &[Shape],
     covers: &[Cover],
+    overlaps: &[Vec<Overlap>],
 ) -> Vec<bool> {
-    let shapes = shapes.iter().zip(covers);
-    let is_mirrored = shapes.map(|(shape, cover)| {
+    let each = shapes.iter().zip(covers).zip(overlaps);
+    let is_mirrored = each.map(|((shape, cover), overlaps)| {
+        let mut below = overlaps.iter().map(|overlap| &shapes[overlap.below]);
         cover.is_detail
             && !shape.is_given
             && match context.bindings.side(shape.part) {
                 Some(side) => side == Side::Both,
                 None => context.two_sided[shape.main],
             }
+            && below.all(|below| is_opaque(context, below))
     });
     is_mirrored.collect()
 }
@@ -112,10 +124,15 @@ pub(super) fn backs(
         is_plate(index) && below.any(|overlap| is_plate(overlap.below) && overlap.area >= most)
     };
     let is_hidden: Vec<bool> = (0..shapes.len()).map(is_hidden).collect();
+    // Asked of what others lie on alone: most shapes carry nothing.
     let may_show_back = |index: usize| {
         let shape = &shapes[index];
         let is_solid = !shape.is_ink && !shape.is_given && !shape.profile.is_open();
-        is_solid && !covers[index].is_detail && !is_hidden[index] && shape.area > 0.0
+        is_solid
+            && !covers[index].is_detail
+            && !is_hidden[index]
+            && shape.area > 0.0
+            && is_opaque(context, shape)
     };
     let is_near: Vec<bool> = shapes
         .iter()

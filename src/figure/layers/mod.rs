@@ -223,7 +223,7 @@ impl Layers {
             frames,
             world,
             backs: &backs,
-            mirrored: &backs::mirrored(context, &shapes, &covers),
+            mirrored: &backs::mirrored(context, &shapes, &covers, &overlaps),
         };
         let node = |part: PartId| {
             let node = nodes.of_part[part]?;
