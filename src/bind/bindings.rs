@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiVec, ti_vec};
 
 use crate::geometry::{Measure, Outline};
 use crate::index::index_type;
@@ -197,7 +197,7 @@ pub struct Part {
     pub outline: Arc<Outline>,
     /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
     pub(super) is_balloon: bool,
-    /// How far it reaches to either side of its plane at most if it is cloth that is inflated because no string says otherwise,
+    /// For cloth by its name, how far it reaches to either side of its plane at most if it is inflated without a `Shape` that says so,
     /// drawing units.
     pub(super) sheet: Option<f64>,
     /// The axis, centre and ends of its shape. `Axis` replaces the measured axis.
@@ -254,6 +254,17 @@ pub(super) fn paint(drawing: &Drawing, shape: ShapeId, is_stroke: bool) -> &Pain
 }
 
 impl Bindings {
+    /// Per main part the parts whose solids are in its node.
+    pub fn parts_of_nodes(&self) -> TiVec<PartId, Vec<PartId>> {
+        let mut parts_of_nodes = ti_vec![Vec::new(); self.parts.len()];
+        for (index, part) in self.parts.iter_enumerated() {
+            if matches!(part.kind, PartKind::Main | PartKind::Sub) {
+                parts_of_nodes[part.main].push(index);
+            }
+        }
+        parts_of_nodes
+    }
+
     /// The main part that is the parent of a layer; `None` for a child of the root.
     pub fn parent_of_layer(&self, layer: LayerId) -> Option<PartId> {
         self.parent_of_layer[layer]

@@ -25,7 +25,7 @@ pub(crate) use bindings::{
 };
 pub use bindings::{PartId, PartKind};
 pub use matching::in_layers_of_pixels;
-pub(crate) use matching::{BindRule, DistanceMode, HAIRLINE, LayerId, LayerKind};
+pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
 pub(crate) use names::written_by_a_person;
 pub(crate) use reports::locate;
 

@@ -16,17 +16,7 @@ pub(super) fn reaches(parts: &TiSlice<PartId, Part>) -> TiVec<PartId, Option<f64
     if !cloth.contains(&true) {
         return ti_vec![None; parts.len()];
     }
-    let mut roots: TiVec<PartId, PartId> = parts.keys().collect();
-    // Parents may come after their children.
-    for part in parts.keys() {
-        let mut root = parts[part].main;
-        let mut steps = 0;
-        while let Some(parent) = parts[root].parent.filter(|_| steps < parts.len()) {
-            root = parts[parent].main;
-            steps += 1;
-        }
-        roots[part] = root;
-    }
+    let roots = roots(parts);
     let mut widths: TiVec<PartId, Option<DVec2>> = ti_vec![None; parts.len()];
     for (index, part) in parts.iter_enumerated() {
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
@@ -41,4 +31,27 @@ pub(super) fn reaches(parts: &TiSlice<PartId, Part>) -> TiVec<PartId, Option<f64
         Some(THICKNESS * (width.y - width.x))
     };
     parts.iter_enumerated().map(reach).collect()
+}
+
+/// Per part the main part that carries its figure.
+fn roots(parts: &TiSlice<PartId, Part>) -> TiVec<PartId, PartId> {
+    let mut known: TiVec<PartId, Option<PartId>> = ti_vec![None; parts.len()];
+    let mut path = Vec::new();
+    let root_of = |part: PartId| {
+        let mut at = parts[part].main;
+        let root = loop {
+            if let Some(root) = known[at] {
+                break root;
+            }
+            path.push(at);
+            match parts[at].parent {
+                Some(parent) if path.len() <= parts.len() => at = parts[parent].main,
+                _ => break at,
+            }
+        };
+        path.drain(..)
+            .for_each(|on_path| known[on_path] = Some(root));
+        root
+    };
+    parts.keys().map(root_of).collect()
 }

@@ -16,9 +16,9 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
-use typed_index_collections::{TiSlice, TiVec, ti_vec};
+use typed_index_collections::{TiSlice, TiVec};
 
-use crate::bind::{Bindings, PartId, PartKind, SetBy};
+use crate::bind::{Bindings, PartId, SetBy};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::index::par_keys;
@@ -131,7 +131,7 @@ impl<'a> Figures<'a> {
         copies::check(&context, diagnostics);
         layers::report(&context, buried, diagnostics);
         Self {
-            parts_of_node: parts_of_node(bindings),
+            parts_of_node: bindings.parts_of_nodes(),
             context,
             layers,
             frames,
@@ -256,17 +256,6 @@ impl<'a> Figures<'a> {
             ..solid
         })))
     }
-}
-
-/// Per main part the parts whose solids are in its node.
-fn parts_of_node(bindings: &Bindings) -> TiVec<PartId, Vec<PartId>> {
-    let mut parts_of_node: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); bindings.parts.len()];
-    for (index, part) in bindings.parts.iter_enumerated() {
-        if matches!(part.kind, PartKind::Main | PartKind::Sub) {
-            parts_of_node[part.main].push(index);
-        }
-    }
-    parts_of_node
 }
 
 /// The drawing with its bindings, and what figures derive from them.

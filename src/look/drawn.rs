@@ -6,11 +6,11 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::LookError;
 use crate::assemble::Owner;
-use crate::bind::{Bindings, HAIRLINE, Part, PartId, PartKind};
+use crate::bind::{Bindings, Part, PartId, PartKind};
 use crate::compile::Compiled;
 use crate::geometry::Outline;
 use crate::resolver::Resolver;
-use crate::svg::{self, Drawing, LeftOut, ShapeId, StrokeSource};
+use crate::svg::{self, Drawing, LeftOut, ShapeId};
 use crate::terrain::LandscapeId;
 
 /// Shapes with less opacity are not seen.
@@ -165,7 +165,6 @@ fn not_built(
         is_filled: bool,
         is_guide: bool,
     }
-    let hairline = HAIRLINE * drawing.page.1.max_element();
     let mut is_part: TiVec<ShapeId, bool> = vec![false; drawing.shapes.len()].into();
     for part in &bindings.parts {
         is_part[part.shape] = true;
@@ -181,10 +180,12 @@ fn not_built(
         built.is_guide |= bindings.is_in_layer(shape.group);
         built.is_filled |= !shape.outline.polygons.is_empty();
         if shape.outline.polygons.is_empty() {
-            let is_thin = |stroke: &StrokeSource| stroke.width() <= hairline;
             built.is_guide |= is_part[index]
                 || bindings.is_leader(index)
-                || shape.stroke.as_deref().is_none_or(is_thin);
+                || shape
+                    .stroke
+                    .as_deref()
+                    .is_none_or(|stroke| drawing.is_hairline(stroke));
         }
     }
     for (part, _) in bindings

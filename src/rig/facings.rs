@@ -3,7 +3,7 @@
 use typed_index_collections::{TiVec, ti_vec};
 
 use super::{figures, rigging};
-use crate::bind::{Bindings, PartId, PartKind};
+use crate::bind::{Bindings, PartId};
 use crate::labels::{FoundFacing, Label, label_drawn};
 use crate::svg::Drawing;
 
@@ -45,12 +45,7 @@ pub(crate) fn two_sided(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId,
 
 /// Where those figures look that have limbs, or whose strings say so.
 pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacing> {
-    let mut parts_of_node: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); bindings.parts.len()];
-    for (index, part) in bindings.parts.iter_enumerated() {
-        if matches!(part.kind, PartKind::Main | PartKind::Sub) {
-            parts_of_node[part.main].push(index);
-        }
-    }
+    let parts_of_node = bindings.parts_of_nodes();
     let groups = figures::find(bindings);
     let groups = groups.into_iter().filter(|group| group.parts.len() > 1);
     let found = groups.filter_map(|group| {

@@ -86,6 +86,16 @@ pub struct Drawing {
     pub pixel_groups: Option<TiVec<GroupId, bool>>,
 }
 
+/// The width of the widest hairline, as a share of the page's larger side.
+const HAIRLINE: f64 = 1.0 / 300.0;
+
+impl Drawing {
+    /// Whether a stroke is not wider than a 300th of the page, as those of guides are.
+    pub(crate) fn is_hairline(&self, stroke: &StrokeSource) -> bool {
+        stroke.width() <= HAIRLINE * self.page.1.max_element()
+    }
+}
+
 /// The kinds of groups.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GroupKind {

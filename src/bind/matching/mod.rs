@@ -28,7 +28,6 @@ pub use layers::in_layers_of_pixels;
 pub(crate) use layers::{LayerId, LayerKind, Layers};
 pub(in crate::bind) use leaders::Leaders;
 pub(crate) use nearest::DistanceMode;
-pub(crate) use node_groups::HAIRLINE;
 pub(in crate::bind) use parts::MatchedPart;
 pub(crate) use settings::{BindRule, DrawingSettings, Strokes};
 pub(in crate::bind) use stacking::Stacking;

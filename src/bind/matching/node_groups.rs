@@ -23,9 +23,6 @@ use crate::bind::bindings::{PartId, StringHolder, StringId};
 use crate::memo::Memo;
 use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId, StrokeSource};
 
-/// Unfilled lines beside all shapes that are not wider than this share of the page are guides.
-pub(crate) const HAIRLINE: f64 = 1.0 / 300.0;
-
 /// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PartSource {
@@ -242,9 +239,9 @@ fn sources(
         Strokes::Lines => (true, true, false),
         Strokes::All | Strokes::Visible => (true, true, true),
     };
-    let hairline = HAIRLINE * drawing.page.1.max_element();
+    // Unfilled lines beside all shapes.
     let is_guide =
-        |stroke: &StrokeSource| strokes == Strokes::Visible && stroke.width() <= hairline;
+        |stroke: &StrokeSource| strokes == Strokes::Visible && drawing.is_hairline(stroke);
     // Strokes in a tile layer are edges; those in a view belong to its regions.
     let is_map = |shape: ShapeId| {
         let group = drawing.shapes[shape].group;

@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 use crate::bind::bindings::PartKind;
 use crate::bind::hierarchy::Tree;
-use crate::bind::matching::{HAIRLINE, Matched, Strokes};
+use crate::bind::matching::{Matched, Strokes};
 use crate::diagnostic::{Code, Diagnostic, listed};
 use crate::svg::{Drawing, Shape, ShapeId};
 
@@ -53,7 +53,6 @@ pub(super) fn lines(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<
     if matched.settings.strokes != Strokes::Ink || matched.parts.is_empty() {
         return;
     }
-    let hairline = HAIRLINE * drawing.page.1.max_element();
     let built: FxHashSet<ShapeId> = matched.parts.iter().map(|part| part.shape).collect();
     let is_left_out = |shape: &ShapeId| {
         let Shape {
@@ -62,7 +61,7 @@ pub(super) fn lines(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<
             group,
             ..
         } = &drawing.shapes[*shape];
-        let is_line = stroke.iter().any(|stroke| stroke.width() > hairline);
+        let is_line = stroke.iter().any(|stroke| !drawing.is_hairline(stroke));
         is_line
             && outline.polygons.is_empty()
             && !built.contains(shape)

@@ -12,7 +12,7 @@ use rustc_hash::FxHashMap;
 
 use super::overlaps::Overlap;
 use super::shapes::Shape;
-use super::{Cover, FigureContext, Nodes};
+use super::{Cover, FigureContext, Nodes, wraps};
 use crate::bind::Side;
 use crate::geometry::{
     Outline, Polygon, Ring, area, bounds, contains, intersect, offset, shoelace,
@@ -27,7 +27,7 @@ const INSIDE: f64 = 0.1;
 const RIM: f64 = 0.2;
 /// How far outside the border what lies behind is looked at, in distances inside it.
 const OUTSIDE: f64 = 0.3;
-/// The same as [`INSIDE`], as a share of the volume's thickness there.
+/// The distance inside at most, as a share of the volume's thickness there.
 const INSIDE_THIN: f64 = 0.35;
 /// The share of the border from which on what goes along it from above, as hair and hats do, closes behind.
 const FROM_ABOVE: f64 = 0.28;
@@ -76,6 +76,10 @@ struct Garment {
     wraps: bool,
 }
 
+fn is_plate(shape: &Shape) -> bool {
+    !shape.is_soft && !shape.is_ink
+}
+
 /// Whether nothing can be seen through a shape. What lies on the back of another one would show in front.
 fn is_opaque(context: &FigureContext<'_>, shape: &Shape) -> bool {
     let [.., alpha] = context
@@ -116,7 +120,10 @@ pub(super) fn backs(
     covers: &[Cover],
     is_one: bool,
 ) -> Vec<Back> {
-    let is_plate = |index: usize| !shapes[index].is_soft && !shapes[index].is_ink;
+    if overlaps.iter().all(Vec::is_empty) {
+        return Vec::new();
+    }
+    let is_plate = |index: usize| is_plate(&shapes[index]);
     // From behind, a plate that is drawn first hides those that are drawn on it.
     let is_hidden = |index: usize| {
         let most = AROUND * shapes[index].area;
@@ -124,7 +131,6 @@ pub(super) fn backs(
         is_plate(index) && below.any(|overlap| is_plate(overlap.below) && overlap.area >= most)
     };
     let is_hidden: Vec<bool> = (0..shapes.len()).map(is_hidden).collect();
-    // Asked of what others lie on alone: most shapes carry nothing.
     let may_show_back = |index: usize| {
         let shape = &shapes[index];
         let is_solid = !shape.is_ink && !shape.is_given && !shape.profile.is_open();
@@ -134,6 +140,7 @@ pub(super) fn backs(
             && shape.area > 0.0
             && is_opaque(context, shape)
     };
+    let may_show_back: Vec<bool> = (0..shapes.len()).map(may_show_back).collect();
     let is_near: Vec<bool> = shapes
         .iter()
         .map(|shape| context.bindings.side(shape.part) == Some(Side::Near))
@@ -151,7 +158,7 @@ pub(super) fn backs(
         for overlap in below {
             let on = overlap.below;
             let is_large = overlap.area >= LEAST * shapes[on].area;
-            if is_large && may_show_back(on) && is_kin(above, on) {
+            if is_large && may_show_back[on] && is_kin(above, on) {
                 garments[on].push(Garment {
                     shape: above,
                     area: overlap.area,
@@ -163,7 +170,7 @@ pub(super) fn backs(
             let [volume, behind] = [garment.area, shapes[on].area];
             let is_alike = overlap.area >= BEHIND * volume && overlap.area >= BEHIND * behind;
             let is_free = !shapes[on].is_ink && !shapes[on].is_given && !is_near[on];
-            if is_alike && is_free && may_show_back(above) && is_kin(above, on) {
+            if is_alike && is_free && may_show_back[above] && is_kin(above, on) {
                 garments[above].push(Garment {
                     shape: on,
                     area: overlap.area,
@@ -182,7 +189,7 @@ pub(super) fn backs(
 
 /// Gives skins on plates the plates that overlap these.
 fn add_plates(backs: &mut [Back], shapes: &[Shape], overlaps: &[Vec<Overlap>]) {
-    let is_plate = |index: usize| !shapes[index].is_soft && !shapes[index].is_ink;
+    let is_plate = |index: usize| is_plate(&shapes[index]);
     let mut near: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
     let volumes = backs.iter().map(|back| back.on);
     near.extend(
@@ -386,34 +393,21 @@ fn samples(ring: &Ring, outline: &Outline, most: f64) -> Vec<Sample> {
     let apart = around / SAMPLES as f64;
     let filled_side = if shoelace(ring) < 0.0 { -1.0 } else { 1.0 };
     let mut samples = Vec::with_capacity(SAMPLES);
-    let mut next = apart / 2.0;
-    for i in 0..n {
-        let [from, to] = edge(i);
-        let length = from.distance(to);
-        let inward = (to - from).perp() * filled_side / length;
-        while next < length {
-            let at = from.lerp(to, next / length);
-            next += apart;
-            // Where the volume is thin, not beyond its middle.
-            let mut depth = most;
-            let through = depth / INSIDE_THIN;
-            let steps = [0.25, 0.5, 0.75, 1.0];
-            for step in steps {
-                if !contains(outline, at + inward * (through * step)) {
-                    depth = depth.min(INSIDE_THIN * through * step);
-                    break;
-                }
-            }
-            samples.push(Sample {
-                edge: i,
-                at,
-                on_border: at + inward * (RIM * depth),
-                inside: at + inward * depth,
-                outside: at - inward * (OUTSIDE * most),
-            });
-        }
-        next -= length;
-    }
+    wraps::along((0..n).map(edge), apart, |edge, at, direction| {
+        let inward = direction.perp() * filled_side;
+        // Where the volume is thin, not beyond its middle.
+        let through = most / INSIDE_THIN;
+        let mut steps = [0.25, 0.5, 0.75, 1.0].into_iter();
+        let beyond = steps.find(|step| !contains(outline, at + inward * (through * step)));
+        let depth = beyond.map_or(most, |step| most * step);
+        samples.push(Sample {
+            edge,
+            at,
+            on_border: at + inward * (RIM * depth),
+            inside: at + inward * depth,
+            outside: at - inward * (OUTSIDE * most),
+        });
+    });
     samples
 }
 

@@ -47,25 +47,35 @@ pub(super) fn chords(shape: &Shape) -> Vec<Chord> {
     let area: f64 = rings().map(shoelace).sum();
     let filled_side = if area < 0.0 { -1.0 } else { 1.0 };
     let mut chords = Vec::with_capacity(CHORDS);
+    along(edges(), apart, |_, foot, direction| {
+        let inward = direction.perp() * filled_side;
+        let ends = edges().filter_map(|edge| crossing(foot, inward, edge));
+        let nearest = ends.filter(|end| *end > 1e-6 * around).reduce(f64::min);
+        if let Some(nearest) = nearest {
+            chords.push(Chord {
+                from: foot,
+                along: inward * nearest,
+            });
+        }
+    });
+    chords
+}
+
+/// Calls `each` for points at equal distances along edges that follow one another, with the number of the edge and its direction.
+pub(super) fn along(
+    edges: impl Iterator<Item = [DVec2; 2]>,
+    apart: f64,
+    mut each: impl FnMut(usize, DVec2, DVec2),
+) {
     let mut next = apart / 2.0;
-    for [from, to] in edges() {
+    for (index, [from, to]) in edges.enumerate() {
         let length = from.distance(to);
-        let inward = (to - from).perp() * filled_side / length;
         while next < length {
-            let foot = from.lerp(to, next / length);
+            each(index, from.lerp(to, next / length), (to - from) / length);
             next += apart;
-            let ends = edges().filter_map(|edge| crossing(foot, inward, edge));
-            let nearest = ends.filter(|end| *end > 1e-6 * around).reduce(f64::min);
-            if let Some(nearest) = nearest {
-                chords.push(Chord {
-                    from: foot,
-                    along: inward * nearest,
-                });
-            }
         }
         next -= length;
     }
-    chords
 }
 
 /// How far along a ray it crosses an edge.

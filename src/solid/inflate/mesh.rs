@@ -4,6 +4,7 @@
 //! degenerate.
 
 use glam::DVec2;
+use rustc_hash::FxHashSet;
 
 use super::delaunay::Delaunay;
 use super::points::Points;
@@ -25,6 +26,21 @@ pub struct Mesh {
     pub(in crate::solid) on_border: Vec<bool>,
     /// Whether separate parts of the border meet in a point.
     pub(in crate::solid) has_pinches: bool,
+}
+
+impl Mesh {
+    /// The edges of the border, the filled side on the left.
+    pub(in crate::solid) fn border(&self) -> Vec<[u32; 2]> {
+        let is_on_border =
+            |[a, b]: &[u32; 2]| self.on_border[*a as usize] && self.on_border[*b as usize];
+        let along = self.triangles.iter().flat_map(sides).filter(is_on_border);
+        let edges: FxHashSet<[u32; 2]> = along.clone().collect();
+        along.filter(|[a, b]| !edges.contains(&[*b, *a])).collect()
+    }
+}
+
+fn sides([a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
+    [[*a, *b], [*b, *c], [*c, *a]]
 }
 
 /// Joins points by a Delaunay triangulation that keeps the border's edges.

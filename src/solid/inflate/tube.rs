@@ -7,7 +7,6 @@
 use glam::DVec2;
 use rstar::RTree;
 use rstar::primitives::Line;
-use rustc_hash::FxHashSet;
 
 use super::MIN_HEIGHT;
 use super::mesh::Mesh;
@@ -103,11 +102,7 @@ fn border(ring: &[DVec2], radius: f64, apart: f64, all: &mut Points, columns: &m
 pub(in crate::solid) fn heights(mesh: &Mesh, width: f64, height: f64) -> Vec<f64> {
     let radius = width / 2.0;
     let place = |i: u32| mesh.points[i as usize].map(f64::from);
-    let sides = |[a, b, c]: &[u32; 3]| [[*a, *b], [*b, *c], [*c, *a]];
-    let edges: FxHashSet<[u32; 2]> = mesh.triangles.iter().flat_map(sides).collect();
-    let mut border: Vec<[u32; 2]> = mesh.triangles.iter().flat_map(sides).collect();
-    border.retain(|[a, b]| !edges.contains(&[*b, *a]));
-    let border = border.into_iter();
+    let border = mesh.border().into_iter();
     let border = RTree::bulk_load(border.map(|[a, b]| Line::new(place(a), place(b))).collect());
     let least = MIN_HEIGHT * height;
     let points = mesh.points.iter().zip(&mesh.on_border);

@@ -7,7 +7,6 @@
 use std::sync::Arc;
 
 use glam::DVec2;
-use rustc_hash::FxHashSet;
 
 use super::LayForm;
 use super::cover::Cover;
@@ -127,16 +126,10 @@ impl Field {
     /// The surface in the frame of a node at this depth, with its back and its walls.
     pub(super) fn surface(&self, node_depth: f64, crease: f64) -> Surface {
         let Mesh {
-            points,
-            triangles,
-            on_border,
-            ..
+            points, triangles, ..
         } = &self.mesh;
         let count = points.len();
-        let is_on_border = |[a, b]: &[u32; 2]| on_border[*a as usize] && on_border[*b as usize];
-        let along = triangles.iter().flat_map(sides).filter(is_on_border);
-        let edges: FxHashSet<[u32; 2]> = along.clone().collect();
-        let border: Vec<[u32; 2]> = along.filter(|[a, b]| !edges.contains(&[*b, *a])).collect();
+        let border = self.mesh.border();
         // Where several parts of the border meet in a point, front and back meet too, or four walls would share an edge.
         let mut walls_from = vec![0_u32; count];
         for [from, _] in &border {
@@ -261,8 +254,4 @@ fn bends(profile: &[(f64, f64)], tolerance: f64) -> Vec<usize> {
             (from + 1..to).max_by(|a, b| deviation(profile[*a]).total_cmp(&deviation(profile[*b])));
         farthest.filter(|index| deviation(profile[*index]) > tolerance)
     })
-}
-
-fn sides([a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {
-    [[*a, *b], [*b, *c], [*c, *a]]
 }
