@@ -240,6 +240,16 @@ clip_art() {
   LOOK_DIR=$(realpath "$target/clip-art") cargo test --locked --test as_drawn -- --ignored --nocapture survey
 }
 
+# The same art from all sides, with names alone. The pictures to look at are in the folder's index.html.
+sides() {
+  [ $quick = no ] || skip "--quick"
+  need npm
+  with_tools
+  program
+  rm -rf "$target/sides"
+  OKOSHI=$(realpath "$okoshi") node $tools/sides.mjs "$target/sides"
+}
+
 blender_import() {
   [ $quick = no ] || skip "--quick"
   need node
@@ -343,6 +353,7 @@ step examples examples
 step validator validator
 step schemas schemas
 step clip-art clip_art
+step sides sides
 step blender blender_import
 step gallery gallery
 step readme readme
