@@ -240,7 +240,7 @@ clip_art() {
   LOOK_DIR=$(realpath "$target/clip-art") cargo test --locked --test as_drawn -- --ignored --nocapture survey
 }
 
-# The same art from all sides, with names alone. The pictures to look at are in the folder's index.html.
+# Emoji with names alone, from all sides. The pictures to look at are in the folder's index.html.
 sides() {
   [ $quick = no ] || skip "--quick"
   need npm
