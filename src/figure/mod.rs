@@ -365,6 +365,12 @@ impl<'a> FigureContext<'a> {
         }
     }
 
+    /// Whether nothing can be seen through a part.
+    fn is_opaque(&self, part: PartId) -> bool {
+        let [.., alpha] = self.bindings.material_factors(self.drawing, part).color;
+        alpha >= 1.0
+    }
+
     /// The step by which a part comes out in front of what it lies on, at most this: ink no farther than half its width, drawing
     /// units.
     fn step(&self, part: PartId, step: f64) -> f64 {

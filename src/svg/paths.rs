@@ -29,6 +29,11 @@ impl StrokeSource {
         f64::from(self.stroke.width) * scale
     }
 
+    /// Whether it is drawn with gaps.
+    pub fn is_dashed(&self) -> bool {
+        self.stroke.dash.is_some()
+    }
+
     /// The centre line of the stroke as line segments that deviate by at most `tolerance` drawing units, or by a
     /// hundred-thousandth of its extent. Gaps of dashes are filled.
     pub fn middle_line(&self, tolerance: f64, mut each: impl FnMut(DVec2, DVec2)) {

@@ -80,15 +80,6 @@ fn is_plate(shape: &Shape) -> bool {
     !shape.is_soft && !shape.is_ink
 }
 
-/// Whether nothing can be seen through a shape. What lies on the back of another one would show in front.
-fn is_opaque(context: &FigureContext<'_>, shape: &Shape) -> bool {
-    let [.., alpha] = context
-        .bindings
-        .material_factors(context.drawing, shape.part)
-        .color;
-    alpha >= 1.0
-}
-
 /// Per shape whether it shows on the back as well, mirrored: details with `Side both`, and those of figures in profile that `Side
 /// near` does not keep where they are drawn.
 pub(super) fn mirrored(
@@ -101,12 +92,13 @@ pub(super) fn mirrored(
     let is_mirrored = each.map(|((shape, cover), overlaps)| {
         let mut below = overlaps.iter().map(|overlap| &shapes[overlap.below]);
         cover.is_detail
+            && !shape.is_cord
             && !shape.is_given
             && match context.bindings.side(shape.part) {
                 Some(side) => side == Side::Both,
                 None => context.two_sided[shape.main],
             }
-            && below.all(|below| is_opaque(context, below))
+            && below.all(|below| context.is_opaque(below.part))
     });
     is_mirrored.collect()
 }
@@ -138,7 +130,7 @@ pub(super) fn backs(
             && !covers[index].is_detail
             && !is_hidden[index]
             && shape.area > 0.0
-            && is_opaque(context, shape)
+            && context.is_opaque(shape.part)
     };
     let may_show_back: Vec<bool> = (0..shapes.len()).map(may_show_back).collect();
     let is_near: Vec<bool> = shapes
@@ -254,7 +246,7 @@ fn of_volume(
     if covered < FROM_ABOVE * INSIDE * shapes[on].area {
         return Vec::new();
     }
-    let polygons = shapes[on].outline.polygons.iter();
+    let polygons = shapes[on].solid_outline.polygons.iter();
     let mut pieces: Vec<(f64, &Polygon)> = polygons
         .filter_map(|polygon| Some((shoelace(polygon.rings.first()?).abs(), polygon)))
         .collect();
@@ -327,7 +319,11 @@ fn of_piece(
         let is_same = |worn: Option<usize>| {
             worn.is_some_and(|worn| same.iter().any(|garment| garment.shape == worn))
         };
-        let goes = worn.iter().map(|worn| worn.map(is_same));
+        let goes = worn.iter().map(|worn| {
+            let [on_border, inside] = worn.map(is_same);
+            // What is drawn with an outline of its own is no dark rim: a face within hair leaves the hair as it is.
+            [on_border, inside && (on_border || !shape.is_outlined)]
+        });
         let goes: Vec<[bool; 2]> = goes.collect();
         let share = |is: &dyn Fn(&[bool; 2]) -> bool| {
             goes.iter().filter(|goes| is(goes)).count() as f64 / samples.len() as f64

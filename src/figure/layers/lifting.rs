@@ -24,6 +24,8 @@ const NAMED_BULGE: f64 = 0.6;
 const MAX_RAISE: f64 = 2.0;
 /// Layers per half turn of a skin on a back, whose mesh follows that of the volume where it has to.
 const SKIN_SEGMENTS: u32 = 8;
+/// Layers per half turn of a cord, which is thin.
+const CORD_SEGMENTS: u32 = 4;
 /// Planes that are less than this share of a step apart coincide.
 const SAME: f64 = 0.01;
 
@@ -138,6 +140,7 @@ impl Lifting<'_> {
             shape.profile.overflows(&outline)
         };
         let form = match () {
+            () if shape.is_cord => LayForm::Volume,
             () if shape.is_ink => LayForm::Ink,
             () if shape.profile.is_open() => LayForm::Sheet,
             () if !cover.is_detail => LayForm::Volume,
@@ -177,7 +180,10 @@ impl Lifting<'_> {
             step: self.arrangement.steps[index] * self.world.scale,
             invisible: self.arrangement.context.invisible * self.world.scale,
             bulge,
-            segments: is_low.then(flattened).flatten(),
+            segments: match shape.is_cord {
+                true => Some(CORD_SEGMENTS),
+                false => is_low.then(flattened).flatten(),
+            },
             form,
             is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,
         })
@@ -395,12 +401,12 @@ impl Lifting<'_> {
         let scale = self.world.scale;
         let mut profile = shape.profile.clone();
         profile.raise(raised);
-        let solid = self.arrangement.context.natural(
+        let solid = shape.solid(self.arrangement.context.natural(
             self.frames,
             self.world,
             [shape.main, shape.part],
             profile,
-        );
+        ));
         let node = &self.frames[shape.main].node;
         let to_plane =
             DAffine2::from_translation(node.origin * scale) * DAffine2::from_angle(node.angle);

@@ -3,6 +3,7 @@
 
 mod backs;
 mod buried;
+mod cords;
 mod lifting;
 mod node_depths;
 mod nodes;
@@ -168,12 +169,18 @@ impl Layers {
         let nodes = Nodes::new(context, &shapes);
         let overlaps = overlaps(&shapes);
         let solid = |shape: &Shape| {
-            let profile = shape.profile.clone();
-            context.natural(frames, world, [shape.main, shape.part], profile)
+            shape.solid(context.natural(
+                frames,
+                world,
+                [shape.main, shape.part],
+                shape.profile.clone(),
+            ))
         };
-        describe(&mut shapes, &overlaps, solid, &recent);
         let is_one = !context.bindings.annotated;
-        let mut covers = covers(&shapes, &nodes, &overlaps, is_one);
+        let details = details(&shapes, &nodes, &overlaps, is_one);
+        cords::lay(context, &mut shapes, &details);
+        describe(&mut shapes, &overlaps, solid, &recent);
+        let mut covers = covers(&shapes, &nodes, &overlaps, details, is_one);
         let spread: Vec<f64> = nodes
             .main
             .iter()
@@ -306,13 +313,13 @@ fn describe(
     });
 }
 
-/// How shapes lie on others and around them, backdrops left out.
-fn covers(shapes: &[Shape], nodes: &Nodes, overlaps: &[Vec<Overlap>], is_one: bool) -> Vec<Cover> {
+/// Per shape whether it is a detail: whether it lies on its own part, or on those that it hangs on.
+fn details(shapes: &[Shape], nodes: &Nodes, overlaps: &[Vec<Overlap>], is_one: bool) -> Vec<bool> {
     let is_kin = |above: usize, below: usize| {
         is_one || nodes.hangs_on(nodes.of_shape[above], nodes.of_shape[below])
     };
     let details = overlaps.par_iter().enumerate();
-    let details: Vec<bool> = details
+    details
         .map_init(Scratch::default, |scratch, (above, below)| {
             if shapes[above].is_ink {
                 return true;
@@ -328,7 +335,17 @@ fn covers(shapes: &[Shape], nodes: &Nodes, overlaps: &[Vec<Overlap>], is_one: bo
             let below = kin.map(|overlap| &shapes[overlap.below]);
             scratch.covered(&shapes[above], below) >= DETAIL
         })
-        .collect();
+        .collect()
+}
+
+/// How shapes lie on others and around them, backdrops left out.
+fn covers(
+    shapes: &[Shape],
+    nodes: &Nodes,
+    overlaps: &[Vec<Overlap>],
+    details: Vec<bool>,
+    is_one: bool,
+) -> Vec<Cover> {
     let has_chords: Vec<bool> = {
         let mut wanted = vec![false; shapes.len()];
         for (above, below) in overlaps.iter().enumerate() {

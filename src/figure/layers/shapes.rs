@@ -9,7 +9,7 @@ use super::super::FigureContext;
 use crate::bind::{PartId, PartKind};
 use crate::geometry::{EdgeRanges, Outline, area};
 use crate::index::par_keys;
-use crate::solid::{Profile, SolidHeights};
+use crate::solid::{Profile, Solid, SolidHeights};
 use crate::threads::GRAIN;
 
 /// A part with a solid, in the order of drawing.
@@ -19,6 +19,8 @@ pub(super) struct Shape {
     /// The main part of its node.
     pub(super) main: PartId,
     pub(super) outline: Arc<Outline>,
+    /// The outline of its solid, which ends where a cord around it begins.
+    pub(super) solid_outline: Arc<Outline>,
     pub(super) bounds: (DVec2, DVec2),
     pub(super) ranges: EdgeRanges,
     pub(super) area: f64,
@@ -26,6 +28,10 @@ pub(super) struct Shape {
     pub(super) is_main: bool,
     pub(super) is_named: bool,
     pub(super) is_ink: bool,
+    /// Whether it is ink that is a cord around a soft volume.
+    pub(super) is_cord: bool,
+    /// Whether it is filled and drawn with an outline.
+    pub(super) is_outlined: bool,
     /// Whether it is cloth by its name.
     pub(super) is_sheet: bool,
     /// Whether it is rounded or pointed.
@@ -45,6 +51,14 @@ pub(super) struct Shape {
 }
 
 impl Shape {
+    /// Its solid, made from that of its part.
+    pub(super) fn solid(&self, of_part: Solid) -> Solid {
+        Solid {
+            outline: Arc::clone(&self.solid_outline),
+            ..of_part
+        }
+    }
+
     /// How far it reaches to the front over a point, drawing units.
     pub(super) fn front(&self, point: DVec2) -> f64 {
         match &self.natural {
@@ -111,12 +125,15 @@ fn shape(context: &FigureContext<'_>, index: PartId) -> Option<Shape> {
         part: index,
         main: part.main,
         outline: Arc::clone(&part.outline),
+        solid_outline: Arc::clone(&part.outline),
         bounds: part.measure.bounds,
         ranges: EdgeRanges::new(&part.outline),
         area: area(&part.outline),
         is_main: part.main == index,
         is_named: !part.is_automatic() && !part.name.is_empty(),
         is_ink,
+        is_cord: false,
+        is_outlined: !part.is_stroke && context.drawing.shapes[part.shape].stroke.is_some(),
         is_sheet: part.is_sheet(),
         is_soft,
         is_given: !is_ink && (has_depth || is_mirrored),

@@ -29,6 +29,15 @@ impl Inflate {
         })
     }
 
+    /// A tube along the stroke of a line of this width, drawing units.
+    pub(super) fn cord(width: f64) -> Self {
+        Self(Balloon {
+            height: None,
+            most: None,
+            line: Some(width),
+        })
+    }
+
     /// The same for the stroke of a line of this width, drawing units.
     pub(super) fn of_line(&self, width: f64) -> Self {
         Self(Balloon {

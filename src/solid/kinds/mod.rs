@@ -87,6 +87,11 @@ impl Profile {
         }
     }
 
+    /// A tube along the stroke of a line of this width, drawing units.
+    pub fn cord(width: f64) -> Self {
+        Self::Inflate(inflate::Inflate::cord(width))
+    }
+
     /// The same for the stroke of a line of this width, drawing units: what is inflated becomes a tube.
     pub fn of_line(self, width: f64) -> Self {
         match self {

@@ -1,0 +1,90 @@
+//! Outlines around soft volumes: cords along the silhouette, as deep as they are wide, like the piping of a cushion.
+//!
+//! A band that is painted on the steep border of a soft volume looks as deep as the volume is there, however thin the line was
+//! drawn. A volume with an outline therefore ends where the line begins, and the line becomes a tube around it. From the front
+//! both look as drawn.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::super::FigureContext;
+use super::shapes::Shape;
+use crate::bind::PartId;
+use crate::geometry::{Outline, area, subtract};
+use crate::solid::Profile;
+use crate::threads::GRAIN;
+
+/// The share of its area that is left of a volume within its outline, at least.
+const LEFT: f64 = 0.2;
+/// Limit of the points of an outline and its stroke.
+const MAX_POINTS: usize = 20_000;
+
+/// Makes cords of the strokes around soft volumes, and lets the volumes end there. `is_detail` says per shape whether it lies on
+/// others.
+pub(super) fn lay(context: &FigureContext<'_>, shapes: &mut [Shape], is_detail: &[bool]) {
+    let strokes = shapes.iter().enumerate().filter(|(_, shape)| shape.is_ink);
+    if strokes.clone().next().is_none() {
+        return;
+    }
+    let place: FxHashMap<PartId, usize> = shapes
+        .iter()
+        .enumerate()
+        .map(|(index, shape)| (shape.part, index))
+        .collect();
+    let around = |(index, stroke): (usize, &Shape)| {
+        let host = *place.get(&context.bindings.parts[stroke.part].host?)?;
+        let is_volume = !is_detail[host] && is_balloon(&shapes[host]);
+        (is_volume && is_outline(context, stroke, &shapes[host])).then_some([index, host])
+    };
+    let pairs: Vec<[usize; 2]> = strokes.filter_map(around).collect();
+    let narrowed = pairs.par_iter().with_min_len(GRAIN);
+    let narrowed = narrowed.map(|[stroke, host]| {
+        let [stroke, host] = [*stroke, *host].map(|shape| &*shapes[shape].outline);
+        without(host, stroke)
+    });
+    let narrowed: Vec<Option<Outline>> = narrowed.collect();
+    for ([stroke, host], inner) in pairs.into_iter().zip(narrowed) {
+        let (Some(inner), Some(width)) = (inner, width(context, &shapes[stroke])) else {
+            continue;
+        };
+        shapes[host].solid_outline = Arc::new(inner);
+        shapes[stroke].profile = Profile::cord(width);
+        shapes[stroke].is_cord = true;
+    }
+}
+
+/// Whether a shape is blown up without a depth of its own.
+fn is_balloon(shape: &Shape) -> bool {
+    matches!(shape.profile, Profile::Inflate(_)) && !shape.is_given && !shape.is_ink
+}
+
+/// Whether ink is the stroke of the shape that it lies on, without gaps, and nothing can be seen through it.
+fn is_outline(context: &FigureContext<'_>, stroke: &Shape, host: &Shape) -> bool {
+    let [own, filled] = [stroke, host].map(|shape| &context.bindings.parts[shape.part]);
+    let source = context.drawing.shapes[own.shape].stroke.as_ref();
+    own.shape == filled.shape
+        && own.is_stroke
+        && context.bindings.form(stroke.part) == host.part
+        && source.is_some_and(|source| !source.is_dashed())
+        && context.is_opaque(stroke.part)
+}
+
+fn width(context: &FigureContext<'_>, stroke: &Shape) -> Option<f64> {
+    let shape = context.bindings.parts[stroke.part].shape;
+    let stroke = context.drawing.shapes[shape].stroke.as_ref()?;
+    Some(stroke.width())
+}
+
+/// What is left of an outline beside a stroke around it, if that is enough of it.
+fn without(outline: &Outline, stroke: &Outline) -> Option<Outline> {
+    let all = [outline, stroke].map(|outline| &outline.polygons);
+    let rings = all.into_iter().flatten().flat_map(|polygon| &polygon.rings);
+    let points: usize = rings.map(Vec::len).sum();
+    if points > MAX_POINTS {
+        return None;
+    }
+    let inner = subtract(outline, stroke);
+    (area(&inner) >= LEFT * area(outline)).then_some(inner)
+}
