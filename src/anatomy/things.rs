@@ -8,10 +8,12 @@ pub(crate) enum Thing {
     /// What lies behind and under figures, such as sky and ground.
     Scenery,
     Wheel,
+    /// A shadow that something throws.
+    Shadow,
 }
 
 /// English and Japanese words; katakana words are written in hiragana here.
-const WORDS: [(Thing, &str); 2] = [
+const WORDS: [(Thing, &str); 3] = [
     (
         Thing::Scenery,
         "sky ground background backdrop bg floor wall grass lawn meadow field land landscape earth soil sea ocean water lake river road \
@@ -22,6 +24,7 @@ const WORDS: [(Thing, &str); 2] = [
         Thing::Wheel,
         "wheel tyre tire 車輪 しゃりん 車 たいや ほいーる",
     ),
+    (Thing::Shadow, "shadow 影 かげ"),
 ];
 
 /// What a name means: what the last of its known words says, so that a `water wheel` is a wheel.
@@ -87,6 +90,9 @@ mod tests {
         }
         for name in ["Wheel2", "front wheels", "water wheel", "タイヤ"] {
             assert_eq!(thing(name), Some(Thing::Wheel), "{name}");
+        }
+        for name in ["Shadow", "ground shadow", "影"] {
+            assert_eq!(thing(name), Some(Thing::Shadow), "{name}");
         }
         for name in ["Head", "Skirt", "Leg", "頭", "Groundhog", ""] {
             assert_eq!(thing(name), None, "{name}");

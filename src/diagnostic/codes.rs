@@ -634,7 +634,8 @@ codes! {
     NoJoint = "H408", "limb without a joint";
     /// A rectangle as large as the page lies behind everything else. Such a rectangle is the paper rather than a part of the
     /// figure, so it is left out of the model. One with rounded corners is built, and so is one below shapes that together reach
-    /// all edges of the page, as those of a flag do.
+    /// all edges of the page, as those of a flag do. A flat grey, dark or translucent ellipse below the feet of what is drawn is a shadow
+    /// on the ground, and is left out as well.
     ///
     /// You need not change anything. To build it too, write a name on it.
     Background = "H409", "background left out";

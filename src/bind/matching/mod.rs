@@ -5,6 +5,7 @@ mod bare_names;
 mod binder;
 mod converted;
 mod fills;
+mod ground_shadows;
 mod held;
 mod ink;
 mod kinds;

@@ -66,6 +66,8 @@ pub(in crate::bind) struct NodeGroups {
     pub(super) in_layer: Vec<bool>,
     /// Per shape: whether it is a background, unless a string names it.
     pub(in crate::bind) backgrounds: TiVec<ShapeId, bool>,
+    /// The backgrounds that are shadows on the ground.
+    pub(in crate::bind) shadows: Vec<ShapeId>,
     /// Per group: whether it is such a layer, with parts that strings can belong to.
     holds_parts: TiVec<GroupId, bool>,
 }
@@ -104,6 +106,7 @@ impl NodeGroups {
             sources: vec![],
             roles: roles(drawing, &counts, &layer, &wrappers),
             backgrounds: wrappers.backgrounds,
+            shadows: wrappers.shadows,
             parents,
             layer,
         }

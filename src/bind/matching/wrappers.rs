@@ -1,4 +1,4 @@
-//! Groups that group nothing, and backgrounds.
+//! Groups that group nothing, and backgrounds, shadows on the ground among them.
 //!
 //! Drawing programs put everything into one group, frame or artboard, and a rectangle of the page's size behind it. Neither
 //! says anything about the figure.
@@ -7,6 +7,7 @@ use glam::DVec2;
 use rustc_hash::FxHashSet;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
+use super::ground_shadows;
 use super::strings::ReadString;
 use crate::anatomy::{self, Role};
 use crate::bind::bindings::{StringHolder, StringId};
@@ -56,6 +57,8 @@ pub(super) struct Wrappers {
     pub(super) carries: TiVec<GroupId, bool>,
     /// Per shape whether it is a background, unless a string names it.
     pub(super) backgrounds: TiVec<ShapeId, bool>,
+    /// The backgrounds that are shadows on the ground.
+    pub(super) shadows: Vec<ShapeId>,
 }
 
 /// Finds them. `counts` is the number of strings in each group that want a part, `in_map` whether a group is in a tile layer.
@@ -65,7 +68,7 @@ pub(super) fn find(
     counts: &TiSlice<GroupId, usize>,
     in_map: impl Fn(GroupId) -> bool,
 ) -> Wrappers {
-    let backgrounds = backgrounds(drawing, strings, counts, in_map);
+    let (backgrounds, shadows) = backgrounds(drawing, strings, counts, in_map);
     let children = children(drawing, &backgrounds);
     let mut groups_nothing = TiVec::with_capacity(drawing.groups.len());
     for (index, group) in drawing.groups.iter_enumerated() {
@@ -89,6 +92,7 @@ pub(super) fn find(
         groups_nothing,
         carries,
         backgrounds,
+        shadows,
     }
 }
 
@@ -191,34 +195,43 @@ fn backgrounds(
     strings: &TiSlice<StringId, ReadString>,
     counts: &TiSlice<GroupId, usize>,
     in_map: impl Fn(GroupId) -> bool,
-) -> TiVec<ShapeId, bool> {
+) -> (TiVec<ShapeId, bool>, Vec<ShapeId>) {
     let mut found: TiVec<ShapeId, bool> = ti_vec![false; drawing.shapes.len()];
+    let mut shadows = Vec::new();
     let shapes = drawing.shapes.keys();
     let filled: Vec<ShapeId> = shapes
         .filter(|shape| is_filled(&drawing.shapes[*shape]))
         .collect();
     for (place, shape) in filled.iter().copied().enumerate().take(MAX_BACKGROUNDS) {
         let rest = &filled[place + 1..];
-        let own = bounds(&drawing.shapes[shape].outline).filter(|own| covers_page(drawing, *own));
-        let Some(own) = own.filter(|_| is_rectangle(&drawing.shapes[shape])) else {
-            break;
-        };
-        let group = drawing.shapes[shape].group;
         let described = strings
             .iter()
             .any(|string| string.holder == StringHolder::Shape(shape));
         if rest.is_empty()
-            || in_map(group)
+            || in_map(drawing.shapes[shape].group)
             || described
             || has_string_beside(drawing, counts, &filled, shape)
-            || !holds(drawing, own, rest)
-            || reaches_all_edges(drawing, rest)
         {
+            break;
+        }
+        if ground_shadows::is_shadow(drawing, shape, rest) {
+            shadows.push(shape);
+        } else if !is_page(drawing, shape, rest) {
             break;
         }
         found[shape] = true;
     }
-    found
+    (found, shadows)
+}
+
+/// Whether the first of the shapes, in paint order, is a rectangle of the page's size behind the others.
+fn is_page(drawing: &Drawing, shape: ShapeId, rest: &[ShapeId]) -> bool {
+    let own = bounds(&drawing.shapes[shape].outline).filter(|own| covers_page(drawing, *own));
+    own.is_some_and(|own| {
+        is_rectangle(&drawing.shapes[shape])
+            && holds(drawing, own, rest)
+            && !reaches_all_edges(drawing, rest)
+    })
 }
 
 fn is_rectangle(shape: &Shape) -> bool {

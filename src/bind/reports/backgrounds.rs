@@ -1,4 +1,4 @@
-//! Backgrounds, which are left out.
+//! Backgrounds and shadows on the ground, which are left out.
 
 use crate::bind::matching::Matched;
 use crate::diagnostic::{Code, Diagnostic};
@@ -11,13 +11,18 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
             continue;
         }
         let element = &drawing.shapes[part.shape].element;
-        let message = format!(
-            "{} fills the page behind everything else, so it is taken for a background and left out",
-            drawing.describe(part.shape)
-        );
-        diagnostics.push(
-            Diagnostic::new(Code::Background, element.span, message)
-                .help("to build it too, write a name on it, such as `Wall`"),
-        );
+        let what = drawing.describe(part.shape);
+        let (message, help) = if matched.node_groups.shadows.contains(&part.shape) {
+            (
+                format!("{what} lies flat below all else, so it is taken for a shadow on the ground and left out"),
+                "to build it too, write a name on it, such as `Disc`",
+            )
+        } else {
+            (
+                format!("{what} fills the page behind everything else, so it is taken for a background and left out"),
+                "to build it too, write a name on it, such as `Wall`",
+            )
+        };
+        diagnostics.push(Diagnostic::new(Code::Background, element.span, message).help(help));
     }
 }

@@ -67,6 +67,7 @@ fn is_outline(context: &FigureContext<'_>, stroke: &Shape, host: &Shape) -> bool
     own.shape == filled.shape
         && own.is_stroke
         && context.bindings.form(stroke.part) == host.part
+        && host.is_outlined
         && source.is_some_and(|source| !source.is_dashed())
         && context.is_opaque(stroke.part)
 }

@@ -12,6 +12,9 @@ use crate::index::par_keys;
 use crate::solid::{Profile, Solid, SolidHeights};
 use crate::threads::GRAIN;
 
+/// Lines that are narrower are too thin to be seen as outlines, in deviations that nobody sees.
+const HAIRLINE: f64 = 80.0;
+
 /// A part with a solid, in the order of drawing.
 #[derive(Debug)]
 pub(super) struct Shape {
@@ -30,7 +33,7 @@ pub(super) struct Shape {
     pub(super) is_ink: bool,
     /// Whether it is ink that is a cord around a soft volume.
     pub(super) is_cord: bool,
-    /// Whether it is filled and drawn with an outline.
+    /// Whether it is filled and drawn with an outline that is no hairline.
     pub(super) is_outlined: bool,
     /// Whether it is cloth by its name.
     pub(super) is_sheet: bool,
@@ -106,6 +109,8 @@ fn shape(context: &FigureContext<'_>, index: PartId) -> Option<Shape> {
     let has_depth = bindings.given_depth(bindings.form(index)).is_some();
     let is_mirrored = attributes.shape().mirrored;
     let is_ink = part.host.is_some();
+    let stroke = context.drawing.shapes[part.shape].stroke.as_ref();
+    let least = HAIRLINE * context.invisible;
     let is_soft = profile.is_soft();
     let faces = profile.faces();
     let plate = match &faces {
@@ -133,7 +138,7 @@ fn shape(context: &FigureContext<'_>, index: PartId) -> Option<Shape> {
         is_named: !part.is_automatic() && !part.name.is_empty(),
         is_ink,
         is_cord: false,
-        is_outlined: !part.is_stroke && context.drawing.shapes[part.shape].stroke.is_some(),
+        is_outlined: !part.is_stroke && stroke.is_some_and(|line| line.width() >= least),
         is_sheet: part.is_sheet(),
         is_soft,
         is_given: !is_ink && (has_depth || is_mirrored),

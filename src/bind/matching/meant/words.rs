@@ -78,7 +78,7 @@ fn topic(name: &str) -> Option<Topic> {
     let says = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
     if terms.is_empty() {
         return anatomy::thing(name).map(|thing| match thing {
-            Thing::Scenery => Topic::Scenery,
+            Thing::Scenery | Thing::Shadow => Topic::Scenery,
             Thing::Wheel => Topic::Wheel,
         });
     }
