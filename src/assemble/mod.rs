@@ -196,8 +196,8 @@ fn build(
     let mut found = Vec::new();
     let (figures, materials) = rayon::join(
         || {
-            let two_sided = rig::two_sided(drawing, bindings);
-            Figures::lay_out(drawing, bindings, two_sided, &world, memo, &mut found)
+            let seen = rig::seen(drawing, bindings);
+            Figures::lay_out(drawing, bindings, seen, &world, memo, &mut found)
         },
         || {
             Materials::collect(

@@ -24,6 +24,7 @@ use crate::geometry::{Frame, Thickness};
 use crate::index::par_keys;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
+use crate::rig::Seen;
 use crate::scene::{
     MaterialId, Mesh, NodeId, PartMaterial, Primitive, Scene, SurfacePatch, WorldTransform,
 };
@@ -106,16 +107,16 @@ pub(crate) struct FigureNodes {
 }
 
 impl<'a> Figures<'a> {
-    /// Lays out the figures of a drawing. Per main part, `two_sided` says whether what is drawn on it is on its far side, too.
+    /// Lays out the figures of a drawing. Per main part, `seen` says from where it is drawn.
     pub(crate) fn lay_out(
         drawing: &'a Drawing,
         bindings: &'a Bindings,
-        two_sided: TiVec<PartId, bool>,
+        seen: TiVec<PartId, Seen>,
         world: &WorldTransform,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let context = FigureContext::new(drawing, bindings, two_sided);
+        let context = FigureContext::new(drawing, bindings, seen);
         let parts = bindings.parts.raw.par_iter().with_min_len(GRAIN);
         let frames = parts.map(|part| {
             let solid = Frame::new(&part.measure, part.origin);
@@ -262,21 +263,21 @@ impl<'a> Figures<'a> {
 struct FigureContext<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
-    /// Per main part whether what is drawn on it is on its far side, too: on figures in profile.
-    two_sided: TiVec<PartId, bool>,
+    /// Per main part from where it is drawn.
+    seen: TiVec<PartId, Seen>,
     /// How far the surface of a solid may be from a rounding without anybody seeing it, drawing units.
     invisible: f64,
 }
 
 impl<'a> FigureContext<'a> {
-    fn new(drawing: &'a Drawing, bindings: &'a Bindings, two_sided: TiVec<PartId, bool>) -> Self {
+    fn new(drawing: &'a Drawing, bindings: &'a Bindings, seen: TiVec<PartId, Seen>) -> Self {
         let bounds = bindings.parts.iter().map(|part| part.measure.bounds);
         let bounds = bounds.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
         let extent = bounds.map_or(0.0, |(low, high)| (high - low).max_element());
         Self {
             drawing,
             bindings,
-            two_sided,
+            seen,
             invisible: INVISIBLE * extent,
         }
     }

@@ -4,7 +4,7 @@ use typed_index_collections::{TiVec, ti_vec};
 
 use super::{figures, rigging};
 use crate::bind::{Bindings, PartId};
-use crate::labels::{FoundFacing, Label, label_drawn};
+use crate::labels::{Facing, FoundFacing, Label, label_drawn};
 use crate::svg::Drawing;
 
 /// Without a name that tells part of a body, what sticks out of a thing is no limb unless there are as many as this.
@@ -25,22 +25,37 @@ pub(crate) struct FigureFacing {
     pub found: FoundFacing,
 }
 
-/// The main parts of figures in profile, limbs left out: what is drawn on them is on their far side, too.
-pub(crate) fn two_sided(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, bool> {
-    let mut two_sided = ti_vec![false; bindings.parts.len()];
+/// From where a main part is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Seen {
+    /// No name tells, or it is a limb of a figure in profile.
+    Anyhow,
+    /// From the side: what is drawn on it is on its far side, too.
+    InProfile,
+    FromFront,
+    FromBehind,
+}
+
+/// Per main part from where it is drawn.
+pub(crate) fn seen(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, Seen> {
+    let mut seen = ti_vec![Seen::Anyhow; bindings.parts.len()];
     let figures = facings(drawing, bindings);
-    let in_profile = figures.iter().filter(|figure| {
-        let is_known = figure.has_names || figure.found.by_string;
-        is_known && figure.found.facing.is_profile()
-    });
-    for figure in in_profile {
-        figure.parts.iter().for_each(|part| two_sided[*part] = true);
-        figure
-            .limbs
-            .iter()
-            .for_each(|part| two_sided[*part] = false);
+    let known = figures
+        .iter()
+        .filter(|figure| figure.has_names || figure.found.by_string);
+    for figure in known {
+        let from = match figure.found.facing {
+            Facing::Viewer => Seen::FromFront,
+            Facing::Away => Seen::FromBehind,
+            Facing::Left | Facing::Right => Seen::InProfile,
+        };
+        figure.parts.iter().for_each(|part| seen[*part] = from);
+        if from == Seen::InProfile {
+            let limbs = figure.limbs.iter();
+            limbs.for_each(|part| seen[*part] = Seen::Anyhow);
+        }
     }
-    two_sided
+    seen
 }
 
 /// Where those figures look that have limbs, or whose strings say so.

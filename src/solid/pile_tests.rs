@@ -41,6 +41,7 @@ fn ink(outline: Outline, below: Vec<Solid>, step: f64) -> LaidSolid {
             bulge: 0.0,
             segments: None,
             form: LayForm::Ink,
+            toes: None,
             is_line: true,
         },
     )
@@ -228,6 +229,7 @@ fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body>> {
             bulge: if is_soft { 0.3 } else { 0.0 },
             segments: None,
             form,
+            toes: None,
             is_line: form == LayForm::Ink,
         });
         bodies.push(Body {
@@ -287,6 +289,7 @@ fn high_piles_grow_linearly() {
                     bulge: 0.3,
                     segments: None,
                     form: LayForm::Skin,
+                    toes: None,
                     is_line: false,
                 }),
                 is_detail: index > 0,
@@ -394,6 +397,7 @@ fn skin_of(
         bulge: 0.0,
         segments: Some(8),
         form: LayForm::BackSkin,
+        toes: None,
         is_line: false,
     };
     let skin = Body {
@@ -688,6 +692,7 @@ proptest! {
                 bulge: 0.3,
                 segments: None,
                 form: LayForm::Skin,
+                toes: None,
                 is_line: false,
             }),
             ..body(solid(moved(outline(vec![ellipse(radii, turn)]), at), profile("inflate", &[])))

@@ -31,7 +31,9 @@ const DARK: u8 = 96;
 pub(super) fn is_shadow(drawing: &Drawing, first: ShapeId, others: &[ShapeId]) -> bool {
     let shape = &drawing.shapes[first];
     let named = names::of_element(&shape.element, None);
-    let is_shadow = named.as_ref().map(|named| thing(&named.name) == Some(Thing::Shadow));
+    let is_shadow = named
+        .as_ref()
+        .map(|named| thing(&named.name) == Some(Thing::Shadow));
     let may_be = is_shadow.unwrap_or_else(|| is_dim(shape));
     may_be && is_flat_ellipse(shape) && stands_on(drawing, shape, others)
 }

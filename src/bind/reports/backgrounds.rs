@@ -14,12 +14,16 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
         let what = drawing.describe(part.shape);
         let (message, help) = if matched.node_groups.shadows.contains(&part.shape) {
             (
-                format!("{what} lies flat below all else, so it is taken for a shadow on the ground and left out"),
+                format!(
+                    "{what} lies flat below all else, so it is taken for a shadow on the ground and left out"
+                ),
                 "to build it too, write a name on it, such as `Disc`",
             )
         } else {
             (
-                format!("{what} fills the page behind everything else, so it is taken for a background and left out"),
+                format!(
+                    "{what} fills the page behind everything else, so it is taken for a background and left out"
+                ),
                 "to build it too, write a name on it, such as `Wall`",
             )
         };

@@ -17,6 +17,7 @@ use crate::bind::Side;
 use crate::geometry::{
     Outline, Polygon, Ring, area, bounds, contains, intersect, offset, shoelace,
 };
+use crate::rig::Seen;
 use crate::threads::GRAIN;
 
 /// Points along the border of a volume.
@@ -96,7 +97,7 @@ pub(super) fn mirrored(
             && !shape.is_given
             && match context.bindings.side(shape.part) {
                 Some(side) => side == Side::Both,
-                None => context.two_sided[shape.main],
+                None => context.seen[shape.main] == Seen::InProfile,
             }
             && below.all(|below| context.is_opaque(below.part))
     });

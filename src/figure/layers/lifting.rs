@@ -10,11 +10,12 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::backs::Back;
+use super::feet;
 use super::{Arrangement, BackSkin, Behind, Layers, NodeDepth};
 use crate::bind::PartId;
 use crate::figure::PartFrames;
 use crate::scene::WorldTransform;
-use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights, Solid};
+use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights, Solid, Toes};
 
 /// The share of its own heights that a rounded shape adds to those of what it lies on.
 const BULGE: f64 = 0.3;
@@ -157,7 +158,8 @@ impl Lifting<'_> {
             .filter(|other| lifts(*other))
             .collect::<Vec<usize>>();
         let clips = shape.is_soft && !shape.is_ink && overflows();
-        let is_alone = below.is_empty() && cover.behind.is_empty();
+        let toes = self.toes(index);
+        let is_alone = below.is_empty() && cover.behind.is_empty() && toes.is_none();
         // A line beside all shapes is a band too, and no solid of its host's kind.
         if is_alone && !clips && !shape.is_ink {
             return Form::Raised(self.raise(index, moved));
@@ -185,7 +187,25 @@ impl Lifting<'_> {
                 false => is_low.then(flattened).flatten(),
             },
             form,
+            toes,
             is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,
+        })
+    }
+
+    /// How the toes of a foot come out of it.
+    fn toes(&self, index: usize) -> Option<Toes> {
+        let shape = &self.arrangement.shapes[index];
+        let toes = feet::toes(self.arrangement.context, shape)?;
+        let node = &self.frames[shape.main].node;
+        let factor = toes.reach / shape.height();
+        (factor > 1.0).then(|| Toes {
+            down: DVec2::from_angle(-node.angle).rotate(-DVec2::Y),
+            // Frames have y up.
+            between: toes
+                .down
+                .map(|down| (down + node.origin.y) * self.world.scale),
+            factor,
+            away: toes.away,
         })
     }
 
@@ -381,6 +401,7 @@ impl Lifting<'_> {
             bulge: 0.0,
             segments: Some(SKIN_SEGMENTS),
             form: LayForm::BackSkin,
+            toes: None,
             is_line: false,
         };
         Body {

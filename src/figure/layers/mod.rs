@@ -4,6 +4,7 @@
 mod backs;
 mod buried;
 mod cords;
+mod feet;
 mod lifting;
 mod node_depths;
 mod nodes;

@@ -245,8 +245,15 @@ impl Target<'_> {
     pub(super) fn reach(&self, point: DVec2) -> Option<[f64; 2]> {
         match &self.own {
             Own::Line => Some([0.0; 2]),
-            Own::Body(own) => Some(own.reach(point)),
+            Own::Body(own) => Some(self.with_toes(point, own.reach(point))),
             Own::Field(..) => None,
+        }
+    }
+
+    fn with_toes(&self, point: DVec2, reach: [f64; 2]) -> [f64; 2] {
+        match &self.lay.toes {
+            Some(toes) => toes.reach(point, reach),
+            None => reach,
         }
     }
 
@@ -255,7 +262,11 @@ impl Target<'_> {
         if let Own::Field(solid, factor) = self.own
             && let Some(heights) = solid.heights_over(mesh)
         {
-            return heights.iter().map(|height| [height * factor; 2]).collect();
+            let points = mesh.points.iter().zip(heights);
+            let reach = |(point, height): (&[f32; 2], f64)| {
+                self.with_toes(flat(point), [height * factor; 2])
+            };
+            return points.map(reach).collect();
         }
         let reach = |point: &[f32; 2]| self.reach(flat(point)).unwrap_or_default();
         mesh.points.iter().map(reach).collect()
@@ -312,6 +323,7 @@ impl Target<'_> {
         self.lay.form != LayForm::Volume
             || points.is_empty()
             || self.lay.clips
+            || self.lay.toes.is_some()
             || !wraps.is_empty()
             || !behind.is_empty()
             || points.iter().any(|point| self.lifts(*point))

@@ -103,8 +103,34 @@ pub(crate) struct Lay {
     pub segments: Option<u32>,
     /// Its form.
     pub form: LayForm,
+    /// Where it reaches out more than its heights say.
+    pub toes: Option<Toes>,
     /// Whether it is the stroke of a line.
     pub is_line: bool,
+}
+
+/// Toes: towards one end of it, a solid reaches out to one side by a multiple of its heights.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Toes {
+    /// The direction to that end, a unit vector in the frame of its node.
+    pub down: DVec2,
+    /// The distances along it where they begin and from which on they are whole.
+    pub between: [f64; 2],
+    /// The factor where they are whole.
+    pub factor: f64,
+    /// Whether they reach away from the viewer.
+    pub away: bool,
+}
+
+impl Toes {
+    /// How far a solid reaches to the front and to the back over a point where its own heights are these.
+    fn reach(&self, point: DVec2, mut own: [f64; 2]) -> [f64; 2] {
+        let [from, to] = self.between;
+        let share = ((point.dot(self.down) - from) / (to - from)).clamp(0.0, 1.0);
+        let smooth = share * share * (3.0 - 2.0 * share);
+        own[usize::from(self.away)] *= 1.0 + (self.factor - 1.0) * smooth;
+        own
+    }
 }
 
 /// What becomes of a solid that is lifted.
@@ -279,6 +305,7 @@ impl Pile {
                 bulge,
                 segments,
                 form,
+                toes,
                 is_line,
             } = lay;
             hasher.write_u64(step.to_bits());
@@ -290,6 +317,19 @@ impl Pile {
             hasher.write_u8(*form as u8);
             hasher.write_u8((*clips).into());
             hasher.write_u8((*is_line).into());
+            hasher.write_u8(toes.is_some().into());
+            if let Some(Toes {
+                down,
+                between: [from, to],
+                factor,
+                away,
+            }) = toes
+            {
+                let numbers = [down.x, down.y, *from, *to, *factor];
+                let numbers = numbers.iter();
+                numbers.for_each(|number| hasher.write_u64(number.to_bits()));
+                hasher.write_u8((*away).into());
+            }
             for list in [below, wraps] {
                 hasher.write_usize(list.len());
                 for other in list {
