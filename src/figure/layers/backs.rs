@@ -13,6 +13,7 @@ use rustc_hash::FxHashMap;
 use super::overlaps::Overlap;
 use super::shapes::Shape;
 use super::{Cover, FigureContext, Nodes, wraps};
+use crate::anatomy::{self, Term};
 use crate::bind::Side;
 use crate::geometry::{
     Outline, Polygon, Ring, area, bounds, contains, intersect, offset, shoelace,
@@ -42,6 +43,8 @@ const INSIDE_RIM: f64 = 0.93;
 /// The share of the topmost border points that what comes from above covers, and how many those are.
 const TOP: f64 = 0.6;
 const TOPMOST: usize = 24;
+/// How far hair comes down on the back of a head whose front shows it at the top, as a share of the head's height.
+const NAPE: f64 = 0.85;
 /// Gaps between samples up to this share of the border are closed.
 const GAP: f64 = 0.05;
 /// Coverage of the border from which on the whole back is covered.
@@ -272,13 +275,49 @@ fn of_piece(
     outline: &Arc<Outline>,
 ) -> Vec<Back> {
     let ring = &outline.polygons[0].rings[0];
-    let shape = &shapes[on];
-    let size = bounds(outline).map_or(DVec2::ZERO, |(low, high)| high - low);
+    let bounds = bounds(outline).unwrap_or_default();
+    let size = bounds.1 - bounds.0;
     let samples = samples(ring, outline, INSIDE * size.min_element());
     if samples.is_empty() {
         return Vec::new();
     }
-    // Per sample the largest of the shapes that cover it: not the highlights on hair, but the hair.
+    let mut topmost: Vec<usize> = (0..samples.len()).collect();
+    topmost.sort_unstable_by(|a, b| samples[*a].at.y.total_cmp(&samples[*b].at.y));
+    topmost.truncate(TOPMOST);
+    let piece = Piece {
+        context,
+        shapes,
+        on,
+        nape: bounds.0.y + NAPE * size.y,
+        worn: worn(shapes, garments, &samples),
+        samples,
+        topmost,
+    };
+    // At the border of a soft volume front and back meet, so that a skin has something to lie on there.
+    let inset = (!shapes[on].is_soft).then_some(SHRINK * size.max_element());
+    let skin = |same: Vec<Garment>| {
+        let along = piece.closes(&same)?;
+        let count = along.iter().filter(|is_along| **is_along).count();
+        let largest = same
+            .iter()
+            .max_by(|a, b| a.area.total_cmp(&b.area).then(b.shape.cmp(&a.shape)))?;
+        let back = Back {
+            of: largest.shape,
+            on,
+            outline: region(outline, ring, &piece.samples, &along, inset)?,
+            plates: Vec::new(),
+        };
+        Some((count, back))
+    };
+    let wardrobe = piece.wardrobe(garments).into_iter();
+    let mut found: Vec<(usize, Back)> = wardrobe.filter_map(skin).collect();
+    // What covers least comes last, so that nothing hides it.
+    found.sort_by_key(|(count, back)| (std::cmp::Reverse(*count), back.of));
+    found.into_iter().map(|(_, back)| back).collect()
+}
+
+/// Per sample the largest of the shapes that cover it on the border and inside: not the highlights on hair, but the hair.
+fn worn(shapes: &[Shape], garments: &[Garment], samples: &[Sample]) -> Vec<[Option<usize>; 2]> {
     let worn = |later: DVec2, earlier: DVec2| {
         let covers = garments.iter().filter(|garment| {
             let other = &shapes[garment.shape];
@@ -290,89 +329,114 @@ fn of_piece(
             .max_by(|a, b| a.area.total_cmp(&b.area).then(b.shape.cmp(&a.shape)))
             .map(|garment| garment.shape)
     };
-    let worn: Vec<[Option<usize>; 2]> = samples
+    samples
         .iter()
         .map(|sample| [sample.on_border, sample.inside].map(|point| worn(point, sample.outside)))
-        .collect();
-    let mut topmost: Vec<usize> = (0..samples.len()).collect();
-    topmost.sort_unstable_by(|a, b| samples[*a].at.y.total_cmp(&samples[*b].at.y));
-    topmost.truncate(TOPMOST);
+        .collect()
+}
 
-    let color = |shape: usize| {
-        let part = &context.bindings.parts[shapes[shape].part];
-        part.paint(context.drawing).color
-    };
-    // What differs only as light and shadow on hair do is one garment.
-    let mut wardrobe: Vec<([u8; 3], Vec<Garment>)> = Vec::new();
-    let skin = color(on);
-    for garment in garments {
-        let own = color(garment.shape);
-        if own == skin {
-            continue;
-        }
-        match wardrobe.iter_mut().find(|(color, _)| is_alike(*color, own)) {
-            Some((_, same)) => same.push(*garment),
-            None => wardrobe.push((own, vec![*garment])),
-        }
-    }
-    let mut found: Vec<(usize, Back)> = Vec::new();
-    for (_, same) in &wardrobe {
-        let is_same = |worn: Option<usize>| {
-            worn.is_some_and(|worn| same.iter().any(|garment| garment.shape == worn))
+/// A piece of a volume's outline, and what is worn along its border.
+struct Piece<'a> {
+    context: &'a FigureContext<'a>,
+    shapes: &'a [Shape],
+    on: usize,
+    /// How far hair comes down on it, the drawing's y.
+    nape: f64,
+    samples: Vec<Sample>,
+    worn: Vec<[Option<usize>; 2]>,
+    /// The samples nearest to the top of the page.
+    topmost: Vec<usize>,
+}
+
+impl Piece<'_> {
+    /// The garments in groups of about the same colour: what differs only as light and shadow on hair do is one garment.
+    fn wardrobe(&self, garments: &[Garment]) -> Vec<Vec<Garment>> {
+        let color = |shape: usize| {
+            let part = &self.context.bindings.parts[self.shapes[shape].part];
+            part.paint(self.context.drawing).color
         };
-        let goes = worn.iter().map(|worn| {
-            let [on_border, inside] = worn.map(is_same);
-            // What is drawn with an outline of its own is no dark rim: a face within hair leaves the hair as it is.
-            [on_border, inside && (on_border || !shape.is_outlined)]
-        });
-        let goes: Vec<[bool; 2]> = goes.collect();
+        let skin = color(self.on);
+        let mut wardrobe: Vec<([u8; 3], Vec<Garment>)> = Vec::new();
+        for garment in garments {
+            let own = color(garment.shape);
+            if own == skin {
+                continue;
+            }
+            match wardrobe.iter_mut().find(|(color, _)| is_alike(*color, own)) {
+                Some((_, same)) => same.push(*garment),
+                None => wardrobe.push((own, vec![*garment])),
+            }
+        }
+        wardrobe.into_iter().map(|(_, same)| same).collect()
+    }
+
+    /// Per sample whether garments that are one close behind the volume there; `None` if they do not.
+    fn closes(&self, same: &[Garment]) -> Option<Vec<bool>> {
+        let goes = self.goes(same);
         let share = |is: &dyn Fn(&[bool; 2]) -> bool| {
-            goes.iter().filter(|goes| is(goes)).count() as f64 / samples.len() as f64
+            goes.iter().filter(|goes| is(goes)).count() as f64 / goes.len() as f64
         };
         let (on_border, inside) = (share(&|goes| goes[0]), share(&|goes| goes[1]));
         // An outline covers all of the border, and nothing else.
         if on_border >= WHOLE && inside < NO_OUTLINE * on_border {
-            continue;
+            return None;
         }
-        let is_fill = |garment: &Garment| {
-            let own = shapes[garment.shape].area;
-            garment.is_later
-                && garment.area >= FILL * shape.area
-                && garment.area >= INSIDE_RIM * own
-        };
         let has_back = same.iter().all(|garment| garment.wraps);
         let is_worn = on_border >= AROUND && same.iter().any(|garment| garment.is_later);
-        let is_rim = inside >= WHOLE && same.iter().any(is_fill);
+        let is_rim = inside >= WHOLE && same.iter().any(|garment| self.is_fill(garment));
         let mut along: Vec<bool> = goes.iter().map(|goes| goes[0] || goes[1]).collect();
         close_gaps(&mut along);
-        if has_back || !(is_worn || is_rim) {
-            let at_top = topmost.iter().filter(|index| along[**index]).count() as f64;
-            keep_runs(&mut along, &topmost);
-            let count = along.iter().filter(|is_along| **is_along).count() as f64;
-            if at_top < TOP * topmost.len() as f64 || count < FROM_ABOVE * samples.len() as f64 {
-                continue;
-            }
+        if !has_back && (is_worn || is_rim) {
+            return Some(along);
         }
-        let count = along.iter().filter(|is_along| **is_along).count();
-        let largest = same
-            .iter()
-            .max_by(|a, b| a.area.total_cmp(&b.area).then(b.shape.cmp(&a.shape)));
-        // At the border of a soft volume front and back meet, so that a skin has something to lie on there.
-        let inset = (!shape.is_soft).then_some(SHRINK * size.max_element());
-        let outline = region(outline, ring, &samples, &along, inset);
-        if let (Some(outline), Some(largest)) = (outline, largest) {
-            let back = Back {
-                of: largest.shape,
-                on,
-                outline,
-                plates: Vec::new(),
-            };
-            found.push((count, back));
+        let share_of_top = self.share_of_top(&along);
+        keep_runs(&mut along, &self.topmost);
+        let count = along.iter().filter(|is_along| **is_along).count() as f64;
+        if share_of_top < TOP || count < FROM_ABOVE * along.len() as f64 {
+            return None;
         }
+        if same.iter().any(|garment| self.is_hair(garment.shape)) {
+            let samples = along.iter_mut().zip(&self.samples);
+            samples.for_each(|(along, sample)| *along |= sample.at.y <= self.nape);
+        }
+        Some(along)
     }
-    // What covers least comes last, so that nothing hides it.
-    found.sort_by_key(|(count, back)| (std::cmp::Reverse(*count), back.of));
-    found.into_iter().map(|(_, back)| back).collect()
+
+    /// Per sample whether one of these garments covers it on the border and inside.
+    fn goes(&self, same: &[Garment]) -> Vec<[bool; 2]> {
+        let is_same = |worn: Option<usize>| {
+            worn.is_some_and(|worn| same.iter().any(|garment| garment.shape == worn))
+        };
+        let is_outlined = self.shapes[self.on].is_outlined;
+        let goes = self.worn.iter().map(|worn| {
+            let [on_border, inside] = worn.map(is_same);
+            // What is drawn with an outline of its own is no dark rim: a face within hair leaves the hair as it is.
+            [on_border, inside && (on_border || !is_outlined)]
+        });
+        goes.collect()
+    }
+
+    /// The share of the topmost samples that something goes along.
+    fn share_of_top(&self, along: &[bool]) -> f64 {
+        let at_top = self.topmost.iter().filter(|index| along[**index]);
+        at_top.count() as f64 / self.topmost.len() as f64
+    }
+
+    /// Whether a garment is the fill of a volume that is its dark rim.
+    fn is_fill(&self, garment: &Garment) -> bool {
+        let own = self.shapes[garment.shape].area;
+        garment.is_later
+            && garment.area >= FILL * self.shapes[self.on].area
+            && garment.area >= INSIDE_RIM * own
+    }
+
+    fn is_hair(&self, shape: usize) -> bool {
+        let shape = &self.shapes[shape];
+        let parts = [shape.part, shape.main].map(|part| &self.context.bindings.parts[part]);
+        parts
+            .iter()
+            .any(|part| anatomy::terms(&part.name).contains(&Term::Hair))
+    }
 }
 
 /// Whether two colours are about the same.
