@@ -6,6 +6,7 @@
 
 mod attributes;
 mod bindings;
+mod bodies;
 mod describe;
 mod hierarchy;
 mod matching;
@@ -40,9 +41,10 @@ use matching::Matched;
 
 /// Binds the strings of a drawing to its parts.
 pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
-    let matched = matching::find(drawing, memo, diagnostics);
+    let mut matched = matching::find(drawing, memo, diagnostics);
     let attributes = attributes::resolve(drawing, &matched, diagnostics);
     let tree = hierarchy::build(drawing, &matched, &attributes, memo, diagnostics);
+    bodies::soften(drawing, &mut matched, &tree);
     diagnostics.extend(reports::all(drawing, &matched, &attributes, &tree));
     assembled(matched, attributes, tree)
 }

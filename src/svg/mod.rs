@@ -179,8 +179,8 @@ pub struct Shape {
     pub element: Element,
     /// Its filled area; empty for lines. Parts and solids share it.
     pub outline: Arc<Outline>,
-    /// Whether more than half of the border of its filled area is drawn as curves.
-    pub is_curved: bool,
+    /// The share of the border of its filled area that is drawn as curves.
+    pub curved: f64,
     /// Its fill, or its stroke if it has no fill.
     pub paint: Paint,
     /// Opacity of fill, element and groups together, 0 to 1.

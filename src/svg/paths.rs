@@ -148,8 +148,8 @@ pub(super) fn rings(path: &BezPath, tolerance: f64) -> Vec<Ring> {
 /// How far a curve leaves the straight line between its ends at least, as a share of that line's length.
 const BENT: f64 = 0.02;
 
-/// Whether more than half of a path's length is curves. Those that are almost straight count as lines.
-pub(super) fn is_curved(path: &BezPath) -> bool {
+/// The share of a path's length that is curves. Those that are almost straight count as lines.
+pub(super) fn curved(path: &BezPath) -> f64 {
     let (mut curved, mut straight) = (0.0, 0.0);
     for segment in path.segments() {
         let points = match segment {
@@ -179,7 +179,8 @@ pub(super) fn is_curved(path: &BezPath) -> bool {
             straight += length;
         }
     }
-    curved > straight
+    let length = curved + straight;
+    if length > 0.0 { curved / length } else { 0.0 }
 }
 
 pub(super) fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Box<Line>> {

@@ -11,7 +11,7 @@ use typed_index_collections::TiVec;
 use super::elements::{Ids, NOT_DRAWN, element, labels};
 use super::fit::ImageViewports;
 use super::links::{options, report_links, unusable};
-use super::paths::{StrokeSource, affine, bez_path, is_curved, open_line, rings};
+use super::paths::{StrokeSource, affine, bez_path, curved, open_line, rings};
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::tangles::Tangles;
@@ -370,7 +370,7 @@ impl Context<'_, '_> {
             group: task.group,
             element,
             outline: Arc::new(outline),
-            is_curved: fill.is_some() && is_curved(&bez),
+            curved: if fill.is_some() { curved(&bez) } else { 0.0 },
             paint,
             opacity,
             stroke,
@@ -394,7 +394,7 @@ impl Context<'_, '_> {
             group: task.group,
             element,
             outline: Arc::new(source.rectangle()),
-            is_curved: false,
+            curved: 0.0,
             paint: Paint {
                 key: PaintKey::Picture(index),
                 color: [0; 3],

@@ -76,6 +76,9 @@ pub(in crate::bind) struct Matched {
     stacking: Option<Arc<Stacking>>,
 }
 
+/// The share of its border that is drawn as curves, from which on a shape is inflated in a drawing that never says `Shape`.
+const ROUNDED: f64 = 0.5;
+
 /// Reads the strings of a drawing, finds its parts, and binds each string to the part that it means.
 pub(in crate::bind) fn find(
     drawing: &Drawing,
@@ -119,7 +122,7 @@ pub(in crate::bind) fn find(
     if read.is_first_look {
         for part in &mut parts {
             // Lines are tubes.
-            part.is_balloon = part.is_stroke || drawing.shapes[part.shape].is_curved;
+            part.is_balloon = part.is_stroke || drawing.shapes[part.shape].curved > ROUNDED;
         }
     }
     let strings = read.all.into_iter().zip(bound);
