@@ -102,6 +102,8 @@ fn stdin_and_stdout() {
     let run = Run::of(room.pipe(&["check", "-"], BAD.as_bytes()));
     run.ends(1, "--> <stdin>:3:42", "");
     let run = Run::of(room.pipe(&["inspect", "-"], GOOD.as_bytes()));
+    let size = "\nmodel 0.4 m high, 1.3 m wide, 0.141 m deep\n";
+    assert!(run.out.ends_with(size), "{}", run.out);
     run.ends(0, "└─ Body", "");
 }
 
@@ -120,7 +122,7 @@ fn nothing_is_written_on_errors() {
     room.run(&["build", "bad.svg", "--keep-going"]).ends(
         1,
         "",
-        "wrote bad.glb: 1 part, 12 triangles\n",
+        "wrote bad.glb: 1 part, 12 triangles, 0.4 m high, 0.6 m wide, 0.141 m deep\n",
     );
     assert_eq!(names(&room.read("bad.glb")), ["Root", "Body"]);
 }
