@@ -9,6 +9,7 @@
 mod animation;
 mod camera;
 mod deferred;
+mod size;
 mod skin;
 mod turn;
 mod world;
@@ -23,6 +24,7 @@ use crate::index::index_type;
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use camera::{Camera, CameraProjection};
 pub use deferred::SurfaceSource;
+pub use size::Size;
 pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPatch, TooManyJoints};
 pub use turn::{Turn, ViewId, direction, view_axes};
 #[doc(no_inline)]

@@ -250,6 +250,7 @@ const USES: &[(&str, &[&str])] = &[
             "render",
             "report",
             "resolver",
+            "scene",
             "source",
             "tracking",
             "watch",

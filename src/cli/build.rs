@@ -172,7 +172,12 @@ fn summary(loaded: &Loaded, written: Written) -> String {
         0 => String::new(),
         count => format!(", {}", counted(count, "clip")),
     };
-    format!("{parts}, {}{clips}", counted(written.triangles, "triangle"))
+    let size = written.size.map(|size| format!(", {size}"));
+    format!(
+        "{parts}, {}{clips}{}",
+        counted(written.triangles, "triangle"),
+        size.unwrap_or_default()
+    )
 }
 
 /// What was built and how long it took, one value per line.
@@ -192,6 +197,12 @@ fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2])
         ("clips", scene.animations.len().to_string()),
         ("triangles", written.triangles.to_string()),
         ("vertices", written.vertices.to_string()),
+        (
+            "size",
+            written
+                .size
+                .map_or("none".to_owned(), |size| size.to_string()),
+        ),
         ("data bytes", written.bytes.to_string()),
         ("compiled in", milliseconds(times[0])),
         ("written in", milliseconds(times[1])),

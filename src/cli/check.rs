@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use super::args::{Check, Common, Format};
+use super::digest::{Detail, describe};
 use super::fix::fix;
-use super::loading::{Detail, Loaded, count, describe, load, resolver, tally};
+use super::loading::{Loaded, count, load, resolver, tally};
 use super::parallel::each;
 use super::progress::spinning;
 use super::{Outcome, counted, fail, print_out, sarif, style};
@@ -83,7 +84,7 @@ fn human(read: &[Checked], arguments: &Check, common: Common) -> String {
     let style = style(common, &std::io::stdout());
     let mut out = String::new();
     for (loaded, fixed) in read {
-        out.push_str(&describe(loaded.findings(), common, Detail::Asked, style));
+        out.push_str(&describe(loaded.findings(), common, Detail::All, style));
         if !common.quiet {
             let counts = tally(&loaded.compiled.diagnostics);
             let findings = match (counts == [0; 3], arguments.fix) {

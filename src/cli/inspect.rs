@@ -14,6 +14,7 @@ use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{NamedBy, PartId, SetBy};
 use crate::compile::Compiled;
 use crate::disk::is_standard_stream;
+use crate::export;
 use crate::ide::{Subject, Which};
 use crate::lang::keyword::Keyword;
 use crate::report::{depth_reason, describe_character, figures, inspection_json, node_back_reason};
@@ -34,14 +35,16 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Result<Outcome, Failur
     if picture.is_some_and(is_standard_stream) || drawn == Outcome::Failed {
         return Ok(loaded.outcome().max(drawn));
     }
+    let size = export::size(&loaded.compiled.scene)?;
     let text = if arguments.json {
-        inspection_json(&loaded.path, &loaded.compiled, &loaded.text)
+        inspection_json(&loaded.path, &loaded.compiled, &loaded.text, size)
     } else {
         let numbers = match picture {
             Some(_) => Numbers::AsInPicture,
             None => Numbers::None,
         };
-        tree(&loaded, numbers)
+        let size = size.map(|size| format!("model {size}\n"));
+        tree(&loaded, numbers) + &size.unwrap_or_default()
     };
     Ok(loaded.outcome().max(drawn).max(print_out(&text)))
 }

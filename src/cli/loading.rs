@@ -3,18 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::args::{Common, Reading};
-use super::report::{self, Style};
+use super::digest::{Detail, describe};
 use super::{Outcome, counted, fail, style};
 use crate::compile::{Compiled, Options, compile};
-use crate::diagnostic::{Diagnostic, Severity};
+use crate::diagnostic::Diagnostic;
 use crate::disk::{FolderResolver, decode, is_standard_stream, read_drawing};
 use crate::look::Look;
 use crate::report::{Findings, Likeness};
-
-/// The most hints that commands other than `check` show.
-const MAX_HINTS: usize = 10;
-/// The most findings of each severity without `--verbose`.
-const MAX_FINDINGS: usize = 200;
 
 /// A drawing that was read and compiled.
 pub(super) struct Loaded {
@@ -45,7 +40,7 @@ impl Loaded {
     /// Its findings as text for people, beside what a command does with it.
     pub(super) fn findings_aside(&self, common: Common) -> String {
         let stderr = style(common, &std::io::stderr());
-        describe(self.findings(), common, Detail::Aside, stderr)
+        describe(self.findings(), common, Detail::All, stderr)
     }
 
     /// The files that it links to, including missing ones.
@@ -125,73 +120,6 @@ pub(super) fn resolver(path: &Path, reading: &Reading) -> FolderResolver {
     let beside = || path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
     let base = reading.base.clone().unwrap_or_else(beside);
     FolderResolver::new(base).allowing(reading.root.as_deref())
-}
-
-/// Which findings to show.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Detail {
-    /// The command reports findings: with hints.
-    Asked,
-    /// The command does something else: with a few hints.
-    Aside,
-    /// The command reports repeatedly: without hints.
-    Repeated,
-}
-
-/// The findings of a drawing as text for people.
-pub(super) fn describe(
-    findings: Findings<'_>,
-    common: Common,
-    detail: Detail,
-    style: Style,
-) -> String {
-    let most_hints = match detail {
-        _ if common.quiet => 0,
-        _ if common.verbose => usize::MAX,
-        Detail::Asked => MAX_FINDINGS,
-        Detail::Aside => MAX_HINTS,
-        Detail::Repeated => 0,
-    };
-    let most = if common.verbose {
-        usize::MAX
-    } else {
-        MAX_FINDINGS
-    };
-    let mut shown: Vec<Diagnostic> = Vec::new();
-    let mut hidden = [0_usize; 3];
-    let mut counts = [0_usize; 3];
-    for diagnostic in findings.diagnostics {
-        let slot = diagnostic.severity() as usize;
-        let limit = match diagnostic.severity() {
-            Severity::Error => most,
-            Severity::Warning if common.quiet => 0,
-            Severity::Warning => most,
-            Severity::Hint => most_hints,
-        };
-        counts[slot] += 1;
-        if counts[slot] <= limit {
-            shown.push(diagnostic.clone());
-        } else {
-            hidden[slot] += 1;
-        }
-    }
-    let mut out = report::human(
-        Findings {
-            diagnostics: &shown,
-            ..findings
-        },
-        style,
-    );
-    if detail == Detail::Repeated {
-        hidden[Severity::Hint as usize] = 0;
-    }
-    if !common.quiet && hidden.iter().sum::<usize>() > 0 {
-        out.push_str(&format!(
-            "… and {}; `okoshi check -v` shows all\n",
-            count(hidden)
-        ));
-    }
-    out
 }
 
 /// `2 errors, 1 warning`

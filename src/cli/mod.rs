@@ -11,6 +11,7 @@
 mod args;
 mod build;
 mod check;
+mod digest;
 mod explain;
 mod fix;
 mod inspect;

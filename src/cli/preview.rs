@@ -68,9 +68,7 @@ fn publish(hub: &Arc<Hub>, target: &Path, drawing: &Path, build: &Build) {
     let names = [&folder, name.as_deref().unwrap_or("")];
     let model = build.model.as_ref().ok().or(build.incomplete.as_ref());
     let bytes = model.map(|model| Arc::from(model.bytes.as_slice()));
-    let model = bytes
-        .as_ref()
-        .zip(model.map(|model| model.written.triangles));
+    let model = bytes.as_ref().zip(model.map(|model| model.written));
     let shown = Shown {
         text: &build.text,
         compiled: &build.compiled,

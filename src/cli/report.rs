@@ -39,23 +39,56 @@ pub fn human(findings: Findings, style: Style) -> String {
     if findings.diagnostics.is_empty() {
         return String::new();
     }
-    let renderer = match style {
-        Style::Plain => Renderer::plain(),
-        Style::Colored => Renderer::styled(),
-    };
-    let page = Page {
-        path: findings.path,
-        text: findings.text,
-        places: LineIndex::new(findings.text),
-    };
-    let mut out = String::new();
-    for diagnostic in findings.diagnostics {
-        let (groups, shown) = page.report(diagnostic);
-        let rendered = renderer.render(&groups);
-        out.push_str(&page.with_places(rendered, &shown, diagnostic.on_page));
-        out.push_str("\n\n");
+    let reports = Reports::new(findings.path, findings.text, style);
+    let all = findings.diagnostics.iter();
+    all.map(|diagnostic| reports.report(diagnostic)).collect()
+}
+
+/// Reports on one drawing.
+pub(super) struct Reports<'a> {
+    page: Page<'a>,
+    renderer: Renderer,
+}
+
+impl<'a> Reports<'a> {
+    pub(super) fn new(path: &'a str, text: &'a str, style: Style) -> Self {
+        Self {
+            page: Page {
+                path,
+                text,
+                places: LineIndex::new(text),
+            },
+            renderer: match style {
+                Style::Plain => Renderer::plain(),
+                Style::Colored => Renderer::styled(),
+            },
+        }
     }
-    out
+
+    /// A finding as a paragraph.
+    pub(super) fn report(&self, diagnostic: &Diagnostic) -> String {
+        let (groups, shown) = self.page.report(diagnostic);
+        let rendered = self.renderer.render(&groups);
+        self.page.with_places(rendered, &shown, diagnostic.on_page) + "\n\n"
+    }
+
+    /// A finding as one line, without line feed: `a.svg:14:3: hint[H402]: …`
+    pub(super) fn line(&self, diagnostic: &Diagnostic) -> String {
+        let (line, column) = self.place(diagnostic);
+        let path = tame(self.page.path);
+        let (severity, code) = (diagnostic.severity().name(), diagnostic.code.id());
+        let words: Vec<&str> = diagnostic.message.split_whitespace().collect();
+        let message = words.join(" ");
+        format!(
+            "{path}:{line}:{column}: {severity}[{code}]: {}",
+            tame(&message)
+        )
+    }
+
+    /// The line and column of a finding.
+    pub(super) fn place(&self, diagnostic: &Diagnostic) -> (usize, usize) {
+        self.page.places.line_column(diagnostic.span.start)
+    }
 }
 
 /// A drawing that is reported on.

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use super::args::{Common, Noticing, Reading, Watch};
 use super::build::overwrites_drawing;
-use super::loading::{Detail, count, describe, tally};
+use super::digest::{Detail, describe};
+use super::loading::{count, tally};
 use super::{Failure, Outcome, counted, style};
 use crate::disk::{
     ChangeDetection, Inputs, Naming, ReadError, is_drawing, is_standard_stream, make_folder,

@@ -365,8 +365,8 @@ codes! {
     ///
     /// If it is a caption, put `#` before it. If it is a part's name, put it in quotes.
     Caption = "W308", "caption";
-    /// The drawing uses an SVG feature that has no meaning for solids, for example a mask or a filter. The part is
-    /// built without it.
+    /// The drawing uses an SVG feature that has no meaning for solids, for example a mask or a filter, or one that okoshi does
+    /// not read, such as an animation, a mesh gradient or a value of CSS like `calc()`. The part is built without it.
     ///
     /// Draw the outline itself, or use a clip, which okoshi understands.
     NoSolidMeaning = "W309", "SVG feature without solid meaning";

@@ -8,6 +8,7 @@ mod check;
 mod gltf;
 mod obj;
 mod output;
+mod size;
 mod surfaces;
 
 use std::path::Path;
@@ -15,7 +16,7 @@ use std::{fmt, io};
 
 use crate::crash;
 use crate::memo::Memo;
-use crate::scene::Scene;
+use crate::scene::{Scene, Size};
 use crate::threads;
 
 pub use gltf::{GLB, GLTF, ROOT, SKINNED, VIEW_DEPENDENT};
@@ -56,7 +57,7 @@ impl fmt::Debug for dyn Exporter {
 }
 
 /// How much was written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Written {
     /// Vertices, shared ones once.
@@ -65,6 +66,8 @@ pub struct Written {
     pub triangles: usize,
     /// Bytes of geometry, images and animation keys; their description is not counted.
     pub bytes: u64,
+    /// The size of the model; `None` without triangles.
+    pub size: Option<Size>,
 }
 
 /// A model as a file in memory.
@@ -110,10 +113,7 @@ pub fn write(
     memo: Option<&mut Memo>,
 ) -> io::Result<Written> {
     check::check(scene)?;
-    let mut run = |memo: &Memo| {
-        let written = threads::run(|| exporter.write(scene, out, memo));
-        written.unwrap_or_else(|crash| Err(io::Error::other(format!("{crash}; {}", crash::HELP))))
-    };
+    let mut run = |memo: &Memo| making_surfaces(|| exporter.write(scene, out, memo));
     let Some(memo) = memo else {
         return run(&Memo::none());
     };
@@ -137,6 +137,21 @@ pub fn to_memory(
         bytes: out.finish()?.into_inner(),
         written,
     })
+}
+
+/// The size of a scene that is not written; `None` without triangles. It takes as long as its surfaces take to make.
+///
+/// # Errors
+/// [`io::ErrorKind::InvalidInput`] for a scene that breaks its own rules.
+pub(crate) fn size(scene: &Scene) -> io::Result<Option<Size>> {
+    check::check(scene)?;
+    making_surfaces(|| size::measured(scene))
+}
+
+/// Runs work that makes surfaces, on threads with enough space for them; a crash is an error.
+fn making_surfaces<R: Send>(work: impl FnOnce() -> io::Result<R> + Send) -> io::Result<R> {
+    let done = threads::run(work);
+    done.unwrap_or_else(|crash| Err(io::Error::other(format!("{crash}; {}", crash::HELP))))
 }
 
 fn invalid(message: impl Into<String>) -> io::Error {

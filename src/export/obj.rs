@@ -7,14 +7,14 @@
 use std::fmt::Write as _;
 use std::io;
 
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{Quat, Vec3};
 use rayon::prelude::*;
-use typed_index_collections::{TiVec, ti_vec};
 
+use super::size::Extent;
 use super::surfaces::with_surface;
 use super::{Exporter, Output, SKINNED, Written, check, invalid};
 use crate::memo::Memo;
-use crate::scene::{MeshId, NodeId, Primitive, Scene, Surface};
+use crate::scene::{MeshId, Primitive, RigidTransform, Scene, Surface};
 
 /// Primitives that are in memory at a time.
 const WINDOW: usize = 512;
@@ -31,8 +31,7 @@ struct Part<'a> {
     primitive: &'a Primitive,
     /// The name of the node, at its first primitive.
     object: Option<&'a str>,
-    rotation: DQuat,
-    translation: DVec3,
+    pose: RigidTransform,
 }
 
 impl Exporter for Obj {
@@ -50,6 +49,7 @@ impl Exporter for Obj {
 
     fn write(&self, scene: &Scene, out: &mut dyn Output, memo: &Memo) -> io::Result<Written> {
         let mut written = Written::default();
+        let mut extent = Extent::default();
         // The indices of the next vertex, texture coordinates and normal; they count from 1.
         let mut next = [1; 3];
         writeln!(out, "# okoshi {}", env!("CARGO_PKG_VERSION"))?;
@@ -72,45 +72,37 @@ impl Exporter for Obj {
                 .collect();
             for (text, surface) in texts.iter().zip(&surfaces) {
                 out.write_all(text.as_bytes())?;
+                if let Some(bounds) = check::bounds(&surface.positions) {
+                    extent.add(&surface.positions, bounds, &RigidTransform::IDENTITY);
+                }
                 written.vertices += surface.positions.len();
                 written.triangles += surface.triangles.len();
                 written.bytes += text.len() as u64;
             }
         }
+        written.size = extent.size();
         Ok(written)
     }
 }
 
 /// The primitives of all nodes in the order of the nodes, and those of a skin.
 fn parts(scene: &Scene) -> Vec<Part<'_>> {
-    let mut places: TiVec<NodeId, (DQuat, DVec3)> =
-        ti_vec![(DQuat::IDENTITY, DVec3::ZERO); scene.nodes.len()];
     let mut parts = vec![];
-    let mut push = |mesh: MeshId, name, (rotation, translation)| {
+    let mut push = |mesh: MeshId, name, pose| {
         let mut object = Some(name);
         parts.extend(scene.meshes[mesh].primitives.iter().map(|primitive| Part {
             primitive,
             object: object.take(),
-            rotation,
-            translation,
+            pose,
         }));
     };
-    // A child comes after its parent.
-    for (id, node) in scene.nodes.iter_enumerated() {
-        let (rotation, translation) = places[id];
-        let place = (
-            rotation * node.rotation,
-            rotation * node.translation + translation,
-        );
-        for child in &node.children {
-            places[*child] = place;
-        }
+    for (node, pose) in scene.nodes.iter().zip(scene.rest()) {
         if let Some(mesh) = node.mesh {
-            push(mesh, node.name.as_str(), place);
+            push(mesh, node.name.as_str(), pose);
         }
     }
     if let Some(skin) = &scene.skin {
-        push(skin.mesh, SKINNED, (DQuat::IDENTITY, DVec3::ZERO));
+        push(skin.mesh, SKINNED, RigidTransform::IDENTITY);
     }
     parts
 }
@@ -127,10 +119,10 @@ impl Part<'_> {
             return Err(invalid("a primitive with a material out of range"));
         }
         for position in &mut surface.positions {
-            let place = self.rotation * Vec3::from(*position).as_dvec3() + self.translation;
+            let place = self.pose.place(Vec3::from(*position).as_dvec3());
             *position = place.as_vec3().to_array();
         }
-        let rotation: Quat = self.rotation.as_quat();
+        let rotation: Quat = self.pose.rotation.as_quat();
         for normal in &mut surface.normals {
             *normal = (rotation * Vec3::from(*normal)).to_array();
         }
@@ -198,9 +190,11 @@ fn word(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::{by_extension, to_memory};
+    use crate::export::{GLB, by_extension, to_memory};
     use crate::scene::{Material, Mesh, Node, SurfacePatch};
+    use glam::{DQuat, DVec3};
     use std::path::Path;
+    use typed_index_collections::ti_vec;
 
     fn triangle(uvs: Vec<[f32; 2]>) -> Mesh {
         let surface = Surface {
@@ -261,6 +255,13 @@ mod tests {
         let exporter = by_extension(Path::new("a/model.OBJ")).unwrap();
         let model = to_memory(exporter, &scene(), None).unwrap();
         assert_eq!((model.written.vertices, model.written.triangles), (6, 2));
+        let size = model.written.size.unwrap();
+        assert_eq!([size.width, size.height, size.depth], [3.0, 1.5, 0.0]);
+        assert_eq!(super::super::size(&scene()).unwrap(), Some(size));
+        assert_eq!(
+            to_memory(&GLB, &scene(), None).unwrap().written.size,
+            Some(size)
+        );
         let text = String::from_utf8(model.bytes).unwrap();
         assert_eq!(lines(&text, "o"), ["Upper_arm", "_"]);
         assert_eq!(lines(&text, "usemtl"), ["sky_blue"; 2]);

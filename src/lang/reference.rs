@@ -85,7 +85,8 @@ pub fn reference() -> String {
 pub fn diagnostics(report: impl Fn(Code) -> Option<String>) -> String {
     let mut out = format!(
         "# Diagnostics\n\n{GENERATED}\nWith errors, `okoshi build` does not write a model; warnings and hints \
-         do not prevent it. `okoshi explain CODE` prints a section in the terminal.\n"
+         do not prevent it. `okoshi explain CODE` prints a section in the terminal. Of many findings of one kind, commands \
+         [print the first](commands.md) and count the others, unless you add `-v`.\n"
     );
     for severity in [Severity::Error, Severity::Warning, Severity::Hint] {
         let _ = write!(out, "\n## {}s\n", sentence(severity.name()));

@@ -191,7 +191,7 @@ impl Previews {
             None
         } else {
             match export::to_memory(&GLB, &compiled.scene, Some(memory)) {
-                Ok(model) => Some((model.bytes.into(), model.written.triangles)),
+                Ok(model) => Some((model.bytes.into(), model.written)),
                 Err(_) if compiled.has_errors() => None,
                 Err(error) => {
                     return self.publish(uri, analyzed, &Compiled::unwritten(&error), memory);
@@ -204,7 +204,7 @@ impl Previews {
         let shown = Shown {
             text: analyzed.document.text(),
             compiled,
-            model: model.as_ref().map(|(bytes, triangles)| (bytes, *triangles)),
+            model: model.as_ref().map(|(bytes, written)| (bytes, *written)),
             times: BuildTimes {
                 noticed: begun,
                 started: begun,

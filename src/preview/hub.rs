@@ -10,7 +10,7 @@ use tokio::sync::{Semaphore, watch};
 use super::delta::delta;
 use super::message::{Build, Listed, PartOrKept, ToPage, findings};
 use crate::compile::Compiled;
-use crate::export::{self, GLB};
+use crate::export::{self, GLB, Written};
 use crate::render::{self, Options, PosedModel, write_png};
 use crate::report::{clips, everything};
 use crate::resolver::MemoryResolver;
@@ -102,7 +102,7 @@ pub(super) struct StoredModel {
     pub(super) originals: Option<Bytes>,
     /// The description of its clips.
     clips: Box<RawValue>,
-    triangles: usize,
+    written: Written,
     picture: OnceLock<Option<Bytes>>,
     /// The number of the model before, and what changed since.
     delta: OnceLock<(u64, Option<Bytes>)>,
@@ -154,8 +154,8 @@ pub(crate) struct Shown<'a> {
     pub text: &'a str,
     /// The compiled drawing.
     pub compiled: &'a Compiled,
-    /// The model as binary glTF and its number of triangles; `None` keeps the last one. With errors it is what can be built.
-    pub model: Option<(&'a Arc<[u8]>, usize)>,
+    /// The model as binary glTF, and how much that is; `None` keeps the last one. With errors it is what can be built.
+    pub model: Option<(&'a Arc<[u8]>, Written)>,
     /// When it was built.
     pub times: BuildTimes,
 }
@@ -204,7 +204,7 @@ impl Hub {
             entry.revision += 1;
             entry.gone = None;
             entry.was_good |= shown.model.is_some() && !shown.compiled.has_errors();
-            if let Some((bytes, triangles)) = shown.model {
+            if let Some((bytes, written)) = shown.model {
                 let is_equal = |last: &Arc<StoredModel>| {
                     let same = last.bytes == *bytes && last.originals == originals;
                     same && last.clips.get() == clips.get()
@@ -217,7 +217,7 @@ impl Hub {
                         bytes: bytes.clone(),
                         originals,
                         clips,
-                        triangles,
+                        written,
                         picture: OnceLock::new(),
                         delta: OnceLock::new(),
                     }));
@@ -239,7 +239,8 @@ impl Hub {
                 picture: model.map(|model| format!("pictures/{}.png", model.number)),
                 stale: shown.model.is_none() && model.is_some(),
                 incomplete: shown.model.is_some() && shown.compiled.has_errors(),
-                triangles: model.map_or(0, |model| model.triangles),
+                triangles: model.map_or(0, |model| model.written.triangles),
+                size: model.and_then(|model| model.written.size),
                 findings: found,
                 since: None,
                 parts: parts.iter().map(|part| PartOrKept::Part(part)).collect(),

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
 use crate::diagnostic::Diagnostic;
+use crate::scene::Size;
 use crate::source::LineIndex;
 use crate::watch::BuildTimes;
 
@@ -50,6 +51,8 @@ pub(super) struct Build<'a> {
     /// Whether the model is only what can be built of a drawing with errors.
     pub(super) incomplete: bool,
     pub(super) triangles: usize,
+    /// The size of the model, metres; `None` without triangles.
+    pub(super) size: Option<Size>,
     pub(super) findings: Vec<Finding<'a>>,
     /// The revision that kept parts are of; `None` if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]

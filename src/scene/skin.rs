@@ -29,7 +29,7 @@ pub struct RigidTransform {
 }
 
 impl RigidTransform {
-    const IDENTITY: Self = Self {
+    pub(crate) const IDENTITY: Self = Self {
         rotation: DQuat::IDENTITY,
         translation: DVec3::ZERO,
     };
@@ -43,7 +43,7 @@ impl RigidTransform {
     }
 
     /// The image of a point.
-    fn place(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn place(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
@@ -124,7 +124,7 @@ impl Scene {
                 joints: joints.len(),
             });
         }
-        let to_world = rest(&self.nodes);
+        let to_world = self.rest();
         let rest: Vec<RigidTransform> = joints.iter().map(|node| to_world[*node]).collect();
         let kept = below_view_dependent(&self.nodes);
         let mut by_material: TiVec<MaterialId, Vec<SurfacePatch>> =
@@ -160,6 +160,20 @@ impl Scene {
         Ok(self)
     }
 
+    /// The transforms of the nodes to the world in the rest pose.
+    pub(crate) fn rest(&self) -> TiVec<NodeId, RigidTransform> {
+        let mut outer: TiVec<NodeId, RigidTransform> =
+            ti_vec![RigidTransform::IDENTITY; self.nodes.len()];
+        // A child comes after its parent.
+        for (id, node) in self.nodes.iter_enumerated() {
+            outer[id] = outer[id].after(&RigidTransform::of(node));
+            for child in &node.children {
+                outer[*child] = outer[id];
+            }
+        }
+        outer
+    }
+
     /// Removes the meshes that no node uses.
     fn keep_used_meshes(&mut self) {
         let mut is_used: TiVec<MeshId, bool> = ti_vec![false; self.meshes.len()];
@@ -188,16 +202,4 @@ fn below_view_dependent(nodes: &TiSlice<NodeId, Node>) -> TiVec<NodeId, bool> {
         }
     }
     found
-}
-
-/// The transforms of nodes to the world; a child comes after its parent.
-fn rest(nodes: &TiSlice<NodeId, Node>) -> TiVec<NodeId, RigidTransform> {
-    let mut outer: TiVec<NodeId, RigidTransform> = ti_vec![RigidTransform::IDENTITY; nodes.len()];
-    for (id, node) in nodes.iter_enumerated() {
-        outer[id] = outer[id].after(&RigidTransform::of(node));
-        for child in &node.children {
-            outer[*child] = outer[id];
-        }
-    }
-    outer
 }

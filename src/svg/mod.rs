@@ -5,6 +5,7 @@
 //! annotation language.
 
 mod clip;
+mod dropped;
 mod elements;
 mod entities;
 mod excerpts;

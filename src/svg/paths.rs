@@ -1,12 +1,14 @@
 //! usvg's paths and transforms in f64, and properties of a single path.
 
+use std::sync::Arc;
+
 use glam::{DAffine2, DMat2, DVec2};
 use kurbo::BezPath;
 use roxmltree::Node;
 use usvg::tiny_skia_path as skia;
 
 use super::{Line, Paint};
-use crate::geometry::{FillRule, Outline, Ring, flatten, resolve_overlaps};
+use crate::geometry::{FillRule, Outline, Ring, flatten, resolve_overlaps, subtract};
 
 /// The smallest tolerance of flattening, as a fraction of the path's extent. It limits the number of segments.
 const FINEST: f64 = 1e-5;
@@ -18,6 +20,8 @@ pub struct StrokeSource {
     pub(super) stroke: skia::Stroke,
     pub(super) transform: DAffine2,
     pub(super) tolerance: f64,
+    /// The fill that is painted over the stroke, if it is.
+    pub(super) covered_by: Option<Arc<Outline>>,
     /// The stroke's paint.
     pub paint: Paint,
 }
@@ -81,8 +85,17 @@ impl StrokeSource {
         (is_one && is_open).then_some(points)
     }
 
-    /// The area that the stroke covers.
+    /// The area in which the stroke is seen.
     pub fn outline(&self) -> Outline {
+        let whole = self.whole_outline();
+        match &self.covered_by {
+            Some(fill) => subtract(&whole, fill),
+            None => whole,
+        }
+    }
+
+    /// The area that the stroke covers.
+    fn whole_outline(&self) -> Outline {
         let extent = self
             .path
             .bounds()

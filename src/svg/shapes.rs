@@ -8,7 +8,7 @@ use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
-use super::elements::{Ids, NOT_DRAWN, element, labels};
+use super::elements::{Ids, element, labels};
 use super::fit::ImageViewports;
 use super::links::{options, report_links, unusable};
 use super::paths::{StrokeSource, affine, bez_path, curved, open_line, rings};
@@ -17,7 +17,9 @@ use super::style::Styles;
 use super::tangles::Tangles;
 use super::unsolid::Who;
 use super::walk::{Leaf, Task, Walk, group_kind};
-use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, ShapeId, growth, unseen};
+use super::{
+    Drawing, Element, Paint, PaintKey, PictureSource, Shape, ShapeId, dropped, growth, unseen,
+};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{FillRule, Outline, resolve_crossings, resolve_overlaps};
 use crate::resolver::Resolver;
@@ -42,13 +44,16 @@ pub(super) fn read(
         None
     };
     // usvg uses one core; the texts, which it does not read, need only the XML.
-    let (tree, (labels, by_id, unseen)) = rayon::join(
+    let (tree, (labels, by_id, unseen, dropped)) = rayon::join(
         || usvg::Tree::from_xmltree(document, &options(resolver, &viewports, &unshown)),
         || {
+            let ids = early_ids.unwrap_or_else(|| Ids::read(document, prepared));
+            let dropped = dropped::read(document, &styles, prepared, &ids);
             (
                 labels(document, &styles, prepared),
-                early_ids.unwrap_or_else(|| Ids::read(document, prepared)),
+                ids,
                 unseen::read(document, &styles, prepared),
+                dropped,
             )
         },
     );
@@ -59,7 +64,8 @@ pub(super) fn read(
         unshown.into_inner().unwrap_or_default(),
         diagnostics,
     );
-    report_foreign(document, prepared, &styles, diagnostics);
+    dropped::report_pages(document, prepared, &styles, diagnostics);
+    dropped::report_linked_sheets(document, prepared, diagnostics);
     let offset = page_corner(document);
     let mut walk = Walk {
         prepared,
@@ -79,6 +85,7 @@ pub(super) fn read(
     let root = document.root_element().id();
     walk.children(tree.root(), root, 1.0, None);
     walk.note_markers(&styles);
+    walk.note_dropped(dropped);
     let labels = labels
         .into_iter()
         .map(|(node, label)| (label, walk.group(node)))
@@ -152,8 +159,16 @@ pub(super) fn read(
             group.map(Who::Group)
         }
     };
+    let element = |node: NodeId| {
+        let (name, span) = dropped::described(document.get_node(node)?, prepared);
+        Some(Who::Element(name, span))
+    };
     for (feature, nodes) in unsolid {
-        let users: Vec<Who> = nodes.into_iter().filter_map(who).collect();
+        let or_element = |node| element(node).filter(|_| feature.is_of_elements());
+        let users = nodes.into_iter();
+        let users: Vec<Who> = users
+            .filter_map(|node| who(node).or_else(|| or_element(node)))
+            .collect();
         if !users.is_empty() {
             diagnostics.push(feature.report(&drawing, &users));
         }
@@ -193,45 +208,6 @@ fn report_losses(losses: impl Iterator<Item = Loss>, diagnostics: &mut Vec<Diagn
         |count| format!("clips leave nothing of {count} shapes: {}", names()),
         diagnostics,
     );
-}
-
-/// Reports pages of other languages in the drawing, such as the HTML of exported diagrams. Where the drawing offers something in their
-/// place (`switch`), or they are for one program alone, nothing is lost.
-fn report_foreign(
-    document: &roxmltree::Document<'_>,
-    prepared: &Prepared,
-    styles: &Styles<'_>,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
-    if !prepared.text.contains("foreignObject") {
-        return;
-    }
-    let is_lost = |node: &Node<'_, '_>| {
-        let mut parent = node.parent().into_iter();
-        let is_alternative = parent.any(|parent| parent.tag_name().name() == "switch");
-        let mut around = node.ancestors();
-        node.tag_name().name() == "foreignObject"
-            && !node.has_attribute("requiredExtensions")
-            && !is_alternative
-            && !around.any(|node| NOT_DRAWN.contains(&node.tag_name().name()))
-            && styles.is_shown(*node)
-    };
-    let found: Vec<Element> = document
-        .descendants()
-        .filter(is_lost)
-        .map(|node| element(node, prepared))
-        .collect();
-    let Some(first) = found.first() else { return };
-    let message = match found.len() {
-        1 => "a `<foreignObject>`, which holds no shapes but a page of another language, is not built"
-            .to_owned(),
-        count => format!(
-            "{count} `<foreignObject>`s, which hold no shapes but pages of another language, are not built"
-        ),
-    };
-    diagnostics.push(Diagnostic::new(Code::NoSolidMeaning, first.span, message).help(
-        "export texts and diagrams as shapes or as SVG text, or draw what they show; strings in them are not read",
-    ));
 }
 
 /// Whether a path has coordinates that cannot be built.
@@ -342,12 +318,16 @@ impl Context<'_, '_> {
             self.tangles.add_line(&rings(&bez, self.tolerance));
             line = open_line(&bez, node);
         }
+        // Painted first, the stroke is seen beside the fill only.
+        let is_below = path.paint_order() == usvg::PaintOrder::StrokeAndFill;
+        let outline = Arc::new(outline);
         let stroke = stroke.map(|stroke| {
             Arc::new(StrokeSource {
                 path: path.data().clone(),
                 stroke: stroke.to_tiny_skia(),
                 transform,
                 tolerance: self.tolerance,
+                covered_by: is_below.then(|| Arc::clone(&outline)),
                 paint: self.paint(stroke.paint(), node, "stroke", transform),
             })
         });
@@ -369,7 +349,7 @@ impl Context<'_, '_> {
             leaf: task.leaf,
             group: task.group,
             element,
-            outline: Arc::new(outline),
+            outline,
             curved: if fill.is_some() { curved(&bez) } else { 0.0 },
             paint,
             opacity,

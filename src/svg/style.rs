@@ -35,6 +35,19 @@ impl simplecss::Element for Matched<'_, '_> {
     }
 }
 
+/// A property that a style sheet sets.
+pub(super) struct Rule<'a> {
+    selector: &'a simplecss::Selector<'a>,
+    pub(super) name: &'a str,
+    pub(super) value: &'a str,
+}
+
+impl Rule<'_> {
+    pub(super) fn applies_to(&self, element: Node<'_, '_>) -> bool {
+        self.selector.matches(&Matched(element))
+    }
+}
+
 impl<'a> Styles<'a> {
     /// Reads the `<style>` elements of a document.
     pub(super) fn read(document: &'a roxmltree::Document<'_>) -> Self {
@@ -76,6 +89,22 @@ impl<'a> Styles<'a> {
             Some((value, _)) => Some(value.trim()),
             None => element.attribute(property).map(str::trim),
         }
+    }
+
+    /// What rules set and is wanted, by name and value.
+    pub(super) fn rules_with(&self, wanted: impl Fn(&str, &str) -> bool) -> Vec<Rule<'_>> {
+        let rules = self.sheet.rules.iter();
+        let declarations = rules.flat_map(|rule| {
+            let selector = &rule.selector;
+            rule.declarations.iter().map(move |one| Rule {
+                selector,
+                name: one.name,
+                value: one.value,
+            })
+        });
+        declarations
+            .filter(|rule| wanted(rule.name, rule.value))
+            .collect()
     }
 
     /// The value of an inherited property: from the element or its nearest ancestor that sets it.

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use roxmltree::{Node, NodeId};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::TiVec;
 
 use super::clip::Clip;
+use super::dropped::Users;
 use super::elements::{Ids, element};
 use super::paths::affine;
 use super::prepare::Prepared;
@@ -28,6 +29,15 @@ pub(super) struct Task<'a> {
 }
 
 impl Task<'_> {
+    /// Whether it has a stroke whose width on the page is not the one that is written, by more than a hundredth.
+    fn has_scaled_stroke(&self) -> bool {
+        let Leaf::Path(path) = self.node else {
+            return false;
+        };
+        let scale = affine(path.abs_transform()).matrix2.determinant().abs();
+        path.stroke().is_some() && (scale.sqrt() - 1.0).abs() > 0.01
+    }
+
     /// The part of an outline inside the clips.
     pub(super) fn clip(&self, outline: Outline) -> Outline {
         let clips = self.clips.iter().flat_map(|clips| clips.iter());
@@ -123,6 +133,10 @@ impl<'a> Walk<'a, '_> {
             (Feature::Mask, group.mask().is_some()),
             (Feature::Filter, !group.filters().is_empty()),
             (
+                Feature::Blending,
+                group.blend_mode() != usvg::BlendMode::Normal,
+            ),
+            (
                 Feature::GroupOpacity,
                 group.opacity().get() < 1.0 && only_leaf(group).is_none(),
             ),
@@ -186,6 +200,20 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
+    /// Notes the elements that use what is not read. Strokes that keep their widths are of interest only where they are scaled.
+    pub(super) fn note_dropped(&mut self, dropped: Users) {
+        for (feature, mut nodes) in dropped {
+            if feature == Feature::FixedWidth {
+                let tasks = self.tasks.iter().filter(|task| task.has_scaled_stroke());
+                let scaled: FxHashSet<NodeId> = tasks.map(|task| task.xml).collect();
+                nodes.retain(|node| scaled.contains(node));
+            }
+            if !nodes.is_empty() {
+                self.unsolid.push((feature, nodes));
+            }
+        }
+    }
+
     fn leaf(
         &mut self,
         leaf: Leaf<'a>,
@@ -223,7 +251,7 @@ impl<'a> Walk<'a, '_> {
 }
 
 /// The properties whose targets are drawn at a path's vertices.
-const MARKERS: [&str; 3] = ["marker-start", "marker-mid", "marker-end"];
+const MARKERS: [&str; 4] = ["marker", "marker-start", "marker-mid", "marker-end"];
 
 /// The kind of group that an element is, if it is one.
 pub(super) fn group_kind(node: Node<'_, '_>) -> Option<GroupKind> {

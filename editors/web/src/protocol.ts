@@ -122,6 +122,13 @@ export interface PerformanceFacts {
   readonly motionStep: number;
 }
 
+/** Lengths along x, y and z. */
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+  readonly depth: number;
+}
+
 export interface Build {
   readonly revision: number;
   readonly milliseconds: number;
@@ -131,6 +138,8 @@ export interface Build {
   /** Whether the model is only what can be built of a drawing with errors. */
   readonly incomplete: boolean;
   readonly triangles: number;
+  /** The size of the model in its rest pose, in metres; null without a model. */
+  readonly size: Size | null;
   readonly findings: readonly Finding[];
   readonly parts: readonly Part[];
   readonly clips: readonly ClipFacts[];
@@ -220,11 +229,17 @@ function readBuild(raw: Raw, kept: readonly Part[] = []): Build {
     stale: raw["stale"] === true,
     incomplete: raw["incomplete"] === true,
     triangles: number(raw["triangles"]),
+    size: readSize(raw["size"]),
     findings: list(raw["findings"]).map(readFinding),
     parts: list(raw["parts"]).flatMap((part) => (Array.isArray(part) ? kept.slice(whole(part[0]), whole(part[0]) + whole(part[1])) : readPart(part))),
     clips: list(raw["clips"]).map(readClip),
     originals: textOrNull(raw["originals"]),
   };
+}
+
+function readSize(value: unknown): Size | null {
+  const raw = object(value);
+  return typeof raw["height"] === "number" ? { width: number(raw["width"]), height: number(raw["height"]), depth: number(raw["depth"]) } : null;
 }
 
 function readClip(value: unknown): ClipFacts {

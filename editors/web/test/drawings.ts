@@ -39,7 +39,7 @@ export function make(okoshi: string, text: string, beside: string): Made {
     // Including the start of the program: a running host is faster.
     const milliseconds = performance.now() - began;
     if (built) execFileSync(okoshi, ["render", "-q", join(scratch, "a.glb"), "-o", join(scratch, "a.png"), "--size", "256x256"], { timeout: PATIENCE });
-    const { parts } = JSON.parse(run("inspect", drawing, "--json").stdout) as { parts: unknown[] };
+    const { parts, size_in_metres: size } = JSON.parse(run("inspect", drawing, "--json").stdout) as { parts: unknown[]; size_in_metres: unknown };
     const { drawings } = JSON.parse(run("check", drawing, "--format", "json").stdout) as { drawings: { diagnostics: Diagnostic[] }[] };
     const lines = text.split("\n");
     const findings = drawings[0]!.diagnostics.map(({ code, severity, message, label, help, line, column, end_line, end_column }) => {
@@ -50,7 +50,7 @@ export function make(okoshi: string, text: string, beside: string): Made {
     return {
       model: built ? readFileSync(join(scratch, "a.glb")) : null,
       picture: built ? readFileSync(join(scratch, "a.png")) : null,
-      build: { milliseconds, stale: !built, triangles: 0, findings, parts },
+      build: { milliseconds, stale: !built, triangles: 0, size, findings, parts },
     };
   } finally {
     rmSync(drawing, { force: true });

@@ -25,6 +25,7 @@ test("unknown messages are dropped, and missing fields become empty", () => {
   assert.ok(build?.type === "build");
   assert.equal(build.build.model, null);
   assert.deepEqual(build.build.findings, []);
+  assert.equal(build.build.size, null);
   assert.deepEqual(build.build.parts, [
     { name: "Arm", parent: null, kind: "main", element: "", namedBy: null, string: null, attributes: [{ name: "Shape", value: "round", from: "own" }], joint: null, depth: null, depthWhy: null },
   ]);
@@ -115,7 +116,7 @@ test("typing goes to the next name that begins so, and round", () => {
 test("what is hidden is hidden with all that hangs on it, and can be shown alone", () => {
   const state = new State();
   state.receive({ type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] });
-  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, findings: [], parts: [part("Body", null), part("Arm", "Body"), part("Hand", "Arm"), part("nail", "Hand", "sub")], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [part("Body", null), part("Arm", "Body"), part("Hand", "Arm"), part("nail", "Hand", "sub")], clips: [], originals: null } });
   state.show("a");
   state.setHidden("Arm", true);
   assert.deepEqual([...state.hidden].sort(), ["Arm", "Hand", "nail"]);
@@ -248,8 +249,8 @@ test("a drawing keeps its state when the list is sent again", () => {
   const state = new State();
   const listed = [{ id: "a", name: "a.svg", folder: "" }];
   state.receive({ type: "drawings", drawings: listed });
-  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, findings: [], parts: [part("A", null)], clips: [], originals: null } });
-  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, incomplete: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [part("A", null)], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [], clips: [], originals: null } });
   state.receive({ type: "drawings", drawings: [...listed, { id: "b", name: "b.svg", folder: "" }] });
   assert.deepEqual(state.list.map(({ id, build }) => [id, build?.revision]), [["a", 1], ["b", undefined]]);
   state.receive({ type: "gone", drawing: "a" });
@@ -259,7 +260,7 @@ test("a drawing keeps its state when the list is sent again", () => {
 test("a build belongs to its connection, even if that is reported open later", () => {
   const state = new State();
   const listed = { type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] } as const;
-  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } } as const;
+  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [], clips: [], originals: null } } as const;
   const isOfNow = () => state.find("a")?.connection === state.connection;
   state.setLink("open");
   state.receive(listed);

@@ -84,6 +84,17 @@ browse("a drawing without a build is reported, and appears with its first one", 
   await page.locator(".notes").waitFor({ state: "hidden" });
 });
 
+browse("the header says how large the model is, if there is one", one(HUMAN), async (page, host) => {
+  await shown(page);
+  const size = page.locator(".bar-size");
+  assert.equal(await size.innerText(), "3.61 × 6.92 × 0.85 m");
+  assert.equal(await size.getAttribute("title"), "3.61 m wide, 6.92 m high, 0.85 m deep");
+  const { build: facts, ...rest } = build(HUMAN);
+  host.built("human.svg", { ...rest, build: { ...facts, size: null } });
+  await shown(page, 2);
+  assert.equal(await size.count(), 0);
+});
+
 browse("a missing file is reported, and the drawing comes back", one(HUMAN), async (page, host) => {
   await shown(page);
   host.gone("human.svg");

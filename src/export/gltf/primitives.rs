@@ -16,9 +16,12 @@ use super::animations;
 use super::buffer::{Accessor, BufferWriter, Kind, Layout, Sink, floats};
 use super::{Written, invalid};
 use crate::export::check;
+use crate::export::size::{Extent, Placed};
 use crate::export::surfaces::with_surface;
 use crate::memo::Memo;
-use crate::scene::{Image, ImageId, MediaType, Mesh, Primitive, RigidTransform, Scene, Surface};
+use crate::scene::{
+    Image, ImageId, MediaType, Mesh, MeshId, Primitive, RigidTransform, Scene, Surface,
+};
 
 /// Primitives in a window.
 const WINDOW: usize = 512;
@@ -40,6 +43,8 @@ pub(super) struct Packed {
     pub(super) layout: Layout,
     /// The accessors of each primitive of all meshes in order; none of one without triangles, which glTF cannot hold.
     pub(super) primitives: Vec<Range<usize>>,
+    /// The box that holds all of them in the rest pose.
+    extent: Extent,
     /// The accessor of the skin's inverse bind matrices.
     pub(super) bind_matrices: Option<usize>,
     /// Per track, in the order of the animations, the accessors of its times and of its values.
@@ -58,6 +63,7 @@ struct Batch {
     accessors: Vec<Accessor>,
     /// The accessors of each primitive.
     primitives: Vec<Range<usize>>,
+    extent: Extent,
 }
 
 impl Packed {
@@ -67,11 +73,12 @@ impl Packed {
     /// Those of `out`; [`io::ErrorKind::InvalidInput`] for a surface that breaks its own rules.
     pub(super) fn new<'a>(scene: &Scene, memo: &Memo, out: &'a mut Sink<'a>) -> io::Result<Self> {
         let mut out = BufferWriter::new(out);
-        let primitives = write_primitives(scene, memo, &mut out)?;
+        let (primitives, extent) = write_primitives(scene, memo, &mut out)?;
         let bind_matrices = write_bind_matrices(scene, &primitives, &mut out)?;
         let tracks = animations::write_keys(scene, &mut out)?;
         let mut packed = Self {
             primitives,
+            extent,
             bind_matrices,
             tracks,
             ..Self::default()
@@ -85,6 +92,7 @@ impl Packed {
     pub(super) fn written(&self) -> Written {
         let mut written = Written {
             bytes: self.layout.length,
+            size: self.extent.size(),
             ..Written::default()
         };
         let accessors = self.primitives.iter().cloned();
@@ -125,28 +133,27 @@ impl Packed {
     }
 }
 
-/// Writes every primitive, and returns the accessors of each.
+/// Writes every primitive, and returns the accessors of each, and the box that holds all.
 fn write_primitives(
     scene: &Scene,
     memo: &Memo,
     out: &mut BufferWriter<'_>,
-) -> io::Result<Vec<Range<usize>>> {
-    let primitives: Vec<&Primitive> = scene
-        .meshes
-        .iter()
-        .flat_map(|mesh| &mesh.primitives)
-        .collect();
-    let mut ranges = Vec::with_capacity(primitives.len());
-    let make = |window: &[&Primitive], batches: &mut Vec<Batch>| -> io::Result<()> {
+) -> io::Result<(Vec<Range<usize>>, Extent)> {
+    let placed = Placed::of(scene);
+    let mut ranges = Vec::with_capacity(placed.primitives.len());
+    let mut extent = Extent::default();
+    let make = |window: &[(&Primitive, MeshId)], batches: &mut Vec<Batch>| -> io::Result<()> {
         batches.resize_with(window.len().div_ceil(BATCH), Batch::default);
         let batches = batches.par_iter_mut().zip(window.par_chunks(BATCH));
-        batches.try_for_each(|(batch, window)| batch.fill(window, scene, memo))
+        batches.try_for_each(|(batch, window)| batch.fill(window, &placed, scene, memo))
     };
-    let mut windows = primitives.chunks(WINDOW);
+    let mut windows = placed.primitives.chunks(WINDOW);
     // Two sets of buffers take turns, so that no memory is allocated after the second window.
     let (mut full, mut next) = (Vec::new(), Vec::new());
     make(windows.next().unwrap_or(&[]), &mut full)?;
     while !full.is_empty() {
+        let extents = full.iter().map(|batch| batch.extent);
+        extent = extents.fold(extent, Extent::join);
         let window = windows.next().unwrap_or(&[]);
         let (written, made) = rayon::join(
             || write_window(&mut full, &mut ranges, out),
@@ -156,7 +163,7 @@ fn write_primitives(
         made?;
         std::mem::swap(&mut full, &mut next);
     }
-    Ok(ranges)
+    Ok((ranges, extent))
 }
 
 /// Writes a window kind by kind, and adds the accessors of its primitives.
@@ -223,12 +230,19 @@ fn write_bind_matrices(
 }
 
 impl Batch {
-    fn fill(&mut self, primitives: &[&Primitive], scene: &Scene, memo: &Memo) -> io::Result<()> {
+    fn fill(
+        &mut self,
+        primitives: &[(&Primitive, MeshId)],
+        placed: &Placed<'_>,
+        scene: &Scene,
+        memo: &Memo,
+    ) -> io::Result<()> {
         self.data.iter_mut().for_each(Vec::clear);
         self.accessors.clear();
         self.primitives.clear();
+        self.extent = Extent::default();
         let joints = scene.skin.as_ref().map_or(0, |skin| skin.joints.len());
-        for primitive in primitives {
+        for (primitive, mesh) in primitives {
             let Some(material) = scene.materials.get(primitive.material) else {
                 return Err(invalid("a primitive with a material out of range"));
             };
@@ -241,7 +255,7 @@ impl Batch {
                 if surface.triangles.is_empty() {
                     Ok(())
                 } else {
-                    self.push(surface, joints)
+                    self.push(surface, placed.poses(*mesh), joints)
                 }
             })?;
             self.primitives.push(first..self.accessors.len());
@@ -249,9 +263,17 @@ impl Batch {
         Ok(())
     }
 
-    /// Packs a surface with triangles; `joints` is the number of joints of the skin.
-    fn push(&mut self, surface: &Surface, joints: usize) -> io::Result<()> {
+    /// Packs a surface with triangles, which is at `poses`; `joints` is the number of joints of the skin.
+    fn push(
+        &mut self,
+        surface: &Surface,
+        poses: &[RigidTransform],
+        joints: usize,
+    ) -> io::Result<()> {
         let bounds = check::surface(surface, joints)?;
+        for pose in poses {
+            self.extent.add(&surface.positions, bounds, pose);
+        }
         let vertices = surface.positions.len();
         let positions = self.accessor(Kind::Positions, vertices, Some(bounds));
         floats(positions, &surface.positions);

@@ -2,8 +2,15 @@
 
 import { LayoutGrid, WifiOff } from "lucide";
 import { count, fill, h, icon } from "../dom";
+import type { Size } from "../protocol";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
+
+/** `0.62 × 1.7 × 0.31 m`, and in its tooltip which is which. */
+function sizeOf({ width, height, depth }: Size): HTMLElement {
+  const [x, y, z] = [width, height, depth].map((length) => String(Number(length.toPrecision(3))));
+  return h("span", { class: "bar-size", title: `${x} m wide, ${y} m high, ${z} m deep` }, `${x} × ${y} × ${z} m`);
+}
 
 export class Bar {
   readonly element = h("header", { class: "bar" });
@@ -30,6 +37,7 @@ export class Bar {
         ? [
             h("span", {}, count(this.state.parts.main, "part")),
             h("span", {}, count(this.viewer.model?.triangles ?? build.triangles, "triangle")),
+            ...(build.size ? [sizeOf(build.size)] : []),
             h("span", { class: "bar-time", title: `Build ${build.revision}`, attributes: { "data-build": build.revision } }, `built in ${Math.round(build.milliseconds)} ms`),
           ]
         : []),
