@@ -5,7 +5,7 @@ use typed_index_collections::{TiVec, ti_vec};
 
 use super::{Nodes, names};
 use crate::bind::bindings::{PartId, PartKind};
-use crate::bind::matching::{Matched, Stacking, of_ink};
+use crate::bind::matching::{Matched, Stacking, of_ink, wants_part};
 use crate::lang::ast::Annotation;
 use crate::svg::Drawing;
 
@@ -13,7 +13,8 @@ use crate::svg::Drawing;
 const STAYS: f64 = 0.75;
 
 /// The nodes, after main parts without a string became sub-parts of the parts that they lie on. In drawings in which only labels
-/// and ids name parts (`by_contact`), those names count as well, and so does a name that a string refers to.
+/// and ids name parts (`by_contact`, or no string is about a part), those names count as well, and so does a name that a string refers
+/// to.
 pub(super) fn join(
     drawing: &Drawing,
     matched: &Matched,
@@ -29,9 +30,13 @@ pub(super) fn join(
             _ => None,
         })
         .collect();
+    let is_unread = !matched
+        .strings
+        .iter()
+        .any(|string| wants_part(&string.annotation));
     let counts = |part: PartId| {
         let own = names::of_main_part(drawing, matched, part);
-        own.is_some_and(|own| by_contact || mentioned.contains(own.name.as_str()))
+        own.is_some_and(|own| by_contact || is_unread || mentioned.contains(own.name.as_str()))
     };
     let mut members: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); matched.parts.len()];
     for (index, part) in matched.parts.iter_enumerated() {

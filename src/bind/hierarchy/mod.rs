@@ -121,10 +121,8 @@ pub(in crate::bind) fn build(
         main: matched.parts.iter().map(|part| part.main).collect(),
         kind: matched.kinds.clone(),
     };
-    if matched.annotated || by_contact {
-        let stacking = matched.stacking(drawing, memo);
-        nodes = details::join(drawing, matched, nodes, by_contact, &stacking);
-    }
+    let stacking = matched.stacking(drawing, memo);
+    nodes = details::join(drawing, matched, nodes, by_contact, &stacking);
     let context = Context {
         drawing,
         matched,
