@@ -4,6 +4,7 @@ mod contact;
 mod details;
 mod joints;
 mod limbs;
+mod lines;
 mod names;
 mod parents;
 mod unnamed;
@@ -130,7 +131,7 @@ pub(in crate::bind) fn build(
     };
     let mut names = Names::new(context, said, diagnostics);
     names.give_own(context);
-    let holders = parents::holders(context);
+    let mut holders = lines::holders(context);
     let (mut parents, unnamed) = automatic(context, &mut names, &holders, memo);
     if by_contact {
         set(&mut parents, contact::parents(context, &names));
@@ -141,6 +142,9 @@ pub(in crate::bind) fn build(
         &mut parents,
         parents::of_strings(context, &names, diagnostics),
     );
+    if !by_contact {
+        lines::hang(context, &names, &mut parents, &mut holders);
+    }
     let parent_of_layer = parents::of_layers(context, &names, diagnostics);
     let parents = parents::without_cycles(context, &names, parents, diagnostics);
     if matched.annotated {
