@@ -6,11 +6,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::law::Tally;
+use common::law::{self, Tally};
 use okoshi::Memo;
 use okoshi::internals::bind::{PartId, PartKind, bind, in_layers_of_pixels};
 use okoshi::internals::svg;
 use okoshi::resolver::MemoryResolver;
+use proptest::prelude::*;
 
 /// Larger drawings take long, and say no more.
 const LONGEST: usize = 200_000;
@@ -177,4 +178,54 @@ fn settings_of_a_drawing_change_no_hierarchy() {
         }
     }
     tally.assert_share("drawings with parts that are read", 80);
+}
+
+/// The pieces of limbs, from the trunk outward.
+const LIMBS: [[&str; 3]; 4] = [
+    ["upper arm", "forearm", "hand"],
+    ["thigh", "shin", "foot"],
+    ["上腕", "前腕", "手"],
+    ["太もも", "脛", "足首"],
+];
+
+/// Words for both sides in front of a name, and for none.
+const SIDES: [[&str; 2]; 3] = [["left ", "right "], ["左", "右"], ["", ""]];
+
+/// Pieces of limbs that are siblings in a named group hang on each other from the trunk outward, wherever they lie and in whatever order
+/// they are drawn; each on its own side.
+#[test]
+fn pieces_in_one_group_hang_on_each_other_outward() {
+    let names = (0..LIMBS.len(), 0..SIDES.len()).prop_map(|(limb, sides)| {
+        let sides = SIDES[sides].map(|side| LIMBS[limb].map(|piece| format!("{side}{piece}")));
+        let is_sided = sides[0] != sides[1];
+        sides[..if is_sided { 2 } else { 1 }].concat()
+    });
+    let places = prop::collection::vec((0.0..160.0_f64, 0.0..160.0_f64), 6);
+    let inputs = (
+        names.prop_flat_map(|names| (Just(names.clone()), Just(names).prop_shuffle())),
+        places,
+    );
+    law::check(law::config(200), 30, inputs, |((names, order), places)| {
+        let pieces = order.iter().zip(&places).map(|(name, (x, y))| {
+            format!("<rect x=\"{x}\" y=\"{y}\" width=\"30\" height=\"20\" id=\"{name}\"/>\n")
+        });
+        let pieces = pieces.collect::<String>();
+        let text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200\" height=\"200\">\
+             <rect x=\"60\" y=\"60\" width=\"60\" height=\"80\" id=\"body\"/><g id=\"limbs\">{pieces}</g></svg>"
+        );
+        let hierarchy = Hierarchy::of(&text);
+        let parent = |name: &str| {
+            let mut nodes = hierarchy.nodes.values();
+            let node = nodes.find(|node| node.name == name)?;
+            Some(hierarchy.nodes[&node.parent?].name.as_str())
+        };
+        for limb in names.chunks(3) {
+            prop_assert_eq!(parent(&limb[1]), Some(limb[0].as_str()), "{}", text);
+            prop_assert_eq!(parent(&limb[2]), Some(limb[1].as_str()), "{}", text);
+            let outer = parent(&limb[0]);
+            prop_assert!(outer.is_none_or(|outer| !limb.iter().any(|name| name == outer)));
+        }
+        Ok(names.len() == 6)
+    });
 }

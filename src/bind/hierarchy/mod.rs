@@ -7,6 +7,7 @@ mod limbs;
 mod lines;
 mod names;
 mod parents;
+mod pieces;
 mod unnamed;
 
 use std::sync::Arc;
@@ -142,6 +143,9 @@ pub(in crate::bind) fn build(
         &mut parents,
         parents::of_strings(context, &names, diagnostics),
     );
+    if by_contact {
+        pieces::chain(context, &names, &mut parents);
+    }
     if !by_contact {
         lines::hang(context, &names, &mut parents, &mut holders);
     }

@@ -79,6 +79,31 @@ pub(super) fn chain(
     (chain.len() <= MAX_DEPTH).then_some(chain)
 }
 
+/// Hangs a part on another one, unless a string says what it hangs on. If the other one hangs on the part, what leads from it to the part
+/// hangs on what the part did.
+pub(super) fn rehang(
+    matched: &Matched,
+    parents: &mut TiSlice<PartId, Option<PartId>>,
+    part: PartId,
+    onto: PartId,
+) {
+    let Some(chain) = chain(parents, onto).filter(|_| !is_attached(matched, part)) else {
+        return;
+    };
+    match chain.iter().position(|above| *above == part) {
+        Some(0) => return,
+        Some(place) => {
+            let below = chain[place - 1];
+            if is_attached(matched, below) {
+                return;
+            }
+            parents[below] = parents[part];
+        }
+        None => {}
+    }
+    parents[part] = Some(onto);
+}
+
 /// The parts to which strings attach others.
 pub(super) fn carrying(matched: &Matched, names: &Names) -> FxHashSet<PartId> {
     let parts = matched.parts.keys();
