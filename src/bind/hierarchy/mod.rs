@@ -2,6 +2,7 @@
 
 mod contact;
 mod details;
+mod garments;
 mod joints;
 mod limbs;
 mod lines;
@@ -146,6 +147,8 @@ pub(in crate::bind) fn build(
     if by_contact {
         pieces::chain(context, &names, &mut parents);
     }
+    let limbs = Limbs::read(context, memo);
+    garments::dress(context, &names, &limbs, &mut parents);
     if !by_contact {
         lines::hang(context, &names, &mut parents, &mut holders);
     }
@@ -156,7 +159,6 @@ pub(in crate::bind) fn build(
             unnamed::report(context, &names, &parents, by_contact, parts, diagnostics);
         }
     }
-    let limbs = Limbs::read(context, memo);
     let mut axes = axes(context, attributes, &names, diagnostics);
     let is_limb = |part: PartId| joints::is_hinged(&names, &parents, part);
     let axis = |part: PartId| attributes.attributes(matched, part).axis();
