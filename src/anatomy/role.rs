@@ -2,8 +2,8 @@
 
 use super::Term;
 
-/// What a part of a figure is by its name, as far as it tells what carries it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+/// What a part of a figure is by its name, as far as it tells what carries it. The pieces of limbs are in order from the trunk outward.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Role {
     Body,
     Chest,
@@ -66,6 +66,21 @@ impl Role {
             Self::Hips => Some(3),
             _ => None,
         }
+    }
+
+    /// Whether it is an arm or a leg, or a piece of one.
+    pub(crate) fn is_piece_of_limb(self) -> bool {
+        matches!(
+            self,
+            Self::Shoulder
+                | Self::UpperArm
+                | Self::LowerArm
+                | Self::Hand
+                | Self::Thigh
+                | Self::Shin
+                | Self::Foot
+                | Self::Toe
+        )
     }
 
     /// What carries it, the best first. No chain of carriers returns to its beginning.

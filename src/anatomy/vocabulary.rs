@@ -51,6 +51,10 @@ pub(crate) enum Term {
     HeadWear,
     /// Clothes of the hips, such as skirts and trousers.
     HipWear,
+    /// Clothes of an arm, which are details.
+    Sleeve,
+    /// Clothes of a leg, which are details.
+    Stocking,
     /// Of hands and feet: clothes of them, such as gloves and shoes.
     Worn,
     /// A face: a feature of a head, or a head.
@@ -78,8 +82,8 @@ pub(crate) enum Term {
 use Term::{
     Arm, Back, Belly, Body, BodyWear, Cape, Chest, Collar, Detail, Ear, Eye, Face, Foot, Fore,
     Hair, Hand, Head, HeadWear, Helper, Hind, Hip, HipWear, Hips, Left, Leg, LegOrFoot, Lower,
-    LowerArm, Middle, Neck, Nose, OfHead, Right, Shin, Shoulder, Tail, Thigh, Toe, Upper, UpperArm,
-    Waist, Wing, Worn,
+    LowerArm, Middle, Neck, Nose, OfHead, Right, Shin, Shoulder, Sleeve, Stocking, Tail, Thigh,
+    Toe, Upper, UpperArm, Waist, Wing, Worn,
 };
 
 /// Words, and what they mean.
@@ -148,10 +152,12 @@ const ENGLISH: Table = &[
          lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler horn mask",
     ),
     (&[Detail, Cape], "cape cloak"),
+    (&[Detail, Sleeve], "sleeve cuff"),
+    (&[Detail, Stocking], "sock stocking legging"),
     (
         &[Detail],
         "breast bust boob bag backpack rucksack satchel pack pouch tank sword shield stick staff spear axe gun bow weapon prop ribbon \
-         scarf tie belt sash button pocket buckle strap band sleeve cuff sock stocking apron pauldron plume visor panel screen dial hose \
+         scarf tie belt sash button pocket buckle strap band apron pauldron plume visor panel screen dial hose \
          patch shadow logo badge medal necklace watch ring mane saddle bridle rein harness finger thumb index pinky little \
          metacarpal carpal palm knuckle heel",
     ),
@@ -216,10 +222,12 @@ const JAPANESE: Table = &[
         "口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
     ),
     (&[Detail, Cape], "まんと"),
+    (&[Detail, Sleeve], "袖 そで"),
+    (&[Detail, Stocking], "靴下 くつした"),
     (
         &[Detail],
-        "首輪 袖 剣 盾 槍 斧 杖 武器 鞄 かばん りゅっく りゅっくさっく らんどせる 影 ねくたい まふらー りぼん べると ぼたん ぽけっと 靴下 \
-         くつした 首飾り 鞍 くら 手綱 たてがみ 親指 人指 人差指 中指 薬指 小指 指 ゆび",
+        "首輪 剣 盾 槍 斧 杖 武器 鞄 かばん りゅっく りゅっくさっく らんどせる 影 ねくたい まふらー りぼん べると ぼたん ぽけっと \
+         首飾り 鞍 くら 手綱 たてがみ 親指 人指 人差指 中指 薬指 小指 指 ゆび",
     ),
     (
         &[Helper],

@@ -5,15 +5,24 @@ use typed_index_collections::{TiVec, ti_vec};
 
 use super::{Nodes, names};
 use crate::bind::bindings::{PartId, PartKind};
-use crate::bind::matching::{Matched, Stacking, of_ink};
+use crate::bind::matching::{Matched, Stacking, of_ink, wants_part};
 use crate::lang::ast::Annotation;
 use crate::svg::Drawing;
 
 /// What share of a part lies on another for it to stay with that one.
 const STAYS: f64 = 0.75;
+/// What share of a small part lies on another one for it to stay with that if the rest of it lies on nothing: a whisker, a bow.
+const MOSTLY: f64 = 0.5;
+/// What share of what a part lies on, of all that it lies on, is enough for it to be said that the rest lies on nothing.
+const ALONE: f64 = 0.95;
+/// What share of such a part is seen at least. What is covered more lies between parts, as a neck does under a head.
+const SEEN: f64 = 0.75;
+/// The largest part that stays so, as a share of the area that it lies on. Larger ones may be limbs.
+const SMALL: f64 = 0.25;
 
 /// The nodes, after main parts without a string became sub-parts of the parts that they lie on. In drawings in which only labels
-/// and ids name parts (`by_contact`), those names count as well, and so does a name that a string refers to.
+/// and ids name parts (`by_contact`, or no string is about a part), those names count as well, and so does a name that a string refers
+/// to.
 pub(super) fn join(
     drawing: &Drawing,
     matched: &Matched,
@@ -29,9 +38,13 @@ pub(super) fn join(
             _ => None,
         })
         .collect();
+    let is_unread = !matched
+        .strings
+        .iter()
+        .any(|string| wants_part(&string.annotation));
     let counts = |part: PartId| {
         let own = names::of_main_part(drawing, matched, part);
-        own.is_some_and(|own| by_contact || mentioned.contains(own.name.as_str()))
+        own.is_some_and(|own| by_contact || is_unread || mentioned.contains(own.name.as_str()))
     };
     let mut members: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); matched.parts.len()];
     for (index, part) in matched.parts.iter_enumerated() {
@@ -67,10 +80,14 @@ pub(super) fn join(
 /// The main part on which most of a unit lies.
 fn owner(nodes: &Nodes, stacking: &Stacking, members: &[PartId]) -> Option<PartId> {
     let facts = stacking.of_unit(members);
+    let mut all = 0.0;
     let mut shares: Vec<(PartId, f64)> = Vec::new();
     for &(part, share) in &facts.under {
         let main = nodes.main[part];
         let takes_children = nodes.kind[main] == PartKind::Main;
+        if !stacking.is_ground(main) {
+            all += share;
+        }
         if !takes_children || stacking.is_ground(main) {
             continue;
         }
@@ -79,6 +96,11 @@ fn owner(nodes: &Nodes, stacking: &Stacking, members: &[PartId]) -> Option<PartI
             None => shares.push((main, share)),
         }
     }
-    let most = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (most.1 >= STAYS).then_some(most.0)
+    let (owner, most) = shares.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let reaches_out = || {
+        let is_small = facts.area <= SMALL * stacking.of_part(owner).area;
+        let is_seen = facts.shown >= SEEN * facts.area;
+        most >= MOSTLY && most >= ALONE * all && is_small && is_seen
+    };
+    (most >= STAYS || reaches_out()).then_some(owner)
 }

@@ -102,6 +102,11 @@ impl<'a> Limbs<'a> {
         }))
     }
 
+    /// The area of a part with all of its shapes.
+    pub(super) fn whole(&self, part: PartId) -> &Outline {
+        self.area_of_group(part).unwrap_or(self.outline(part))
+    }
+
     fn outline(&self, part: PartId) -> &'a Arc<Outline> {
         &self.context.matched.parts[part].outline
     }

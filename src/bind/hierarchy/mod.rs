@@ -2,10 +2,13 @@
 
 mod contact;
 mod details;
+mod garments;
 mod joints;
 mod limbs;
+mod lines;
 mod names;
 mod parents;
+mod pieces;
 mod unnamed;
 
 use std::sync::Arc;
@@ -121,10 +124,8 @@ pub(in crate::bind) fn build(
         main: matched.parts.iter().map(|part| part.main).collect(),
         kind: matched.kinds.clone(),
     };
-    if matched.annotated || by_contact {
-        let stacking = matched.stacking(drawing, memo);
-        nodes = details::join(drawing, matched, nodes, by_contact, &stacking);
-    }
+    let stacking = matched.stacking(drawing, memo);
+    nodes = details::join(drawing, matched, nodes, by_contact, &stacking);
     let context = Context {
         drawing,
         matched,
@@ -132,7 +133,7 @@ pub(in crate::bind) fn build(
     };
     let mut names = Names::new(context, said, diagnostics);
     names.give_own(context);
-    let holders = parents::holders(context);
+    let mut holders = lines::holders(context);
     let (mut parents, unnamed) = automatic(context, &mut names, &holders, memo);
     if by_contact {
         set(&mut parents, contact::parents(context, &names));
@@ -143,6 +144,14 @@ pub(in crate::bind) fn build(
         &mut parents,
         parents::of_strings(context, &names, diagnostics),
     );
+    if by_contact {
+        pieces::chain(context, &names, &mut parents);
+    }
+    let limbs = Limbs::read(context, memo);
+    garments::dress(context, &names, &limbs, &mut parents);
+    if !by_contact {
+        lines::hang(context, &names, &mut parents, &mut holders);
+    }
     let parent_of_layer = parents::of_layers(context, &names, diagnostics);
     let parents = parents::without_cycles(context, &names, parents, diagnostics);
     if matched.annotated {
@@ -150,7 +159,6 @@ pub(in crate::bind) fn build(
             unnamed::report(context, &names, &parents, by_contact, parts, diagnostics);
         }
     }
-    let limbs = Limbs::read(context, memo);
     let mut axes = axes(context, attributes, &names, diagnostics);
     let is_limb = |part: PartId| joints::is_hinged(&names, &parents, part);
     let axis = |part: PartId| attributes.attributes(matched, part).axis();

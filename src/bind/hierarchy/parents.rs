@@ -1,17 +1,16 @@
 //! The parents of parts and tile layers: the names after `@`.
 
-use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::names::Names;
 use super::{Context, ROOT};
 use crate::bind::bindings::{DrawingString, PartId, PartKind};
-use crate::bind::matching::{Hold, LayerId, LayerKind, Matched};
+use crate::bind::matching::{LayerId, LayerKind, Matched};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
-use crate::svg::{GroupId, ShapeId};
+use crate::svg::GroupId;
 
 /// Finds the parents that strings name.
 pub(super) fn of_strings(
@@ -61,29 +60,48 @@ fn named_parent(matched: &Matched, part: PartId, names: &Names) -> Option<PartId
     }
 }
 
-/// The parts that hold lines, and where, by the main parts that these lines are. Lines and what holds them do not hold each other in a
-/// circle: a line holds nothing.
-pub(super) fn holders(context: Context<'_>) -> FxHashMap<PartId, (PartId, DVec2)> {
-    let Context { matched, nodes, .. } = context;
-    let held = context
-        .mains()
-        .filter_map(|part| Some((part, matched.parts[part].hold?)));
-    let held: Vec<(PartId, Hold)> = held.collect();
-    if held.is_empty() {
-        return FxHashMap::default();
-    }
-    let fills = matched
-        .parts
-        .iter_enumerated()
-        .filter(|(_, part)| !part.is_stroke);
-    let fills: FxHashMap<ShapeId, PartId> =
-        fills.map(|(index, part)| (part.shape, index)).collect();
-    let holder = |(part, hold): (PartId, Hold)| {
-        let main = nodes.main[*fills.get(&hold.by)?];
-        let is_main = nodes.kind[main] == PartKind::Main;
-        (is_main && main != part).then_some((part, (main, hold.at)))
+/// Whether a string names what a part hangs on.
+pub(super) fn is_attached(matched: &Matched, part: PartId) -> bool {
+    let string = matched.string_of(part);
+    matches!(string.map(|string| &string.annotation), Some(Annotation::Part(part)) if part.parent.is_some())
+}
+
+/// How many parts hang on each other at most where hierarchies are changed; deeper ones stay as they are.
+const MAX_DEPTH: usize = 1024;
+
+/// A part and what it hangs on, directly or not; `None` if that is very deep, or a circle.
+pub(super) fn chain(
+    parents: &TiSlice<PartId, Option<PartId>>,
+    part: PartId,
+) -> Option<Vec<PartId>> {
+    let above = std::iter::successors(Some(part), |part| parents[*part]);
+    let chain: Vec<PartId> = above.take(MAX_DEPTH + 1).collect();
+    (chain.len() <= MAX_DEPTH).then_some(chain)
+}
+
+/// Hangs a part on another one, unless a string says what it hangs on. If the other one hangs on the part, what leads from it to the part
+/// hangs on what the part did.
+pub(super) fn rehang(
+    matched: &Matched,
+    parents: &mut TiSlice<PartId, Option<PartId>>,
+    part: PartId,
+    onto: PartId,
+) {
+    let Some(chain) = chain(parents, onto).filter(|_| !is_attached(matched, part)) else {
+        return;
     };
-    held.into_iter().filter_map(holder).collect()
+    match chain.iter().position(|above| *above == part) {
+        Some(0) => return,
+        Some(place) => {
+            let below = chain[place - 1];
+            if is_attached(matched, below) {
+                return;
+            }
+            parents[below] = parents[part];
+        }
+        None => {}
+    }
+    parents[part] = Some(onto);
 }
 
 /// The parts to which strings attach others.

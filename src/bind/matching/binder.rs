@@ -83,9 +83,12 @@ impl<'a> Binder<'a> {
     ) -> Self {
         let mut back_most: TiVec<GroupId, _> = ti_vec![None; drawing.groups.len()];
         let mut part_of_shape: TiVec<ShapeId, _> = ti_vec![None; drawing.shapes.len()];
-        let is_ink = |part: &MatchedPart| part.host.is_some();
-        let all = parts.iter_enumerated();
-        for (index, part) in all.filter(|(_, part)| !is_ink(part)) {
+        // As with the main part of a node: a line that is drawn before the shapes of its group is an extra of theirs.
+        let [fills, lines] = [false, true].map(|is_line| {
+            let parts = parts.iter_enumerated();
+            parts.filter(move |(_, part)| part.host.is_none() && part.is_stroke == is_line)
+        });
+        for (index, part) in fills.chain(lines) {
             // If an inner group has a part already, so have the groups around it.
             let chain = node_groups.chain(drawing.shapes[part.shape].group);
             for group in chain

@@ -21,6 +21,8 @@ pub(in crate::bind) struct Hold {
     pub(in crate::bind) by: ShapeId,
     /// The end that lies there, drawing units.
     pub(in crate::bind) at: DVec2,
+    /// Another shape that its other end touches, and that end.
+    pub(in crate::bind) to: Option<(ShapeId, DVec2)>,
 }
 
 /// Where an open line is held: by its beginning if that lies on one of the filled shapes, else by its end.
@@ -29,11 +31,19 @@ pub(super) fn hold(drawing: &Drawing, line: ShapeId, fills: &Fills<'_>) -> Optio
     let (ends, stroke) = (shape.line.as_ref()?.ends, shape.stroke.as_ref()?);
     let width = stroke.width();
     let points = ink::along(stroke, width);
-    ends.into_iter().find_map(|at| {
-        let by = fills.nearest(at, BESIDE * width)?;
-        let outline = &drawing.shapes[by].outline;
-        let out = OUT * OUT * width * width;
-        let goes_out = |point: &DVec2| distance_squared(outline, *point) > out;
-        points.iter().any(goes_out).then_some(Hold { by, at })
-    })
+    let [start, end] = ends;
+    [[start, end], [end, start]]
+        .into_iter()
+        .find_map(|[at, other]| {
+            let by = fills.nearest(at, BESIDE * width)?;
+            let outline = &drawing.shapes[by].outline;
+            let out = OUT * OUT * width * width;
+            let goes_out = |point: &DVec2| distance_squared(outline, *point) > out;
+            let to = || fills.nearest(other, BESIDE * width).filter(|to| *to != by);
+            points.iter().any(goes_out).then(|| Hold {
+                by,
+                at,
+                to: to().map(|to| (to, other)),
+            })
+        })
 }

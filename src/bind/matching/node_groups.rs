@@ -5,7 +5,7 @@
 
 use std::cell::LazyCell;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::converted::ConvertedStrings;
@@ -17,11 +17,13 @@ use super::leaders::Leaders;
 use super::parts::MatchedPart;
 use super::settings::Strokes;
 use super::stacking::ground_count;
-use super::strings::ReadString;
+use super::strings::{ReadString, mean_parts};
 use super::wrappers::{self, Wrappers};
-use crate::bind::bindings::{PartId, StringHolder, StringId};
+use crate::bind::bindings::{NamedBy, PartId, StringHolder, StringId};
+use crate::bind::names::of_element;
+use crate::lang::ast::Annotation;
 use crate::memo::Memo;
-use crate::svg::{Drawing, GroupId, GroupKind, Shape, ShapeId, StrokeSource};
+use crate::svg::{Drawing, Element, GroupId, GroupKind, Shape, ShapeId, StrokeSource};
 
 /// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
@@ -122,17 +124,14 @@ impl NodeGroups {
         strokes: Strokes,
         memo: &Memo,
     ) {
-        let described = described_lines(drawing, strings);
-        let backgrounds = &self.backgrounds;
-        self.sources = sources(
-            drawing,
-            layers,
-            &described,
-            backgrounds,
+        let lines = Lines {
+            described: described_lines(drawing, strings),
+            named: self.named_lines(drawing, strings),
             leaders,
-            strokes,
-            memo,
-        );
+            has_guides: mean_parts(strings),
+        };
+        let backgrounds = &self.backgrounds;
+        self.sources = sources(drawing, layers, &lines, backgrounds, strokes, memo);
         for index in 0..self.sources.len() {
             let shape = self.sources[index].shape;
             let group = drawing.shapes[shape].group;
@@ -147,6 +146,38 @@ impl NodeGroups {
             self.container.push(container.or(layer));
             self.node_group.push(node_group);
         }
+    }
+
+    /// Per shape, whether it is an unfilled line to which a person gave a name: its own, or that of its group without filled shapes.
+    /// Where strings name the parts, ids are no names, unless a string attaches something to them: many a guide has one.
+    fn named_lines(
+        &self,
+        drawing: &Drawing,
+        strings: &TiSlice<StringId, ReadString>,
+    ) -> TiVec<ShapeId, bool> {
+        let filled = holding(drawing, wrappers::is_filled);
+        let ids_count = !mean_parts(strings);
+        let attached_to = strings
+            .iter()
+            .filter_map(|string| match &string.annotation {
+                Annotation::Part(part) => Some(part.parent.as_ref()?.text.as_str()),
+                _ => None,
+            });
+        let attached_to: FxHashSet<&str> = attached_to.collect();
+        let is_name = |element: &Element| {
+            of_element(element, None).is_some_and(|own| {
+                let is_label = matches!(own.by, NamedBy::Label { .. });
+                is_label || ids_count || attached_to.contains(own.name.as_str())
+            })
+        };
+        let is_named = |shape: &Shape| {
+            let is_line = shape.outline.polygons.is_empty() && shape.stroke.is_some();
+            let group = || self.outermost(shape.group).filter(|group| !filled[*group]);
+            let is_in_named =
+                || group().is_some_and(|group| is_name(&drawing.groups[group].element));
+            is_line && (is_name(&shape.element) || is_in_named())
+        };
+        drawing.shapes.iter().map(is_named).collect()
     }
 
     /// A group and the groups around it, innermost first, up to the layer that it is in.
@@ -227,15 +258,31 @@ impl NodeGroups {
     }
 }
 
+/// What is known about unfilled lines.
+struct Lines<'a> {
+    /// Per shape, whether it is one with a string of its own.
+    described: TiVec<ShapeId, bool>,
+    /// Per shape, whether it is one with a name from a person.
+    named: TiVec<ShapeId, bool>,
+    leaders: &'a Leaders,
+    /// Whether hairlines beside all shapes may be guides for the strings.
+    has_guides: bool,
+}
+
 fn sources(
     drawing: &Drawing,
     layers: &Layers,
-    described: &TiSlice<ShapeId, bool>,
+    known: &Lines<'_>,
     backgrounds: &TiSlice<ShapeId, bool>,
-    leaders: &Leaders,
     strokes: Strokes,
     memo: &Memo,
 ) -> Vec<PartSource> {
+    let Lines {
+        described,
+        named,
+        leaders,
+        has_guides,
+    } = known;
     let (ink, lines, borders) = match strokes {
         Strokes::None => (false, false, false),
         Strokes::Ink => (true, false, false),
@@ -243,8 +290,8 @@ fn sources(
         Strokes::All | Strokes::Visible => (true, true, true),
     };
     // Unfilled lines beside all shapes.
-    let is_guide =
-        |stroke: &StrokeSource| strokes == Strokes::Visible && drawing.is_hairline(stroke);
+    let may_be_guides = *has_guides && matches!(strokes, Strokes::Visible | Strokes::Ink);
+    let is_guide = |stroke: &StrokeSource| may_be_guides && drawing.is_hairline(stroke);
     // Strokes in a tile layer are edges; those in a view belong to its regions.
     let is_map = |shape: ShapeId| {
         let group = drawing.shapes[shape].group;
@@ -292,7 +339,9 @@ fn sources(
             let hold = is_line
                 .then(|| held::hold(drawing, index, &fills))
                 .flatten();
-            if described[index] || hold.is_some() || (lines && is_free(index) && !is_guide) {
+            // What a name makes a part stays one if the first look at the drawing ends.
+            let is_built = lines || ink && named[index];
+            if described[index] || hold.is_some() || (is_built && is_free(index) && !is_guide) {
                 add(index, true, None, hold);
             }
         }

@@ -37,18 +37,20 @@ pub enum BindRule {
 pub enum Strokes {
     /// None.
     None,
-    /// Those of unfilled shapes that lie on a part, as ink on it. What a drawing gets that says `Shape` but not `Strokes`.
+    /// Those of unfilled shapes that lie on a part, as ink on it, and those that have a name or begin on a part. What a drawing gets that
+    /// says `Shape` but not `Strokes`.
     Ink,
     /// Those of unfilled shapes: as ink where they lie on a part, else as parts.
     Lines,
     /// All: outlines of filled shapes too, as ink on these.
     All,
-    /// All but hairlines beside all shapes, which are guides. What a drawing gets that says neither `Shape` nor `Strokes`.
+    /// All but hairlines beside all shapes, which are guides. What a drawing gets whose strings are about parts, but say neither `Shape`
+    /// nor `Strokes`.
     Visible,
 }
 
 impl Default for DrawingSettings {
-    /// The settings of a drawing without strings, in which hairlines are parts too.
+    /// The settings of a drawing without strings about parts, in which hairlines are parts too.
     fn default() -> Self {
         Self {
             scale: 1.0,
@@ -69,18 +71,14 @@ impl DrawingSettings {
         self.scale * CENTIMETER
     }
 
-    /// The settings of a drawing with strings; `is_first_look` where none of them says `Shape`.
+    /// The settings of a drawing with strings. `strokes` are built unless a string says which.
     pub(super) fn read(
         drawing: &Drawing,
         defaults: &[(StringId, Setting)],
-        is_first_look: bool,
+        strokes: Strokes,
     ) -> Self {
         let mut settings = Self {
-            strokes: if is_first_look {
-                Strokes::Visible
-            } else {
-                Strokes::Ink
-            },
+            strokes,
             ..Self::default()
         };
         for (_, setting) in defaults {

@@ -49,9 +49,9 @@ struct StackedPart {
 #[derive(Debug, Clone, Default)]
 pub(in crate::bind) struct Facts {
     /// Its area, square units.
-    pub(super) area: f64,
+    pub(in crate::bind) area: f64,
     /// Its visible area, which nothing covers, square units.
-    pub(super) shown: f64,
+    pub(in crate::bind) shown: f64,
     /// The parts directly under it, each with the share of its area that lies on the part.
     pub(in crate::bind) under: Box<[(PartId, f64)]>,
     /// The earlier parts on which nearly all of it lies, the topmost first.
@@ -164,7 +164,7 @@ impl Stacking {
     }
 
     /// What is known about a part.
-    pub(super) fn of_part(&self, part: PartId) -> &Facts {
+    pub(in crate::bind) fn of_part(&self, part: PartId) -> &Facts {
         &self.facts[part]
     }
 

@@ -8,7 +8,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::bare_names;
 use super::layers::LayerKind;
-use super::settings::DrawingSettings;
+use super::settings::{DrawingSettings, Strokes};
 use crate::bind::bindings::{StringHolder, StringId};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix, few_or_one, listed};
 use crate::lang::ast::Annotation;
@@ -69,12 +69,26 @@ pub(in crate::bind) fn wants_part(annotation: &Annotation) -> bool {
     }
 }
 
+/// Whether a string belongs to a part.
+pub(super) fn mean_parts(strings: &TiSlice<StringId, ReadString>) -> bool {
+    strings.iter().any(ReadString::wants_part)
+}
+
+/// Whether a string is about the whole drawing: it says nothing about what other texts and descriptions are.
+fn is_about_all(text: &str) -> bool {
+    text.trim_start().starts_with(['%', '％'])
+}
+
 /// Finds and parses the strings.
 pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Strings {
-    let mut labels = drawing.labels.iter();
-    let signed = labels.any(|(label, _)| lang::annotates(label.text.as_str()));
-    let mut texts = descriptions(drawing, signed);
-    let annotated = signed || !texts.is_empty() || bare_names::name_parts(drawing);
+    let mut signed = drawing
+        .labels
+        .iter()
+        .map(|(label, _)| label.text.as_str())
+        .filter(|text| lang::annotates(text));
+    let is_signed = signed.clone().next().is_some();
+    let mut texts = descriptions(drawing, signed.any(|text| !is_about_all(text)));
+    let annotated = is_signed || !texts.is_empty() || bare_names::name_parts(drawing);
     if !annotated {
         return Strings {
             is_first_look: true,
@@ -164,9 +178,14 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
         attributes.any(|attribute| attribute.keyword == Keyword::Shape)
     };
     let is_first_look = !all.iter().any(says_shape);
+    let strokes = match (is_first_look, mean_parts(&all)) {
+        (false, _) => Strokes::Ink,
+        (true, true) => Strokes::Visible,
+        (true, false) => Strokes::All,
+    };
     Strings {
         annotated,
-        settings: DrawingSettings::read(drawing, &defaults, is_first_look),
+        settings: DrawingSettings::read(drawing, &defaults, strokes),
         is_first_look,
         all,
         defaults,
@@ -177,7 +196,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
 /// Descriptions of shapes and groups that are strings, and those that are the name of their part alone.
 ///
 /// Office programs describe every element by its kind (`Drawing`, `Group`, `Slide`). So names alone count only if the drawing has
-/// signs elsewhere (`signed`), or if they can name parts: all are distinct, and none is about a group without shapes of its own.
+/// signs of parts elsewhere (`signed`), or if they can name parts: all are distinct, and none is about a group without shapes of its own.
 fn descriptions(drawing: &Drawing, signed: bool) -> Vec<(StringHolder, Arc<Text>)> {
     let shapes = drawing.shapes.iter_enumerated();
     let shapes = shapes.map(|(index, shape)| (StringHolder::Shape(index), &shape.element.desc));
@@ -194,7 +213,8 @@ fn descriptions(drawing: &Drawing, signed: bool) -> Vec<(StringHolder, Arc<Text>
             matches!(holder, StringHolder::Group(group) if drawing.groups[*group].kind == GroupKind::Root);
         !is_root && bare_names::is_bare_name(text.as_str())
     });
-    if !signed && strings.is_empty() && !bare_names::descriptions_name_parts(drawing, &names) {
+    let signed = signed || strings.iter().any(|(_, text)| !is_about_all(text.as_str()));
+    if !signed && !bare_names::descriptions_name_parts(drawing, &names) {
         names.clear();
     }
     [strings, names].concat()

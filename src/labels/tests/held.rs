@@ -78,7 +78,8 @@ fn what_a_hand_holds_is_no_piece_of_the_arm_and_changes_no_label() {
             let with = holding(&person, name, length, angle, behind);
             let labeled = label_drawn(&with);
             let aside = angle.abs().min(180.0 - angle.abs());
-            let is_held = length > 0.55 || aside > 41.0;
+            // Half of arm and hand together.
+            let is_held = length > 0.57 || aside > 41.0;
             let why = labeled.held.raw.last().cloned().flatten();
             if is_held {
                 prop_assert!(why.is_some_and(|why| why.starts_with("held by `")));

@@ -105,7 +105,7 @@ pub(super) static STROKES: Row = Row {
     summary: "which strokes are built",
     long: "A line without a fill that is drawn on a part is ink: it lies on the part's surface and \
            moves with it, like a mouth on a face. So does a line that begins on a part and goes out \
-           of it, as a part of its own. Other lines beside all parts are guides; `lines` makes them \
+           of it, as a part of its own, and a line with a label. Other lines beside all parts are guides; `lines` makes them \
            parts too. `all` does the same and adds the outlines of filled shapes, as ink on these; \
            a drawing that never says `Shape` gets `all` but for hairlines. `none` leaves all strokes \
            out. A line that is grouped with a string, or has one as its description, is a part in \

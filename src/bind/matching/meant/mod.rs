@@ -80,7 +80,7 @@ pub(super) fn find(
     };
     let mut assignment = assignment;
     share_out_rest(texts, &units, parts, &mut assignment);
-    let main = |unit: usize| units.units[unit].members[0];
+    let main = |unit: usize| units.units[unit].main;
     let found = assignment.column_of.iter().enumerate();
     let found = found.map(|(text, unit)| {
         let rival = rival(&candidates, &assignment, text);
@@ -118,7 +118,7 @@ fn share_out_rest(
             units.units[*unit].scope == Some(scope) && assignment.row_of[*unit].is_none()
         };
         let free: Vec<usize> = (0..units.units.len()).filter(is_free).collect();
-        let target = |unit: &usize| Target::of(&parts[units.units[*unit].members[0]]);
+        let target = |unit: &usize| Target::of(&parts[units.units[*unit].main]);
         let middle = |text: &usize| Bits(DVec2::from(texts[*text].points.0[1]));
         let problem = AssignmentProblem {
             corners: rest.iter().map(middle).collect(),

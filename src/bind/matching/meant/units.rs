@@ -55,6 +55,8 @@ const VISITS: usize = 32;
 pub(super) struct Unit {
     /// Its parts, in paint order.
     pub(super) members: Vec<PartId>,
+    /// The one that a text for the unit is bound to.
+    pub(super) main: PartId,
     /// Its bounding box.
     bounds: (DVec2, DVec2),
     /// Its area, square units.
@@ -166,29 +168,30 @@ impl Units {
         let stacking = &key.stacking.0;
         let parts: &TiSlice<PartId, _> = TiSlice::from_ref(&key.parts.0);
         let mut of_part = ti_vec![usize::MAX; parts.len()];
-        let mut members: Vec<Vec<PartId>> = Vec::new();
+        let mains = parts.iter_enumerated();
+        let mains = mains.filter(|(index, (main, ..))| index == main);
+        let mains: Vec<PartId> = mains.map(|(index, _)| index).collect();
+        for (unit, main) in mains.iter().enumerate() {
+            of_part[*main] = unit;
+        }
+        // In paint order: a line may come before the main part of its group.
+        let mut members: Vec<Vec<PartId>> = vec![vec![]; mains.len()];
         for (index, (main, ..)) in parts.iter_enumerated() {
-            // The main part is the back-most of its node.
-            if *main == index {
-                of_part[index] = members.len();
-                members.push(vec![index]);
-            } else {
-                of_part[index] = of_part[*main];
-                if stacking.has(index) {
-                    members[of_part[*main]].push(index);
-                }
+            of_part[index] = of_part[*main];
+            if *main == index || stacking.has(index) {
+                members[of_part[*main]].push(index);
             }
         }
-        let units = members.into_par_iter().with_min_len(GRAIN);
+        let units = mains.into_par_iter().zip(members).with_min_len(GRAIN);
         let mut units: Vec<Unit> = units
-            .map(|members| {
+            .map(|(main, members)| {
                 let bounds = members.iter().map(|part| stacking.bounds(*part));
                 let (low, high) = bounds
                     .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
                     .unwrap_or_default();
                 let facts = stacking.of_unit(&members);
                 let host = host(stacking, &facts);
-                let (_, scope, UnitName { own, is_background }) = parts[members[0]];
+                let (_, scope, UnitName { own, is_background }) = parts[main];
                 let is_ground = members.iter().all(|part| stacking.is_ground(*part));
                 Unit {
                     bounds: (low, high),
@@ -200,6 +203,7 @@ impl Units {
                     own,
                     place: None,
                     scope,
+                    main,
                     members,
                 }
             })
