@@ -25,7 +25,7 @@ use crate::scene::WorldTransform;
 use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
 
 use buried::Search;
-use node_depths::{Figure, NodeDepths, backdrops};
+use node_depths::{Figure, backdrops};
 use nodes::Nodes;
 use overlaps::{Overlap, Scratch, overlaps, ranks};
 use shapes::{Shape, shapes};
@@ -167,7 +167,7 @@ impl Layers {
     ) -> (Self, Vec<Buried>) {
         let recent = memo.get((), |_: &()| Arc::new(RecentHeights::default()));
         let mut shapes = shapes(context);
-        let nodes = Nodes::new(context, &shapes);
+        let mut nodes = Nodes::new(context, &shapes);
         let overlaps = overlaps(&shapes);
         let solid = |shape: &Shape| {
             shape.solid(context.natural(
@@ -179,6 +179,9 @@ impl Layers {
         };
         let is_one = !context.bindings.annotated;
         let details = details(&shapes, &nodes, &overlaps, is_one);
+        if is_one {
+            nodes.hang_on_trunks(&shapes, &overlaps, &details);
+        }
         cords::lay(context, &mut shapes, &details);
         describe(&mut shapes, &overlaps, solid, &recent);
         let mut covers = covers(&shapes, &nodes, &overlaps, details, is_one);
@@ -187,33 +190,26 @@ impl Layers {
             .iter()
             .map(|part| context.bindings.attributes(*part).stack())
             .collect();
-        let node_depths = if is_one {
-            NodeDepths {
-                depths: vec![0.0; nodes.len()],
-                reasons: vec![Reason::Plane; nodes.len()],
-            }
-        } else {
-            // On all cores, before they are asked for one by one: what hangs on something may be moved by its height.
-            let hangs = |shape: usize| nodes.parent[nodes.of_shape[shape]].is_some();
-            let volumes = shapes.par_iter().zip(&covers).enumerate();
-            let volumes = volumes.filter(|(index, (_, cover))| !cover.is_detail && hangs(*index));
-            volumes.for_each(|(_, (shape, _))| {
-                shape.height();
-            });
-            let behind = backdrops(&mut shapes, &nodes, &overlaps);
-            for (cover, behind) in covers.iter_mut().zip(behind) {
-                cover.behind = behind;
-            }
-            Figure {
-                parts: &context.bindings.parts,
-                shapes: &shapes,
-                nodes: &nodes,
-                overlaps: &overlaps,
-                covers: &covers,
-                spread: &spread,
-            }
-            .place()
-        };
+        // On all cores, before they are asked for one by one: what hangs on something may be moved by its height.
+        let hangs = |shape: usize| nodes.parent[nodes.of_shape[shape]].is_some();
+        let volumes = shapes.par_iter().zip(&covers).enumerate();
+        let volumes = volumes.filter(|(index, (_, cover))| !cover.is_detail && hangs(*index));
+        volumes.for_each(|(_, (shape, _))| {
+            shape.height();
+        });
+        let behind = backdrops(&mut shapes, &nodes, &overlaps);
+        for (cover, behind) in covers.iter_mut().zip(behind) {
+            cover.behind = behind;
+        }
+        let node_depths = Figure {
+            parts: &context.bindings.parts,
+            shapes: &shapes,
+            nodes: &nodes,
+            overlaps: &overlaps,
+            covers: &covers,
+            spread: &spread,
+        }
+        .place();
         let steps = steps(context, &shapes, &nodes, &overlaps, is_one);
         let arrangement = Arrangement {
             context,
@@ -414,12 +410,7 @@ fn steps(
     overlaps: &[Vec<Overlap>],
     is_one: bool,
 ) -> Vec<f64> {
-    let mut root: Vec<usize> = (0..nodes.len()).collect();
-    for node in nodes.by_level() {
-        if let Some(parent) = nodes.parent[node].filter(|_| !is_one) {
-            root[node] = root[parent];
-        }
-    }
+    let root = nodes.roots();
     let figure = |shape: usize| {
         if is_one {
             0

@@ -3,6 +3,7 @@
 use typed_index_collections::{TiVec, ti_vec};
 
 use super::super::FigureContext;
+use super::overlaps::Overlap;
 use super::shapes::Shape;
 use crate::bind::{PartId, PartKind, SetBy};
 
@@ -23,8 +24,15 @@ pub(super) struct Nodes {
     pub(super) given: Vec<Option<f64>>,
     /// Per node the `Offset` of all nodes.
     pub(super) shift: Vec<f64>,
-    /// Per node when a walk through the tree enters and leaves it.
+    walk: Walk,
+}
+
+/// A walk through the tree of nodes.
+#[derive(Default)]
+struct Walk {
+    /// Per node when it is entered and left.
     span: Vec<[usize; 2]>,
+    /// The nodes, each after its parent.
     order: Vec<usize>,
 }
 
@@ -50,28 +58,6 @@ impl Nodes {
                 shape[node] = Some(index);
             }
         }
-        let mut children: Vec<Vec<usize>> = vec![Vec::new(); main.len()];
-        let mut open: Vec<(usize, bool)> = Vec::new();
-        for (node, parent) in parent.iter().enumerate().rev() {
-            match parent {
-                Some(parent) => children[*parent].push(node),
-                None => open.push((node, false)),
-            }
-        }
-        let mut span = vec![[0; 2]; main.len()];
-        let mut level = vec![0; main.len()];
-        let mut order = Vec::with_capacity(main.len());
-        while let Some((node, is_left)) = open.pop() {
-            if is_left {
-                span[node][1] = order.len();
-                continue;
-            }
-            span[node][0] = order.len();
-            order.push(node);
-            level[node] = parent[node].map_or(0, |parent| level[parent] + 1);
-            open.push((node, true));
-            open.extend(children[node].iter().map(|child| (*child, false)));
-        }
         let offset = |part: PartId| context.bindings.attributes(part).offset();
         let given = |(node, part): (usize, &PartId)| {
             let own = offset(*part).filter(|offset| offset.source.from < SetBy::Default);
@@ -88,7 +74,7 @@ impl Nodes {
             Some(offset) if offset.source.from == SetBy::Default => context.node_offset(*part),
             _ => 0.0,
         };
-        Self {
+        let mut nodes = Self {
             given: main.iter().enumerate().map(given).collect(),
             shift: main.iter().map(shift).collect(),
             main,
@@ -96,10 +82,119 @@ impl Nodes {
             parent,
             shape,
             of_shape,
-            level,
-            span,
-            order,
+            level: Vec::new(),
+            walk: Walk::default(),
+        };
+        nodes.walk_through();
+        nodes
+    }
+
+    /// Hangs nodes that hang on nothing on the largest one of these that they are connected with, and details on what most of them lies
+    /// on. `details` says per shape whether it is one.
+    pub(super) fn hang_on_trunks(
+        &mut self,
+        shapes: &[Shape],
+        overlaps: &[Vec<Overlap>],
+        details: &[bool],
+    ) {
+        let roots = self.roots();
+        let area = |node: usize| {
+            let own = self.shape[node].filter(|_| self.parent[node].is_none());
+            own.map_or(0.0, |shape| shapes[shape].area)
+        };
+        let mut trunk_of: Vec<Option<usize>> = vec![None; self.len()];
+        for connected in self.connected(overlaps) {
+            let largest = connected
+                .iter()
+                .copied()
+                .max_by(|a, b| area(*a).total_cmp(&area(*b)).then(b.cmp(a)));
+            connected.iter().for_each(|node| trunk_of[*node] = largest);
         }
+        for (node, trunk) in trunk_of.into_iter().enumerate() {
+            let detail = self.shape[node].filter(|shape| details[*shape]);
+            let carrier = detail.and_then(|shape| {
+                let below = overlaps[shape].iter();
+                // Each hangs on an earlier one, so that none hangs on itself.
+                let others = below.filter(|overlap| roots[self.of_shape[overlap.below]] < node);
+                let most = others.max_by(|a, b| a.area.total_cmp(&b.area))?;
+                Some(self.of_shape[most.below])
+            });
+            if self.parent[node].is_none() && trunk != Some(node) {
+                self.parent[node] = carrier.or(trunk);
+            }
+        }
+        self.walk_through();
+    }
+
+    /// Per node the one that carries all that it hangs on.
+    pub(super) fn roots(&self) -> Vec<usize> {
+        let mut roots: Vec<usize> = (0..self.len()).collect();
+        for node in self.by_level() {
+            if let Some(parent) = self.parent[node] {
+                roots[node] = roots[parent];
+            }
+        }
+        roots
+    }
+
+    /// The nodes in groups whose shapes overlap, directly or through others.
+    fn connected(&self, overlaps: &[Vec<Overlap>]) -> Vec<Vec<usize>> {
+        let mut near: Vec<Vec<usize>> = vec![Vec::new(); self.len()];
+        for (above, below) in overlaps.iter().enumerate() {
+            for overlap in below {
+                let [above, below] = [above, overlap.below].map(|shape| self.of_shape[shape]);
+                near[above].push(below);
+                near[below].push(above);
+            }
+        }
+        let mut is_known = vec![false; self.len()];
+        let mut groups = Vec::new();
+        for first in 0..self.len() {
+            if std::mem::replace(&mut is_known[first], true) {
+                continue;
+            }
+            let mut group = vec![first];
+            let mut next = 0;
+            while let Some(node) = group.get(next).copied() {
+                for other in &near[node] {
+                    if !std::mem::replace(&mut is_known[*other], true) {
+                        group.push(*other);
+                    }
+                }
+                next += 1;
+            }
+            groups.push(group);
+        }
+        groups
+    }
+
+    fn walk_through(&mut self) {
+        let count = self.len();
+        let mut children: Vec<Vec<usize>> = vec![Vec::new(); count];
+        let mut open: Vec<(usize, bool)> = Vec::new();
+        for (node, parent) in self.parent.iter().enumerate().rev() {
+            match parent {
+                Some(parent) => children[*parent].push(node),
+                None => open.push((node, false)),
+            }
+        }
+        self.level = vec![0; count];
+        let mut walk = Walk {
+            span: vec![[0; 2]; count],
+            order: Vec::with_capacity(count),
+        };
+        while let Some((node, is_left)) = open.pop() {
+            if is_left {
+                walk.span[node][1] = walk.order.len();
+                continue;
+            }
+            walk.span[node][0] = walk.order.len();
+            walk.order.push(node);
+            self.level[node] = self.parent[node].map_or(0, |parent| self.level[parent] + 1);
+            open.push((node, true));
+            open.extend(children[node].iter().map(|child| (*child, false)));
+        }
+        self.walk = walk;
     }
 
     pub(super) fn len(&self) -> usize {
@@ -108,12 +203,12 @@ impl Nodes {
 
     /// Whether a node is another one or hangs on it, directly or not.
     pub(super) fn hangs_on(&self, node: usize, other: usize) -> bool {
-        let [from, to] = self.span[other];
-        (from..to).contains(&self.span[node][0])
+        let [from, to] = self.walk.span[other];
+        (from..to).contains(&self.walk.span[node][0])
     }
 
     /// All nodes, each after its parent.
     pub(super) fn by_level(&self) -> impl Iterator<Item = usize> + '_ {
-        self.order.iter().copied()
+        self.walk.order.iter().copied()
     }
 }
