@@ -7,6 +7,7 @@
 mod attributes;
 mod bindings;
 mod describe;
+mod discs;
 mod hierarchy;
 mod matching;
 mod names;
@@ -40,9 +41,10 @@ use matching::Matched;
 
 /// Binds the strings of a drawing to its parts.
 pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
-    let matched = matching::find(drawing, memo, diagnostics);
+    let mut matched = matching::find(drawing, memo, diagnostics);
     let attributes = attributes::resolve(drawing, &matched, diagnostics);
     let tree = hierarchy::build(drawing, &matched, &attributes, memo, diagnostics);
+    discs::find(&mut matched, &tree);
     diagnostics.extend(reports::all(drawing, &matched, &attributes, &tree));
     assembled(matched, attributes, tree)
 }
@@ -59,6 +61,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         host: part.host,
         outline: part.outline,
         is_balloon: part.is_balloon,
+        disc: part.disc,
         sheet: None,
         measure: tree.axes.turned(index).unwrap_or(part.measure),
         of_group: tree.axes.of_group(index).map(Box::new),
