@@ -10,7 +10,9 @@ mod vocabulary;
 
 pub(crate) use clothes::dress;
 pub(crate) use role::{Role, sides};
-pub(crate) use things::{Thing, is_sheet, thing};
+pub(crate) use things::{
+    Thing, end_of_vehicle, is_disc, is_light, is_sheet, says_far_or_near, thing,
+};
 pub(crate) use vocabulary::{Term, terms};
 
 /// Whether a name is that of a limb that is attached at one end: an arm or a leg or a piece of one, a wing, a tail, a neck, an ear.

@@ -64,6 +64,19 @@ pub(crate) fn split(name: &str) -> Vec<String> {
     words
 }
 
+/// Whether a name has one of these words, which are given in lower case and hiragana, in the singular; words with kanji also count
+/// within others, as in `奥の足`.
+pub(crate) fn has_word(name: &str, known: &str) -> bool {
+    let is_kanji = |word: &str| word.contains(|letter| ('\u{3400}'..='\u{9fff}').contains(&letter));
+    split(name).iter().any(|word| {
+        let singular = word.strip_suffix('s').unwrap_or(word);
+        let mut known = known.split_whitespace();
+        known.any(|known| {
+            known == word || known == singular || is_kanji(known) && word.contains(known)
+        })
+    })
+}
+
 /// Whether a word is a number.
 pub(crate) fn is_number(word: &str) -> bool {
     word.chars().all(char::is_numeric)

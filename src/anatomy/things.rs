@@ -1,6 +1,6 @@
 //! Words for things that are no parts of a body, but that are known by where they are or by their form.
 
-use super::name_words;
+use super::name_words::{self, has_word};
 
 /// What a name means that is none of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,10 +10,12 @@ pub(crate) enum Thing {
     Wheel,
     /// A shadow that something throws.
     Shadow,
+    /// A piece of a wheel.
+    Hub,
 }
 
 /// English and Japanese words; katakana words are written in hiragana here.
-const WORDS: [(Thing, &str); 3] = [
+const WORDS: [(Thing, &str); 4] = [
     (
         Thing::Scenery,
         "sky ground background backdrop bg floor wall grass lawn meadow field land landscape earth soil sea ocean water lake river road \
@@ -22,10 +24,16 @@ const WORDS: [(Thing, &str); 3] = [
     ),
     (
         Thing::Wheel,
-        "wheel tyre tire 車輪 しゃりん 車 たいや ほいーる",
+        "wheel tyre tire 車輪 しゃりん 車 たいや ほいーる 前輪 後輪",
     ),
     (Thing::Shadow, "shadow 影 かげ"),
+    (Thing::Hub, "hub hubcap rim はぶ りむ"),
 ];
+
+/// Whether a name is that of a round disc, such as a wheel or its hub.
+pub(crate) fn is_disc(name: &str) -> bool {
+    matches!(thing(name), Some(Thing::Wheel | Thing::Hub))
+}
 
 /// What a name means: what the last of its known words says, so that a `water wheel` is a wheel.
 pub(crate) fn thing(name: &str) -> Option<Thing> {
@@ -40,6 +48,36 @@ pub(crate) fn thing(name: &str) -> Option<Thing> {
     };
     let words = name_words::split(name);
     words.iter().rev().find_map(|word| means(word))
+}
+
+/// Words for the far and the near side of what is seen from the side.
+const FAR_AND_NEAR: &str = "far near 奥 手前 てまえ";
+/// Words for what vehicles have at their front end.
+const FRONT_END: &str = "headlight headlamp hood bonnet grille windshield windscreen steering handlebar driver cab cockpit mirror \
+     へっどらいと 前照灯 ぼんねっと ふろんとがらす はんどる 運転席 運転手 運転士";
+/// Words for what they have at their rear end.
+const REAR_END: &str = "taillight taillamp tailpipe exhaust trailer spoiler tailgate tailboard てーるらいと とれーらー すぽいらー 荷台";
+/// Words for lights, of which vehicles that are seen from the front show one on either side.
+const LIGHTS: &str =
+    "light lamp headlight headlamp taillight taillamp らいと へっどらいと てーるらいと 前照灯";
+
+/// Whether a name says that its part is on the far or on the near side.
+pub(crate) fn says_far_or_near(name: &str) -> bool {
+    has_word(name, FAR_AND_NEAR)
+}
+
+/// Whether the names of a vehicle's parts say that they are at its front end (1), or at its rear end (−1).
+pub(crate) fn end_of_vehicle(name: &str) -> Option<f64> {
+    match [FRONT_END, REAR_END].map(|words| has_word(name, words)) {
+        [true, false] => Some(1.0),
+        [false, true] => Some(-1.0),
+        _ => None,
+    }
+}
+
+/// Whether a name is that of lights.
+pub(crate) fn is_light(name: &str) -> bool {
+    has_word(name, LIGHTS)
 }
 
 /// Words for what is thin and limp; katakana words are written in hiragana here.
@@ -63,7 +101,7 @@ pub(crate) fn is_sheet(name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Thing, is_sheet, thing};
+    use super::{Thing, is_disc, is_sheet, thing};
 
     #[test]
     fn sheets_are_thin() {
@@ -80,6 +118,25 @@ mod tests {
         }
         for name in ["Head", "wing tip", "Tentacle", "capelet holder", ""] {
             assert!(!is_sheet(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn wheels_and_hubs_are_discs() {
+        for name in [
+            "Wheel",
+            "Left wheel",
+            "Tyre2",
+            "Hubs",
+            "rim",
+            "前輪",
+            "ハブ",
+            "後輪",
+        ] {
+            assert!(is_disc(name), "{name}");
+        }
+        for name in ["Wheelbarrow", "Trim", "Hubble", "Head", ""] {
+            assert!(!is_disc(name), "{name}");
         }
     }
 

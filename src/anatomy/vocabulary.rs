@@ -71,6 +71,8 @@ pub(crate) enum Term {
     Eye,
     /// A nose, a beak, a muzzle.
     Nose,
+    /// A horn, a tusk.
+    Horn,
     /// Hair, which is a detail of a head.
     Hair,
     /// A cape, which is a detail.
@@ -81,9 +83,9 @@ pub(crate) enum Term {
 
 use Term::{
     Arm, Back, Belly, Body, BodyWear, Cape, Chest, Collar, Detail, Ear, Eye, Face, Foot, Fore,
-    Hair, Hand, Head, HeadWear, Helper, Hind, Hip, HipWear, Hips, Left, Leg, LegOrFoot, Lower,
-    LowerArm, Middle, Neck, Nose, OfHead, Right, Shin, Shoulder, Sleeve, Stocking, Tail, Thigh,
-    Toe, Upper, UpperArm, Waist, Wing, Worn,
+    Hair, Hand, Head, HeadWear, Helper, Hind, Hip, HipWear, Hips, Horn, Left, Leg, LegOrFoot,
+    Lower, LowerArm, Middle, Neck, Nose, OfHead, Right, Shin, Shoulder, Sleeve, Stocking, Tail,
+    Thigh, Toe, Upper, UpperArm, Waist, Wing, Worn,
 };
 
 /// Words, and what they mean.
@@ -142,6 +144,7 @@ const ENGLISH: Table = &[
         &[Detail, OfHead, Nose],
         "nose beak bill snout muzzle proboscis",
     ),
+    (&[Detail, OfHead, Horn], "horn antler tusk"),
     (
         &[Detail, OfHead, Hair],
         "hair bangs fringe ponytail braid bun",
@@ -149,7 +152,7 @@ const ENGLISH: Table = &[
     (
         &[Detail, OfHead],
         "earring crown brow eyebrow eyelid lid eyelash mouth lip \
-         lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler horn mask",
+         lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler mask",
     ),
     (&[Detail, Cape], "cape cloak"),
     (&[Detail, Sleeve], "sleeve cuff"),
@@ -176,6 +179,8 @@ const JAPANESE: Table = &[
     (&[Fore], "前 まえ"),
     (&[Middle], "中"),
     (&[Hind], "後 後ろ うしろ"),
+    // The near side: neither a hand nor in front.
+    (&[], "手前 てまえ"),
     (
         &[Body],
         "体 身体 からだ 胴 胴体 どう どうたい ぼでぃ ぼでぃー 上半身 背骨 上体",
@@ -216,10 +221,11 @@ const JAPANESE: Table = &[
     (&[Detail, OfHead, Ear], "耳 みみ"),
     (&[Detail, OfHead, Eye], "目 眼 め"),
     (&[Detail, OfHead, Nose], "鼻 はな 嘴 くちばし"),
+    (&[Detail, OfHead, Horn], "角 つの 牙 きば"),
     (&[Detail, OfHead, Hair], "髪 かみ 前髪 後髪 後ろ髪"),
     (
         &[Detail, OfHead],
-        "口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
+        "口 くち 顎 あご 舌 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
     ),
     (&[Detail, Cape], "まんと"),
     (&[Detail, Sleeve], "袖 そで"),

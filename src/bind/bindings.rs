@@ -197,6 +197,8 @@ pub struct Part {
     pub outline: Arc<Outline>,
     /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
     pub(super) is_balloon: bool,
+    /// For a wheel that no string gives a `Shape`, half its thickness, drawing units.
+    pub(super) disc: Option<f64>,
     /// For cloth by its name, how far it reaches to either side of its plane at most if it is inflated without a `Shape` that says so,
     /// drawing units.
     pub(super) sheet: Option<f64>,

@@ -8,6 +8,7 @@ mod attributes;
 mod bindings;
 mod bodies;
 mod describe;
+mod discs;
 mod hierarchy;
 mod matching;
 mod names;
@@ -45,6 +46,7 @@ pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -
     let attributes = attributes::resolve(drawing, &matched, diagnostics);
     let tree = hierarchy::build(drawing, &matched, &attributes, memo, diagnostics);
     bodies::soften(drawing, &mut matched, &tree);
+    discs::find(&mut matched, &tree);
     diagnostics.extend(reports::all(drawing, &matched, &attributes, &tree));
     assembled(matched, attributes, tree)
 }
@@ -61,6 +63,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         host: part.host,
         outline: part.outline,
         is_balloon: part.is_balloon,
+        disc: part.disc,
         sheet: None,
         measure: tree.axes.turned(index).unwrap_or(part.measure),
         of_group: tree.axes.of_group(index).map(Box::new),

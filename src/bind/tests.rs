@@ -583,3 +583,30 @@ fn ground_takes_no_name_of_a_limb() {
     let found = ["Head", "Leg", "Sky"].map(|name| bound_shape(&compiled, name));
     assert_eq!(found, ["s1", "s2", "sky1"]);
 }
+
+#[test]
+fn wheels_are_discs_unless_a_string_says_shape() {
+    use crate::solid::Profile;
+    let circle = |x: i32, radius: i32, name: &str| {
+        format!(
+            r##"<circle cx="{x}" cy="100" r="{radius}" fill="#222222"><desc>{name}</desc></circle>"##
+        )
+    };
+    let wheels = circle(50, 20, "Wheel$") + &circle(150, 10, "Ball$");
+    let depths = |compiled: &Compiled, name: &str| {
+        let part = part(compiled, name);
+        let profile = compiled.bindings.profile(&compiled.drawing, part);
+        let profile = profile.unwrap();
+        let is_disc = matches!(profile, Profile::Default(_));
+        (is_disc, profile.numbers())
+    };
+    let first_look = drawing(&wheels);
+    let (is_disc, depth) = depths(&first_look, "Wheel");
+    assert!(is_disc);
+    // A circle is a polygon here, a little narrower than its diameter of 40.
+    let is_half = |number: f64| (number.abs() - 7.0).abs() < 0.05;
+    assert!(is_half(depth[0]) && is_half(depth[1]), "{depth:?}");
+    assert!(!depths(&first_look, "Ball").0);
+    let chosen = drawing(&(wheels + &text(100, 190, "%Shape inflate")));
+    assert!(!depths(&chosen, "Wheel").0);
+}

@@ -39,6 +39,8 @@ pub struct FigurePart {
     pub bounds: [DVec2; 2],
     /// The corners of the bounding box of its main shape.
     pub main_shape: [DVec2; 2],
+    /// The bounding boxes of the pieces of its main shape, if that has several.
+    pub pieces: Vec<[DVec2; 2]>,
     /// Its other shapes.
     pub details: Vec<Detail>,
     /// Its place in the drawing order: parts with a greater number were drawn later and lie nearer to the viewer.
@@ -56,8 +58,20 @@ pub struct Detail {
     pub name: String,
     /// The lower left and the upper right corner of its bounding box.
     pub bounds: [DVec2; 2],
+    /// Those of its pieces, if it has several.
+    pub pieces: Vec<[DVec2; 2]>,
     /// Its colour, or the mean of its paint.
     pub color: [u8; 3],
+}
+
+impl Detail {
+    /// The bounding boxes of its pieces.
+    pub(super) fn boxes(&self) -> &[[DVec2; 2]] {
+        match self.pieces.as_slice() {
+            [] => std::slice::from_ref(&self.bounds),
+            pieces => pieces,
+        }
+    }
 }
 
 /// What a limb takes over from a motion, as a string says with `Carry`.

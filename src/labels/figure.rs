@@ -4,8 +4,8 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::part_tree::PartTree;
 use super::placement::{self, Front};
-use super::{Class, FoundFacing, Label, LimbSegment, Side, by_shape, facing, segments};
-use crate::anatomy::{self, Term};
+use super::{Class, FoundFacing, Label, LimbSegment, Side, by_shape, facing, segments, vehicle};
+use crate::anatomy::{self, Term, name_words};
 use crate::labels::{Figure, FigurePartId};
 
 /// What is known of a part so far.
@@ -73,9 +73,11 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     details(&tree, &mut drafts);
     by_shape::trunk(&tree, &mut drafts);
     by_shape::patches(&tree, &mut drafts);
-    by_shape::head(&tree, &mut drafts);
-    by_shape::limbs(&tree, &mut drafts);
-    by_shape::hips(&tree, &mut drafts);
+    if !vehicle::is_alone(&tree, &drafts) {
+        by_shape::head(&tree, &mut drafts);
+        by_shape::limbs(&tree, &mut drafts);
+        by_shape::hips(&tree, &mut drafts);
+    }
     let found = facing::find(&tree, &drafts);
     let facing = Front::of(&tree, &drafts, found.facing);
     let limbs = segments::limbs(&tree, &drafts);
@@ -112,12 +114,28 @@ fn by_names(figure: &Figure) -> TiVec<FigurePartId, PartDraft> {
     drawn.sort_by_key(|part| parts[*part].drawing_order);
     let names = drawn.iter().map(|part| anatomy::terms(&parts[*part].name));
     let mut names: Vec<Vec<Term>> = names.collect();
+    let called = |part: &FigurePartId| parts[*part].name.as_str();
+    elephants_trunk(&drawn.iter().map(called).collect::<Vec<_>>(), &mut names);
     anatomy::dress(&mut names);
     let mut drafts = ti_vec![PartDraft::default(); parts.len()];
     for (part, terms) in drawn.into_iter().zip(names) {
         drafts[part] = by_name(&parts[part].name, terms);
     }
     drafts
+}
+
+/// A trunk beside a body is an elephant's.
+fn elephants_trunk(names: &[&str], terms: &mut [Vec<Term>]) {
+    let is_trunk = |name: &str| name_words::has_word(name, "trunk");
+    let mut named = names.iter().zip(&*terms);
+    if !named.any(|(name, terms)| terms.contains(&Term::Body) && !is_trunk(name)) {
+        return;
+    }
+    let trunks = names.iter().zip(terms).filter(|(name, _)| is_trunk(name));
+    for (_, terms) in trunks {
+        terms.retain(|term| *term != Term::Body);
+        terms.extend([Term::Detail, Term::OfHead, Term::Nose]);
+    }
 }
 
 fn by_name(name: &str, terms: Vec<Term>) -> PartDraft {
@@ -179,7 +197,9 @@ fn details(tree: &PartTree<'_>, drafts: &mut Drafts) {
         let is_face = drafts[parent].class == Some(Class::Head) && drafts[part].says(&[Term::Face]);
         let is_worn =
             drafts[part].says(&[Term::Worn]) && drafts[parent].says(&[Term::Hand, Term::Foot]);
-        if is_face || is_worn {
+        // A wheel that stands on the ground is no leg.
+        let is_wheel = drafts[part].class.is_none() && anatomy::is_disc(tree.name(part));
+        if is_face || is_worn || is_wheel {
             drafts[part].class = None;
             drafts[part].detail = true;
         }

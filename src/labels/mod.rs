@@ -17,6 +17,7 @@ mod sides;
 mod skeleton;
 mod topology;
 mod trunk;
+mod vehicle;
 
 #[cfg(test)]
 pub(crate) mod tests;

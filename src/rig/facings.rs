@@ -1,10 +1,13 @@
 //! Where the figures of a drawing look.
 
-use typed_index_collections::{TiVec, ti_vec};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::{figures, rigging};
+use crate::anatomy::{self, Term};
 use crate::bind::{Bindings, PartId};
-use crate::labels::{Facing, FoundFacing, Label, label_drawn};
+use crate::labels::{
+    Class, Facing, Figure, FigurePartId, FoundFacing, Label, LabeledFigure, label_drawn,
+};
 use crate::svg::Drawing;
 
 /// Without a name that tells part of a body, what sticks out of a thing is no limb unless there are as many as this.
@@ -19,7 +22,9 @@ pub(crate) struct FigureFacing {
     pub parts: Vec<PartId>,
     /// Those of them that are limbs.
     pub limbs: Vec<PartId>,
-    /// Whether names tell parts of a body.
+    /// Those of them that belong to a face that shows both eyes, which its figure has only once.
+    pub face: Vec<PartId>,
+    /// Whether names tell parts of a body, or of a vehicle.
     pub has_names: bool,
     /// The direction, and why.
     pub found: FoundFacing,
@@ -28,7 +33,7 @@ pub(crate) struct FigureFacing {
 /// From where a main part is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Seen {
-    /// No name tells, or it is a limb of a figure in profile.
+    /// No name tells, or it is a limb of a figure in profile, or a face that shows both eyes.
     Anyhow,
     /// From the side: what is drawn on it is on its far side, too.
     InProfile,
@@ -51,14 +56,15 @@ pub(crate) fn seen(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, Seen
         };
         figure.parts.iter().for_each(|part| seen[*part] = from);
         if from == Seen::InProfile {
-            let limbs = figure.limbs.iter();
-            limbs.for_each(|part| seen[*part] = Seen::Anyhow);
+            let one_sided = figure.limbs.iter().chain(&figure.face);
+            one_sided.for_each(|part| seen[*part] = Seen::Anyhow);
         }
     }
     seen
 }
 
-/// Where those figures look that have limbs, or whose strings say so.
+/// Where those figures look that have limbs, or whose strings say so; and vehicles, and animals that show a profile without limbs of
+/// their own.
 pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacing> {
     let parts_of_node = bindings.parts_of_nodes();
     let groups = figures::find(bindings);
@@ -70,15 +76,44 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
         let is_limb = |label: &Label| label.class.is_limb();
         let limbs = labels.filter(|(_, label)| label.as_ref().is_some_and(is_limb));
         let limbs: Vec<PartId> = limbs.map(|(part, _)| *part).collect();
+        let found = &labeled.facing;
         let fewest = if labeled.has_names { 1 } else { FEWEST_UNNAMED };
         let has_limbs = limbs.len() >= fewest;
-        (has_limbs || labeled.facing.by_string).then_some(FigureFacing {
+        // A face alone, such as a smiley, is seen from the front even if it winks.
+        let is_body = |label: &Label| label.class == Class::Body;
+        let has_body = labeled.labels.iter().flatten().any(is_body);
+        let shows_face = labeled.has_names && has_body && found.has_face;
+        let is_animal = shows_face && found.facing.is_profile();
+        let is_figure = has_limbs || found.by_string || found.is_vehicle || is_animal;
+        is_figure.then(|| FigureFacing {
             root: group.root,
             limbs,
-            has_names: labeled.has_names,
+            face: face(&figure, &labeled, &group.parts),
+            has_names: labeled.has_names || labeled.facing.is_vehicle,
             parts: group.parts.raw,
             found: labeled.facing,
         })
     });
     found.collect()
+}
+
+/// The parts of a face that shows both eyes, unless a string says that its figure is in profile.
+fn face(
+    figure: &Figure,
+    labeled: &LabeledFigure,
+    parts: &TiSlice<FigurePartId, PartId>,
+) -> Vec<PartId> {
+    if labeled.facing.by_string || !labeled.facing.shows_two_eyes {
+        return Vec::new();
+    }
+    let labels = labeled.labels.iter_enumerated();
+    let is_face = labels.filter(|(part, label)| {
+        let is_head = label
+            .as_ref()
+            .is_some_and(|label| label.class == Class::Head);
+        let terms = anatomy::terms(&figure.parts[*part].name);
+        let of_head = [Term::OfHead, Term::Face];
+        is_head || terms.iter().any(|term| of_head.contains(term))
+    });
+    is_face.map(|(part, _)| parts[part]).collect()
 }

@@ -8,7 +8,7 @@ use super::builder::of_figure;
 use super::figures::FigureGroup;
 use super::surface;
 use crate::bind::{self, Bindings, PartId};
-use crate::geometry::{Frame, y_up};
+use crate::geometry::{Frame, bounds_of, y_up};
 use crate::labels::{Carry, Class, Detail, Facing, Figure, FigurePart, FigurePartId};
 use crate::memo::exact;
 use crate::mocap::Transform;
@@ -34,10 +34,26 @@ pub(super) fn figure(
     group: &FigureGroup,
 ) -> Figure {
     let middle = |part: PartId| y_up(bindings.parts[part].node_measure().center);
-    let bounds_of = |part: PartId| {
+    let box_of = |part: PartId| {
         let (from, to) = bindings.parts[part].measure.bounds;
         let (a, b) = (y_up(from), y_up(to));
         [a.min(b), a.max(b)]
+    };
+    let pieces_of = |part: PartId| {
+        let pieces = &bindings.parts[part].outline.polygons;
+        if !(2..=MAX_PIECES).contains(&pieces.len()) {
+            return Vec::new();
+        }
+        let borders = pieces.iter().filter_map(|piece| piece.rings.first());
+        let boxes = borders.filter_map(|ring| bounds_of(ring.iter().map(|at| y_up(*at))));
+        let mut boxes: Vec<[DVec2; 2]> = boxes.map(|(low, high)| [low, high]).collect();
+        let extent = |[low, high]: &[DVec2; 2]| (*high - *low).max_element();
+        let largest = boxes.iter().map(extent).fold(0.0, f64::max);
+        boxes.retain(|piece| extent(piece) >= SLIVER * largest);
+        if boxes.len() < 2 {
+            boxes.clear();
+        }
+        boxes
     };
     let part = |(place, &index): (FigurePartId, &PartId)| {
         let part = &bindings.parts[index];
@@ -63,7 +79,7 @@ pub(super) fn figure(
                 }
             }
         };
-        let own = parts_of_node[index].iter().map(|member| bounds_of(*member));
+        let own = parts_of_node[index].iter().map(|member| box_of(*member));
         let bounds = own.fold(
             [joint.min(tip), joint.max(tip)],
             |[low, high], [from, to]| [low.min(from), high.max(to)],
@@ -74,7 +90,8 @@ pub(super) fn figure(
             let shape = &bindings.parts[member];
             Detail {
                 name: shape_name(drawing, shape),
-                bounds: bounds_of(member),
+                bounds: box_of(member),
+                pieces: pieces_of(member),
                 color: shape.paint(drawing).color,
             }
         });
@@ -88,7 +105,8 @@ pub(super) fn figure(
             near_end: Some(nearer(tip)[1]),
             width: 2.0 * part.node_measure().half_across,
             bounds,
-            main_shape: bounds_of(index),
+            main_shape: box_of(index),
+            pieces: pieces_of(index),
             details: details.collect(),
             drawing_order: part.shape.into(),
             bones,
@@ -103,6 +121,10 @@ pub(super) fn figure(
 
 /// The most details of a part that are looked at.
 const MAX_DETAILS: usize = 256;
+/// A shape in more pieces than this is a pattern: both eyes, all legs or all wheels have fewer.
+const MAX_PIECES: usize = 16;
+/// Where outlines touch themselves, pieces come off that are smaller than this share of the largest.
+const SLIVER: f64 = 0.05;
 
 /// The name of a shape: that of its string, its label, or its id.
 fn shape_name(drawing: &Drawing, part: &bind::Part) -> String {

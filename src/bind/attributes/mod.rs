@@ -153,6 +153,8 @@ pub struct Attributes<'a> {
     defaults: &'a [(StringId, Setting)],
     /// The `Shape` without settings.
     builtin_shape: &'static Shape,
+    /// Half the thickness of a plate without settings, drawing units, if it is not the same as everywhere.
+    plate: Option<f64>,
 }
 
 /// Who can set attributes.
@@ -168,6 +170,7 @@ impl<'a> Setters<'a> {
     fn attributes(self, string: Option<StringId>, legend: Option<usize>) -> Attributes<'a> {
         Attributes {
             builtin_shape: &PLATE,
+            plate: None,
             own: string.map(|string| self.settings_of(string)),
             legend: legend.map_or(&[], |legend| &self.legends[legend].settings),
             layer: None,
@@ -212,7 +215,7 @@ impl PartAttributes {
         let (part, legend) = (&matched.parts[part], self.legend_of_part[part]);
         setters
             .attributes(part.string, legend)
-            .of_balloon(part.is_balloon)
+            .of_form(part.is_balloon, part.disc)
     }
 }
 
@@ -237,7 +240,7 @@ impl Bindings {
     pub fn attributes(&self, part: PartId) -> Attributes<'_> {
         let part = &self.parts[part];
         let attributes = self.setters().attributes(part.string, part.legend);
-        attributes.of_balloon(part.is_balloon)
+        attributes.of_form(part.is_balloon, part.disc)
     }
 
     /// The attributes of a layer.
@@ -376,11 +379,13 @@ macro_rules! typed {
 }
 
 impl<'a> Attributes<'a> {
-    /// Those of a part that is inflated if nothing sets its `Shape`, or is a plate.
-    fn of_balloon(self, is_balloon: bool) -> Self {
+    /// Those of a part that is inflated if nothing sets its `Shape`, or is a plate, of half this thickness, drawing units, if it is a
+    /// disc.
+    fn of_form(self, is_balloon: bool, disc: Option<f64>) -> Self {
         let builtin_shape = if is_balloon { &BALLOON } else { &PLATE };
         Self {
             builtin_shape,
+            plate: disc,
             ..self
         }
     }
@@ -452,7 +457,9 @@ impl<'a> Attributes<'a> {
     /// How an outline with these attributes gets its thickness; `None` for `Shape none`.
     pub(in crate::bind) fn profile(&self, drawing: &Drawing) -> Option<Profile> {
         let shape = self.shape();
-        Profile::new(shape.kind, shape.numbers(), plate_depth(drawing))
+        let disc = self.plate.filter(|_| self.source(Keyword::Shape).is_none());
+        let plate = disc.unwrap_or_else(|| plate_depth(drawing));
+        Profile::new(shape.kind, shape.numbers(), plate)
     }
 
     /// `Offset`: towards the viewer, drawing units.

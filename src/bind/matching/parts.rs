@@ -25,6 +25,8 @@ pub(in crate::bind) struct MatchedPart {
     pub(in crate::bind) measure: Measure,
     /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
     pub(in crate::bind) is_balloon: bool,
+    /// For a wheel in such a drawing, half its thickness, drawing units.
+    pub(in crate::bind) disc: Option<f64>,
     /// Its string.
     pub(in crate::bind) string: Option<StringId>,
     /// The main part candidate of its node, which may be itself.
@@ -51,6 +53,7 @@ impl MatchedPart {
             outline,
             measure,
             is_balloon: false,
+            disc: None,
             string: None,
             main: index,
             node_group: None,

@@ -93,8 +93,9 @@ pub(super) static FACING: Row = Row {
     summary: "where the figure looks",
     long: "A figure in profile walks to the side that it looks to, and its limbs drawn last are on the \
            near side. okoshi finds the direction from the drawing: from a head beside the trunk, legs \
-           that overlap, one eye, a nose that leaves the head, a tail at the other side, and words such \
-           as `front leg`; `okoshi inspect` tells which, and why. Where it is wrong, `Facing` in the \
+           that overlap, one eye, a nose that leaves the head, a tail at the other side, wheels in a \
+           row, and words such as `front leg` and `far leg`; two eyes and a symmetric face speak for \
+           the front. `okoshi inspect` tells which, and why. Where it is wrong, `Facing` in the \
            string of one of the figure's parts says so; in a `%` string, it says so of all figures. \
            `back` is a figure that is seen from behind: its left arm is drawn on the left.",
     example: "Dog$Facing left",

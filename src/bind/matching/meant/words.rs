@@ -77,10 +77,11 @@ fn topic(name: &str) -> Option<Topic> {
     let terms = anatomy::terms(name);
     let says = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
     if terms.is_empty() {
-        return anatomy::thing(name).map(|thing| match thing {
-            Thing::Scenery | Thing::Shadow => Topic::Scenery,
-            Thing::Wheel => Topic::Wheel,
-        });
+        return match anatomy::thing(name)? {
+            Thing::Scenery | Thing::Shadow => Some(Topic::Scenery),
+            Thing::Wheel => Some(Topic::Wheel),
+            Thing::Hub => None,
+        };
     }
     let by_words = [
         (Term::Cape, Topic::Cape),

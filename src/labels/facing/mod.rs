@@ -4,25 +4,39 @@
 //! eyes. So everything votes. What votes for a side also votes for a profile; the figure is seen in profile if these votes weigh more
 //! than those for the front, and it faces the side that has more of them.
 
+mod face;
+mod vehicle;
+
 use glam::DVec2;
 
 use super::figure::{Drafts, is_trunk};
 use super::part_tree::PartTree;
 use super::segments::{self, Limb};
+use super::vehicle as wheeled;
 use super::{Class, Facing, FigurePartId, Side};
 use crate::anatomy::{self, Term};
 
 /// How much each observation weighs.
 mod weight {
-    /// Words that say fore and hind of legs, or left and right of limbs that lie beside each other.
+    /// Words that say far and near, fore and hind of legs, or left and right of limbs that lie beside each other.
     pub(super) const WORDS: f64 = 3.0;
     /// Most parts have a mirror image.
     pub(super) const SYMMETRY: f64 = 3.0;
+    /// What is drawn on the face has mirror images: that weighs more than all that legs and arms may show together.
+    pub(super) const SYMMETRIC_FACE: f64 = 5.0;
+    /// Round wheels in a row.
+    pub(super) const WHEELS: f64 = 3.0;
     /// The head, or the neck's root, beside the trunk's middle.
     pub(super) const HEAD: f64 = 2.0;
     /// A nose, beak or muzzle that leaves the head's outline.
     pub(super) const NOSE: f64 = 2.0;
-    /// Two legs of a pair that overlap, or lie beside each other.
+    /// An eye, a nose or a horn beside the middle of a body without a head of its own.
+    pub(super) const FACE: f64 = 2.0;
+    /// A horn that leaves the head's outline, or a nose within it beside the head's middle.
+    pub(super) const HORN: f64 = 1.0;
+    /// Two ears on both sides of the head.
+    pub(super) const EARS: f64 = 1.0;
+    /// Legs that overlap, lie beside each other, or stand in a row.
     pub(super) const LEGS: f64 = 1.5;
     /// Feet that all point to one side.
     pub(super) const FEET: f64 = 1.5;
@@ -36,6 +50,8 @@ mod weight {
     pub(super) const TWO_EYES: f64 = 1.0;
     /// Added to that if they lie on both sides of the head's middle.
     pub(super) const AROUND_MIDDLE: f64 = 1.0;
+    /// Two eyes on a body without a head of its own.
+    pub(super) const EYES_ON_BODY: f64 = 3.0;
     /// A tail at the other side.
     pub(super) const TAIL: f64 = 1.0;
     /// A near limb that is called left or right.
@@ -54,31 +70,15 @@ const OVERLAP: f64 = 0.5;
 const SAME_JOINT: f64 = 0.2;
 /// Joints of limbs that lie beside each other are at least this share of the trunk's width apart.
 const JOINTS_APART: f64 = 0.3;
-/// A nose leaves the head's outline by at least this share of the head's width.
-const BEYOND: f64 = 0.06;
 /// A foot points to the side to which its middle is off its joint by this share of its width.
 const POINTS: f64 = 0.07;
-/// An eye that is this share of a head's width off its middle lies on the face's side, unless the head is this much wider than high:
-/// behind a muzzle it may be anywhere.
-const EYE_OFF: f64 = 0.08;
-const MUZZLE: f64 = 1.2;
-/// The least and the greatest width of an eye, as a share of the head's.
-const EYE: [f64; 2] = [0.03, 0.4];
-/// Two eyes lie around the head's middle if theirs is at most this share of the head's width away.
-const AROUND: f64 = 0.12;
-/// A shape with the name of an eye that is this much wider than high is two of them.
-const BOTH_EYES: f64 = 2.2;
-/// Two eyes have extents that differ by at most this share, and heights that differ by at most this share of the head's.
-const ALIKE: f64 = 0.3;
-const LEVEL: f64 = 0.12;
-/// The distance between the middles of two eyes, as a share of the head's width.
-const EYES_APART: f64 = 0.15;
-/// An eye in profile that no name tells is darker than this.
-const DARK: f64 = 0.35;
-/// The most details of a head that are compared.
-const MAX_DETAILS: usize = 48;
 /// A trunk this much wider than high has one pair of legs in front and one behind, not left and right ones.
 const LONG: f64 = 1.2;
+/// Legs in a row reach over at least this share of the trunk's width.
+const ROW: f64 = 0.3;
+/// Where only words say that a figure is seen from its side, its face tells which if it is at least this share of the trunk's width
+/// off its middle.
+const HINT: f64 = 0.02;
 
 /// The direction that a figure faces, and why.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -91,6 +91,12 @@ pub(crate) struct FoundFacing {
     pub reasons: Vec<String>,
     /// What speaks against it.
     pub doubts: Vec<String>,
+    /// Whether it is a vehicle that shows its wheels.
+    pub is_vehicle: bool,
+    /// Whether names tell pieces of a face: an eye, a nose, a horn.
+    pub has_face: bool,
+    /// Whether it shows two eyes, so that its far side has no face of its own.
+    pub shows_two_eyes: bool,
 }
 
 /// What a vote is for.
@@ -112,15 +118,24 @@ struct Vote {
 
 /// Counts the votes of a figure. What its string says needs no vote.
 pub(super) fn find(tree: &PartTree<'_>, drafts: &Drafts) -> FoundFacing {
+    let observed = Observed::new(tree, drafts);
+    let seen = FoundFacing {
+        is_vehicle: !observed.wheels.is_empty(),
+        has_face: observed.has_face(),
+        shows_two_eyes: observed.two_eyes().is_some(),
+        ..FoundFacing::default()
+    };
     if let Some(facing) = tree.facing {
         return FoundFacing {
             facing,
             by_string: true,
             reasons: vec![format!("its string says `Facing {}`", facing.word())],
             doubts: Vec::new(),
+            ..seen
         };
     }
-    let votes = Observed::new(tree, drafts).votes();
+    let mut votes = observed.votes();
+    votes.extend(observed.guess(&votes));
     let sum = |says: For| {
         let votes = votes.iter().filter(|vote| vote.says == says);
         votes.map(|vote| vote.weight).sum::<f64>()
@@ -149,6 +164,7 @@ pub(super) fn find(tree: &PartTree<'_>, drafts: &Drafts) -> FoundFacing {
         by_string: false,
         reasons,
         doubts: texts(doubts),
+        ..seen
     }
 }
 
@@ -181,6 +197,10 @@ struct Observed<'a> {
     limbs: Vec<Limb>,
     trunk: Option<Bounds>,
     head: Option<Bounds>,
+    /// The wheels in a row that show a vehicle from its side.
+    wheels: Vec<Bounds>,
+    /// Whether it is a vehicle, none of whose parts is a head or a limb.
+    is_thing: bool,
 }
 
 impl<'a> Observed<'a> {
@@ -196,20 +216,56 @@ impl<'a> Observed<'a> {
             limbs: segments::limbs(tree, drafts),
             trunk: around(&is_trunk),
             head: around(&|class| class == Some(Class::Head)),
+            wheels: wheeled::wheels(tree),
+            is_thing: wheeled::is_alone(tree, drafts),
         }
     }
 
     fn votes(&self) -> Vec<Vote> {
         let mut votes = Vec::new();
         let mut vote = |says: For, weight: f64, why: String| votes.push(Vote { says, weight, why });
+        self.wheels(&mut vote);
+        if self.is_thing {
+            return votes;
+        }
         self.head(&mut vote);
         self.limbs(&mut vote);
         self.words(&mut vote);
         self.feet(&mut vote);
         self.tail(&mut vote);
         self.nose(&mut vote);
+        self.horns(&mut vote);
         self.eyes(&mut vote);
+        self.face(&mut vote);
         votes
+    }
+
+    /// The side of a figure of which words or wheels say that it is seen from its side, but nothing says which: that of its face,
+    /// and a vehicle looks left, as most drawings do.
+    fn guess(&self, votes: &[Vote]) -> Option<Vote> {
+        let sum = |of: &dyn Fn(&Vote) -> f64| votes.iter().map(of).sum::<f64>();
+        let toward = sum(&|vote| match vote.says {
+            For::Side(toward) => toward * vote.weight,
+            For::Front | For::Profile => 0.0,
+        });
+        let [profile, front] = [For::Profile, For::Front]
+            .map(|says| sum(&|vote| if vote.says == says { vote.weight } else { 0.0 }));
+        let is_said = profile >= weight::WORDS && profile > front && toward == 0.0;
+        let trunk = self.trunk.filter(|_| is_said)?;
+        let face = self.head.map(middle).or(self.middle_of_face());
+        let off = face.map_or(0.0, |face| face.x - middle(trunk).x);
+        if off.abs() > HINT * width(trunk) {
+            return Some(Vote {
+                says: For::Side(off.signum()),
+                weight: weight::EYE,
+                why: format!("its face lies {} of the trunk's middle", side_of(off)),
+            });
+        }
+        (!self.wheels.is_empty()).then(|| Vote {
+            says: For::Side(-1.0),
+            weight: weight::EYE,
+            why: "nothing says where its front end is, and most drawings look left".to_owned(),
+        })
     }
 
     fn of_class(&self, class: Class) -> impl Iterator<Item = FigurePartId> + '_ {
@@ -294,8 +350,29 @@ impl<'a> Observed<'a> {
                         vote(For::Profile, weight, why);
                     }
                 }
+                [first, .., last] if class == Class::Leg && is_long => {
+                    self.row_of_legs(&[first.0, last.0], size.x, vote);
+                }
+                [(_, _)] if class == Class::Leg && is_long => {
+                    self.row_of_legs(&[], size.x, vote);
+                }
                 _ => {}
             }
+        }
+    }
+
+    /// Legs in a row under a long trunk, each with its box or all in one shape.
+    fn row_of_legs(&self, legs: &[Bounds], trunk: f64, vote: &mut impl FnMut(For, f64, String)) {
+        let parts = self.of_class(Class::Leg);
+        let pieces = parts.flat_map(|leg| self.tree.parts[leg].pieces.iter().copied());
+        let all: Vec<Bounds> = legs.iter().copied().chain(pieces).collect();
+        let ends = all.iter().copied().map(|leg| middle(leg).x);
+        let [from, to] = ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[from, to], x| {
+            [from.min(x), to.max(x)]
+        });
+        if all.len() > 1 && to - from >= ROW * trunk {
+            let why = "its legs stand in a row under a long body".to_owned();
+            vote(For::Profile, weight::LEGS, why);
         }
     }
 
@@ -304,6 +381,15 @@ impl<'a> Observed<'a> {
         let Some(trunk) = self.trunk else {
             return;
         };
+        let says = |part: &FigurePartId| {
+            let name = self.tree.name(*part);
+            let has_more = !self.drafts[*part].terms.is_empty();
+            has_more && anatomy::says_far_or_near(name)
+        };
+        if self.tree.order.iter().any(says) {
+            let why = "names say what is on its far and on its near side".to_owned();
+            vote(For::Profile, weight::WORDS, why);
+        }
         let legs = self.limbs.iter().filter(|limb| limb.class == Class::Leg);
         let legs: Vec<&Limb> = legs.collect();
         let mean = |terms: &[Term]| {
@@ -404,137 +490,4 @@ impl<'a> Observed<'a> {
             vote(For::Side(-off.signum()), weight::TAIL, why);
         }
     }
-
-    /// Parts and details of the head with a name that says this, by their boxes.
-    fn features(&self, term: Term) -> Vec<Bounds> {
-        let parts = self.tree.parts.iter_enumerated();
-        let parts = parts.filter(|(part, _)| self.drafts[*part].says(&[term]));
-        let parts = parts.map(|(_, part)| part.bounds);
-        let heads = self.of_class(Class::Head).chain(self.of_class(Class::Neck));
-        let details = heads.flat_map(|head| &self.tree.parts[head].details);
-        let named = details.filter(|detail| anatomy::terms(&detail.name).contains(&term));
-        parts.chain(named.map(|detail| detail.bounds)).collect()
-    }
-
-    fn nose(&self, vote: &mut impl FnMut(For, f64, String)) {
-        let heads: Vec<FigurePartId> = self.of_class(Class::Head).collect();
-        let [head] = heads[..] else {
-            return;
-        };
-        // Of a head in several shapes its main one: the others may be the nose itself.
-        let outline = self.tree.parts[head].main_shape;
-        let outline = if width(outline) > 0.0 {
-            outline
-        } else {
-            self.tree.parts[head].bounds
-        };
-        let noses = self.features(Term::Nose);
-        let beyond = noses.iter().map(|nose| {
-            [outline[0].x - nose[0].x, nose[1].x - outline[1].x].map(|way| way / width(outline))
-        });
-        let most = beyond.fold([f64::NEG_INFINITY; 2], |[a, b], [left, right]| {
-            [a.max(left), b.max(right)]
-        });
-        let toward = match most.map(|way| way > BEYOND) {
-            [true, false] => -1.0,
-            [false, true] => 1.0,
-            _ => return,
-        };
-        let why = format!(
-            "its nose leaves the head's outline on the {}",
-            side_of(toward)
-        );
-        vote(For::Side(toward), weight::NOSE, why);
-    }
-
-    fn eyes(&self, vote: &mut impl FnMut(For, f64, String)) {
-        let Some(head) = self.head else {
-            return;
-        };
-        let two = "it shows two eyes beside each other";
-        let mut named = self.features(Term::Eye);
-        named.truncate(MAX_DETAILS);
-        let size = head[1] - head[0];
-        let one = |eye: Bounds, vote: &mut dyn FnMut(For, f64, String)| {
-            vote(For::Profile, weight::ONE_EYE, "it shows one eye".to_owned());
-            let off = (middle(eye).x - middle(head).x) / size.x.max(f64::MIN_POSITIVE);
-            if off.abs() > EYE_OFF && size.x <= MUZZLE * size.y {
-                let why = format!("the eye lies {} of the head's middle", side_of(off));
-                vote(For::Side(off.signum()), weight::EYE, why);
-            }
-        };
-        let eyes = |pair: [Bounds; 2], vote: &mut dyn FnMut(For, f64, String)| {
-            let [a, b] = pair.map(|eye| middle(eye).x);
-            let off = a.midpoint(b) - middle(head).x;
-            let is_around = off.abs() <= AROUND * size.x;
-            let more = if is_around {
-                weight::AROUND_MIDDLE
-            } else {
-                0.0
-            };
-            vote(For::Front, weight::TWO_EYES + more, two.to_owned());
-        };
-        if let Some(first) = named.first() {
-            let mut beside = named.iter();
-            let beside = beside.find(|eye| shared_width(**eye, *first) <= 0.0);
-            // Both may be drawn as one shape.
-            let both = named.iter().find(|[low, high]| {
-                let size = *high - *low;
-                size.x > BOTH_EYES * size.y
-            });
-            match (beside, both) {
-                (Some(other), _) => eyes([*first, *other], vote),
-                (None, Some(both)) => eyes([*both; 2], vote),
-                (None, None) => one(*first, vote),
-            }
-            return;
-        }
-        let parts = self.of_class(Class::Head);
-        let details = parts.flat_map(|head| &self.tree.parts[head].details);
-        let may_be = |[low, high]: Bounds| {
-            let own = high - low;
-            let is_round = own.max_element() <= 2.5 * own.min_element();
-            is_round && (EYE[0] * size.x..=EYE[1] * size.x).contains(&own.x)
-        };
-        let details = details
-            .filter(|detail| may_be(detail.bounds))
-            .take(MAX_DETAILS);
-        let details: Vec<_> = details.collect();
-        let mut pair = None;
-        for (place, one) in details.iter().enumerate() {
-            for other in &details[place + 1..] {
-                let [a, b] = [one, other].map(|eye| eye.bounds[1] - eye.bounds[0]);
-                let alike = (a - b).abs().cmple(ALIKE * a.max(b)).all();
-                let way = middle(other.bounds) - middle(one.bounds);
-                let is_pair = alike
-                    && one.color == other.color
-                    && way.y.abs() <= LEVEL * size.y
-                    && way.x.abs() >= EYES_APART * size.x
-                    && shared_width(one.bounds, other.bounds) <= 0.0;
-                pair = pair.or_else(|| is_pair.then_some([one.bounds, other.bounds]));
-            }
-        }
-        if let Some(pair) = pair {
-            eyes(pair, vote);
-            return;
-        }
-        let dark = details
-            .iter()
-            .filter(|detail| luminance(detail.color) < DARK);
-        let inside = dark.filter(|detail| {
-            let at = middle(detail.bounds);
-            at.cmpgt(head[0]).all() && at.cmplt(head[1]).all()
-        });
-        let area = |[low, high]: Bounds| (high - low).element_product();
-        let largest = inside.max_by(|a, b| area(a.bounds).total_cmp(&area(b.bounds)));
-        if let Some(eye) = largest {
-            one(eye.bounds, vote);
-        }
-    }
-}
-
-/// How bright a colour is, 0 to 1.
-fn luminance(color: [u8; 3]) -> f64 {
-    let [r, g, b] = color.map(|channel| f64::from(channel) / 255.0);
-    0.299 * r + 0.587 * g + 0.114 * b
 }
