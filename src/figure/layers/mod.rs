@@ -21,11 +21,12 @@ use super::FigureContext;
 use crate::bind::PartId;
 use crate::figure::PartFrames;
 use crate::memo::Memo;
+use crate::rig::Seen;
 use crate::scene::WorldTransform;
 use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
 
 use buried::Search;
-use node_depths::{Figure, backdrops};
+use node_depths::{Figure, NodeDepths, backdrops};
 use nodes::Nodes;
 use overlaps::{Overlap, Scratch, overlaps, ranks};
 use shapes::{Shape, shapes};
@@ -179,7 +180,8 @@ impl Layers {
         };
         let is_one = !context.bindings.annotated;
         let details = details(&shapes, &nodes, &overlaps, is_one);
-        if is_one {
+        let is_flat = is_one && is_flat(context, &nodes);
+        if is_one && !is_flat {
             nodes.hang_on_trunks(&shapes, &overlaps, &details);
         }
         cords::lay(context, &mut shapes, &details);
@@ -190,26 +192,33 @@ impl Layers {
             .iter()
             .map(|part| context.bindings.attributes(*part).stack())
             .collect();
-        // On all cores, before they are asked for one by one: what hangs on something may be moved by its height.
-        let hangs = |shape: usize| nodes.parent[nodes.of_shape[shape]].is_some();
-        let volumes = shapes.par_iter().zip(&covers).enumerate();
-        let volumes = volumes.filter(|(index, (_, cover))| !cover.is_detail && hangs(*index));
-        volumes.for_each(|(_, (shape, _))| {
-            shape.height();
-        });
-        let behind = backdrops(&mut shapes, &nodes, &overlaps);
-        for (cover, behind) in covers.iter_mut().zip(behind) {
-            cover.behind = behind;
-        }
-        let node_depths = Figure {
-            parts: &context.bindings.parts,
-            shapes: &shapes,
-            nodes: &nodes,
-            overlaps: &overlaps,
-            covers: &covers,
-            spread: &spread,
-        }
-        .place();
+        let node_depths = if is_flat {
+            NodeDepths {
+                depths: vec![0.0; nodes.len()],
+                reasons: vec![Reason::Plane; nodes.len()],
+            }
+        } else {
+            // On all cores, before they are asked for one by one: what hangs on something may be moved by its height.
+            let hangs = |shape: usize| nodes.parent[nodes.of_shape[shape]].is_some();
+            let volumes = shapes.par_iter().zip(&covers).enumerate();
+            let volumes = volumes.filter(|(index, (_, cover))| !cover.is_detail && hangs(*index));
+            volumes.for_each(|(_, (shape, _))| {
+                shape.height();
+            });
+            let behind = backdrops(&mut shapes, &nodes, &overlaps, &covers);
+            for (cover, behind) in covers.iter_mut().zip(behind) {
+                cover.behind = behind;
+            }
+            Figure {
+                parts: &context.bindings.parts,
+                shapes: &shapes,
+                nodes: &nodes,
+                overlaps: &overlaps,
+                covers: &covers,
+                spread: &spread,
+            }
+            .place()
+        };
         let steps = steps(context, &shapes, &nodes, &overlaps, is_one);
         let arrangement = Arrangement {
             context,
@@ -287,6 +296,14 @@ impl Layers {
         let body = self.places[part].filter(|body| self.pile.makes(*body))?;
         Some((&self.pile, body))
     }
+}
+
+/// Whether all nodes of a drawing without strings lie in one plane: those of figures with names that are drawn from the front, whose
+/// ears and arms are beside what they hang on. Animals in profile have near and far limbs, and of figures without names the order
+/// of drawing is all that is known.
+fn is_flat(context: &FigureContext<'_>, nodes: &Nodes) -> bool {
+    let has_names = nodes.parent.iter().any(Option::is_some);
+    has_names && !context.seen.contains(&Seen::InProfile)
 }
 
 /// Gives the soft shapes that lie over others or under them their heights.

@@ -42,6 +42,7 @@ pub(super) fn backdrops(
     shapes: &mut [Shape],
     nodes: &Nodes,
     overlaps: &[Vec<Overlap>],
+    covers: &[Cover],
 ) -> Vec<Vec<usize>> {
     let mut found = vec![Vec::new(); shapes.len()];
     for (above, below) in overlaps.iter().enumerate() {
@@ -52,7 +53,11 @@ pub(super) fn backdrops(
             let parent = nodes.parent[node].filter(|_| shape.is_sheet);
             let (is_near, least) = match parent {
                 Some(parent) => (nodes.hangs_on(later, parent), SHEET),
-                None => (nodes.hangs_on(node, later), BACKDROP),
+                // A detail has no back of its own that something could be behind.
+                None => {
+                    let is_volume = !covers[above].is_detail;
+                    (is_volume && nodes.hangs_on(node, later), BACKDROP)
+                }
             };
             if shape.is_soft
                 && shape.is_main
