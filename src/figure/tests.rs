@@ -191,3 +191,104 @@ fn mirrored_solids_share_a_node_and_mirrored_copies_do_not() {
         "{nodes} {low} {high}"
     );
 }
+
+#[test]
+fn outlines_of_soft_volumes_are_cords_as_deep_as_they_are_wide() {
+    let shapes = [
+        r#"<ellipse cx="100" cy="100" rx="60" ry="40""#,
+        r#"<circle cx="100" cy="100" r="30""#,
+        // A bean, a drop, and a ring with a hole.
+        r#"<path d="M60 100c0-60 80-60 80 0c0 30-20 40-30 20c-8-14-16-14-20 0c-10 20-30 10-30-20z""#,
+        r#"<path d="M100 40c10 40 40 50 40 80a40 40 0 0 1-80 0c0-30 30-40 40-80z""#,
+        r#"<path fill-rule="evenodd" d="M40 100a60 60 0 0 1 120 0a60 60 0 0 1-120 0zM75 100a25 25 0 0 0 50 0a25 25 0 0 0-50 0z""#,
+    ];
+    for shape in shapes {
+        let sides = |stroke: &str| -> Vec<[DVec3; 2]> {
+            let scene = drawing(&format!(r##"{shape} fill="#e84" {stroke}/>"##)).scene;
+            let bounds = |primitive: &crate::scene::Primitive| {
+                let surface = primitive.surface();
+                let all = surface
+                    .positions
+                    .iter()
+                    .map(|at| DVec3::from(at.map(f64::from)) * 100.0);
+                all.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[low, high], at| {
+                    [low.min(at), high.max(at)]
+                })
+            };
+            scene.meshes.raw[0].primitives.iter().map(bounds).collect()
+        };
+        let [plain] = sides("")[..] else {
+            panic!("{shape}")
+        };
+        for width in [3.0, 6.0, 10.0] {
+            let stroke = format!(r##"stroke="#123" stroke-width="{width}""##);
+            let [fill, cord] = sides(&stroke)[..] else {
+                panic!("{shape}")
+            };
+            let half = width / 2.0;
+            let thick = [cord[0].z, cord[1].z];
+            assert!(
+                thick.iter().all(|z| (z.abs() - half).abs() < 0.05 * half),
+                "{shape}: {thick:?}"
+            );
+            for axis in 0..2 {
+                // A miter reaches farther than half the width.
+                assert!(cord[0][axis] < plain[0][axis] - 0.98 * half, "{shape}");
+                assert!(fill[0][axis] > plain[0][axis] + 0.98 * half, "{shape}");
+                assert!(fill[1][axis] < plain[1][axis] - 0.98 * half, "{shape}");
+            }
+        }
+        // Where gaps or what lies below would show, the volume is whole.
+        for stroke in [
+            r##"stroke="#123" stroke-width="6" stroke-dasharray="4""##,
+            r##"opacity=".5" stroke="#123" stroke-width="6""##,
+        ] {
+            let [fill, ..] = sides(stroke)[..] else {
+                panic!("{shape}")
+            };
+            let apart = (fill[0] - plain[0]).truncate().length();
+            assert!(apart < 0.01, "{shape} {stroke}: {fill:?}");
+        }
+    }
+}
+
+#[test]
+fn feet_that_are_drawn_from_the_front_point_forward() {
+    let figure = |foot: &str, extra: &str| {
+        let label = |name: &str| format!(r#"inkscape:label="{name}""#);
+        let elements = [
+            format!(
+                r#"<ellipse {} cx="80" cy="140" rx="10" ry="30"/>"#,
+                label("Left leg")
+            ),
+            format!(
+                r#"<ellipse {} cx="120" cy="140" rx="10" ry="30"/>"#,
+                label("Right leg")
+            ),
+            format!(
+                r#"<ellipse {} cx="80" cy="172" rx="14" ry="9"/>"#,
+                label(foot)
+            ),
+            format!(
+                r#"<ellipse {} cx="100" cy="90" rx="30" ry="35"/>"#,
+                label("Body")
+            ),
+            format!(r#"<circle {} cx="100" cy="35" r="22"/>"#, label("Head")),
+            extra.to_owned(),
+        ];
+        let source = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="200" height="200">{}</svg>"#,
+            elements.concat()
+        );
+        let scene = compile(&source, &Options::default(), &MemoryResolver::default()).scene;
+        let [low, high] = bounds(&scene, foot);
+        [low.z, high.z]
+    };
+    let [back, front] = figure("Left shoe", "");
+    assert!(front > 0.8 * 18.0 && front > 1.5 * -back, "{back} {front}");
+    let [back, front] = figure("Left ball", "");
+    assert!((front + back).abs() < 0.1 * front, "{back} {front}");
+    let text = |string: &str| format!(r#"<text x="150" y="190">{string}</text>"#);
+    let [back, front] = figure("Left shoe", &text("%Shape inflate"));
+    assert!((front + back).abs() < 0.1 * front, "{back} {front}");
+}
