@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use typed_index_collections::{TiVec, ti_vec};
 
+use crate::anatomy::{self, Role, Term};
 use crate::geometry::{Measure, Outline};
 use crate::index::index_type;
 use crate::lang::Variables;
@@ -235,6 +236,16 @@ impl Part {
         self.sheet.is_some()
     }
 
+    /// Whether it is a foot or a shoe by its name.
+    pub fn is_foot(&self) -> bool {
+        Role::of(&anatomy::terms(&self.name)) == Some(Role::Foot)
+    }
+
+    /// Whether it is hair by its name.
+    pub fn is_hair(&self) -> bool {
+        anatomy::terms(&self.name).contains(&Term::Hair)
+    }
+
     /// Whether the program chose its name.
     pub fn is_automatic(&self) -> bool {
         self.named_by == NamedBy::Automatic
@@ -244,6 +255,17 @@ impl Part {
     pub fn paint<'a>(&self, drawing: &'a Drawing) -> &'a Paint {
         paint(drawing, self.shape, self.is_stroke)
     }
+}
+
+/// From where a main part is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Seen {
+    /// No name tells, or it is a limb of a figure in profile, or a face that shows both eyes.
+    Anyhow,
+    /// From the side: what is drawn on it is on its far side, too.
+    InProfile,
+    FromFront,
+    FromBehind,
 }
 
 /// The paint of a shape's fill, or of its stroke.

@@ -23,7 +23,7 @@ pub(crate) use attributes::{
     MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, Side, SignedAxis,
 };
 pub(crate) use bindings::{
-    Bindings, BoundBy, DrawingString, NamedBy, Part, StringHolder, StringId,
+    Bindings, BoundBy, DrawingString, NamedBy, Part, Seen, StringHolder, StringId,
 };
 pub use bindings::{PartId, PartKind};
 pub use matching::in_layers_of_pixels;

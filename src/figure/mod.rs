@@ -18,13 +18,12 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
-use crate::bind::{Bindings, PartId, SetBy};
+use crate::bind::{Bindings, PartId, Seen, SetBy};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::index::par_keys;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
-use crate::rig::Seen;
 use crate::scene::{
     MaterialId, Mesh, NodeId, PartMaterial, Primitive, Scene, SurfacePatch, WorldTransform,
 };

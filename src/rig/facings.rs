@@ -4,7 +4,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::{figures, rigging};
 use crate::anatomy::{self, Term};
-use crate::bind::{Bindings, PartId};
+use crate::bind::{Bindings, PartId, Seen};
 use crate::labels::{
     Class, Facing, Figure, FigurePartId, FoundFacing, Label, LabeledFigure, label_drawn,
 };
@@ -28,17 +28,6 @@ pub(crate) struct FigureFacing {
     pub has_names: bool,
     /// The direction, and why.
     pub found: FoundFacing,
-}
-
-/// From where a main part is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Seen {
-    /// No name tells, or it is a limb of a figure in profile, or a face that shows both eyes.
-    Anyhow,
-    /// From the side: what is drawn on it is on its far side, too.
-    InProfile,
-    FromFront,
-    FromBehind,
 }
 
 /// Per main part from where it is drawn.

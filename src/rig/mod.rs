@@ -41,7 +41,7 @@ use crate::svg::Drawing;
 use builder::{ClipBuilder, Requested};
 use diagnostics::MatchProblems;
 pub(crate) use effects::{Performance, PerformedMark};
-pub(crate) use facings::{FigureFacing, Seen, facings, seen};
+pub(crate) use facings::{FigureFacing, facings, seen};
 pub use figure_clip::FigureClip;
 pub(crate) use figure_clip::{PartDrive, originals};
 pub(crate) use figures::FigureGroup;

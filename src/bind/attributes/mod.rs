@@ -282,6 +282,11 @@ impl Bindings {
         host.unwrap_or(part)
     }
 
+    /// Whether a string says a part's `Shape`.
+    pub fn is_shape_set(&self, part: PartId) -> bool {
+        self.setting(part, Keyword::Shape).is_some()
+    }
+
     /// How a part's outline gets its thickness; `None` for `Shape none`, and for ink on a model, which takes the place of all
     /// that is drawn there.
     pub fn profile(&self, drawing: &Drawing, part: PartId) -> Option<Profile> {
@@ -290,8 +295,7 @@ impl Bindings {
         let Part {
             shape, host, sheet, ..
         } = &self.parts[part];
-        let is_set = || self.setting(form, Keyword::Shape).is_some();
-        let profile = match sheet.filter(|_| !is_set()) {
+        let profile = match sheet.filter(|_| !self.is_shape_set(form)) {
             Some(most) => profile.at_most(most),
             None => profile,
         };

@@ -13,12 +13,10 @@ use rustc_hash::FxHashMap;
 use super::overlaps::Overlap;
 use super::shapes::Shape;
 use super::{Cover, FigureContext, Nodes, wraps};
-use crate::anatomy::{self, Term};
-use crate::bind::Side;
+use crate::bind::{Seen, Side};
 use crate::geometry::{
     Outline, Polygon, Ring, area, bounds, contains, intersect, offset, shoelace,
 };
-use crate::rig::Seen;
 use crate::threads::GRAIN;
 
 /// Points along the border of a volume.
@@ -433,9 +431,7 @@ impl Piece<'_> {
     fn is_hair(&self, shape: usize) -> bool {
         let shape = &self.shapes[shape];
         let parts = [shape.part, shape.main].map(|part| &self.context.bindings.parts[part]);
-        parts
-            .iter()
-            .any(|part| anatomy::terms(&part.name).contains(&Term::Hair))
+        parts.iter().any(|part| part.is_hair())
     }
 }
 

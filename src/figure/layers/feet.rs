@@ -5,9 +5,7 @@
 
 use super::super::FigureContext;
 use super::shapes::Shape;
-use crate::anatomy::{self, Role};
-use crate::lang::keyword::Keyword;
-use crate::rig::Seen;
+use crate::bind::Seen;
 use crate::solid::Profile;
 
 /// How far a foot reaches forward, in its widths, and in its heights at most.
@@ -43,11 +41,8 @@ pub(super) fn toes(context: &FigureContext<'_>, shape: &Shape) -> Option<Toes> {
         && !shape.is_ink
         && matches!(shape.profile, Profile::Inflate(_))
         && WIDTHS.contains(&(size.x / size.y))
-        && context
-            .bindings
-            .setting(shape.part, Keyword::Shape)
-            .is_none()
-        && Role::of(&anatomy::terms(&part.name)) == Some(Role::Foot);
+        && !context.bindings.is_shape_set(shape.part)
+        && part.is_foot();
     is_foot.then_some(Toes {
         down: TOES.map(|share| low.y + share * size.y),
         reach: (FORWARD * size.x).min(MOST * size.y),

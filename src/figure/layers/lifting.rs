@@ -182,9 +182,10 @@ impl Lifting<'_> {
             step: self.arrangement.steps[index] * self.world.scale,
             invisible: self.arrangement.context.invisible * self.world.scale,
             bulge,
-            segments: match shape.is_cord {
-                true => Some(CORD_SEGMENTS),
-                false => is_low.then(flattened).flatten(),
+            segments: if shape.is_cord {
+                Some(CORD_SEGMENTS)
+            } else {
+                is_low.then(flattened).flatten()
             },
             form,
             toes,

@@ -18,10 +18,9 @@ use rayon::prelude::*;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::FigureContext;
-use crate::bind::PartId;
+use crate::bind::{PartId, Seen};
 use crate::figure::PartFrames;
 use crate::memo::Memo;
-use crate::rig::Seen;
 use crate::scene::WorldTransform;
 use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
 

@@ -98,15 +98,12 @@ impl Nodes {
         details: &[bool],
     ) {
         let roots = self.roots();
-        let area = |node: usize| {
-            let own = self.shape[node].filter(|_| self.parent[node].is_none());
-            own.map_or(0.0, |shape| shapes[shape].area)
-        };
+        let area = |node: usize| self.shape[node].map_or(0.0, |shape| shapes[shape].area);
         let mut trunk_of: Vec<Option<usize>> = vec![None; self.len()];
         for connected in self.connected(overlaps) {
-            let largest = connected
-                .iter()
-                .copied()
+            let free = connected.iter().copied();
+            let largest = free
+                .filter(|node| self.parent[*node].is_none())
                 .max_by(|a, b| area(*a).total_cmp(&area(*b)).then(b.cmp(a)));
             connected.iter().for_each(|node| trunk_of[*node] = largest);
         }
