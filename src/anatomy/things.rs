@@ -1,5 +1,9 @@
 //! Words for things that are no parts of a body, but that are known by where they are or by their form.
 
+use std::sync::LazyLock;
+
+use rustc_hash::FxHashMap;
+
 use super::name_words::{self, has_word};
 
 /// What a name means that is none of a body.
@@ -30,6 +34,13 @@ const WORDS: [(Thing, &str); 4] = [
     (Thing::Hub, "hub hubcap rim はぶ りむ"),
 ];
 
+static THINGS: LazyLock<FxHashMap<&'static str, Thing>> = LazyLock::new(|| {
+    let tables = WORDS.iter();
+    tables
+        .flat_map(|(thing, words)| words.split_whitespace().map(|word| (word, *thing)))
+        .collect()
+});
+
 /// Whether a name is that of a round disc, such as a wheel or its hub.
 pub(crate) fn is_disc(name: &str) -> bool {
     matches!(thing(name), Some(Thing::Wheel | Thing::Hub))
@@ -37,17 +48,11 @@ pub(crate) fn is_disc(name: &str) -> bool {
 
 /// What a name means: what the last of its known words says, so that a `water wheel` is a wheel.
 pub(crate) fn thing(name: &str) -> Option<Thing> {
-    let means = |word: &str| {
-        let singular = word.strip_suffix('s').unwrap_or(word);
-        let mut tables = WORDS.iter();
-        let found = tables.find(|(_, words)| {
-            let mut words = words.split_whitespace();
-            words.any(|known| known == word || known == singular)
-        });
-        found.map(|(thing, _)| *thing)
+    let means = |word: &String| {
+        let singular = word.strip_suffix('s').and_then(|word| THINGS.get(word));
+        THINGS.get(word.as_str()).or(singular).copied()
     };
-    let words = name_words::split(name);
-    words.iter().rev().find_map(|word| means(word))
+    name_words::split(name).iter().rev().find_map(means)
 }
 
 /// Words for the far and the near side of what is seen from the side.
