@@ -4,7 +4,7 @@ mod common;
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use common::law::{self, Tally};
 use okoshi::Memo;
@@ -18,22 +18,12 @@ const LONGEST: usize = 200_000;
 
 /// The drawings in a folder and those in it.
 fn drawings(folder: &str) -> Vec<(PathBuf, String)> {
-    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
-    let mut found = Vec::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "svg") {
-                let text = fs::read(&path).expect("a file");
-                let text = String::from_utf8_lossy(&text).into_owned();
-                found.push((path, text));
-            }
-        }
-    }
-    found.sort();
-    found
+    let read = |path: PathBuf| {
+        let text = fs::read(&path).expect("a file");
+        let text = String::from_utf8_lossy(&text).into_owned();
+        (path, text)
+    };
+    common::drawings_in(folder).into_iter().map(read).collect()
 }
 
 /// A shape, by where its element is in the file, and whether it is its stroke.

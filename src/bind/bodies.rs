@@ -17,9 +17,10 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
     }
     for (index, part) in matched.parts.iter_mut_enumerated() {
         let is_main = tree.nodes.main[index] == index;
-        part.is_balloon |= is_main
-            && drawing.shapes[part.shape].curved >= CURVED
-            && is_of_body(&tree.names[index].name);
+        part.is_balloon = part.is_balloon
+            || is_main
+                && drawing.shapes[part.shape].curved >= CURVED
+                && is_of_body(&tree.names[index].name);
     }
 }
 

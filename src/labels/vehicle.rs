@@ -101,11 +101,15 @@ pub(super) fn boxes(tree: &PartTree<'_>, part: FigurePartId) -> Vec<Bounds> {
 
 /// Whether a figure is a vehicle without a name of a head or of a limb: none of its parts is one.
 pub(super) fn is_alone(tree: &PartTree<'_>, drafts: &Drafts) -> bool {
+    is_lifeless(drafts) && !wheels(tree).is_empty()
+}
+
+/// Whether no part of a figure has a name of a head or of a limb.
+pub(super) fn is_lifeless(drafts: &Drafts) -> bool {
     let is_alive = |class: Option<Class>| {
         class.is_some_and(|class| class.is_limb() || matches!(class, Class::Head | Class::Neck))
     };
     !drafts
         .iter()
         .any(|draft| draft.named && is_alive(draft.class))
-        && !wheels(tree).is_empty()
 }

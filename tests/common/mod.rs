@@ -17,7 +17,7 @@ pub(crate) mod rewrite;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gltf::animation::util::ReadOutputs;
 use okoshi::compile::{Compiled, Options, compile};
@@ -44,23 +44,33 @@ pub(crate) struct Node {
     pub(crate) camera: Option<String>,
 }
 
-/// All examples, including subfolders: their paths in `examples` without extension.
-pub(crate) fn examples() -> BTreeSet<String> {
-    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    let mut folders = vec![top.clone()];
-    let mut found = BTreeSet::new();
+/// The drawings in a folder of the package and in those within it, in the order of their paths.
+pub(crate) fn drawings_in(folder: &str) -> Vec<PathBuf> {
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
+    let mut found = Vec::new();
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|ending| ending == "svg") {
-                let inside = path.strip_prefix(&top).expect("inside").with_extension("");
-                let name = inside.to_str().expect("a plain name");
-                found.insert(name.replace('\\', "/"));
+                found.push(path);
             }
         }
     }
+    found.sort();
+    found
+}
+
+/// All examples, including subfolders: their paths in `examples` without extension.
+pub(crate) fn examples() -> BTreeSet<String> {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let name = |path: PathBuf| {
+        let inside = path.strip_prefix(&top).expect("inside").with_extension("");
+        let name = inside.to_str().expect("a plain name");
+        name.replace('\\', "/")
+    };
+    let found: BTreeSet<String> = drawings_in("examples").into_iter().map(name).collect();
     assert!(found.len() > 10, "only {} examples were found", found.len());
     found
 }

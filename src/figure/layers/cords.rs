@@ -35,20 +35,23 @@ pub(super) fn lay(context: &FigureContext<'_>, shapes: &mut [Shape], is_detail: 
         .collect();
     let around = |(index, stroke): (usize, &Shape)| {
         let host = *place.get(&context.bindings.parts[stroke.part].host?)?;
-        let is_volume = !is_detail[host] && is_balloon(&shapes[host]);
-        (is_volume && is_outline(context, stroke, &shapes[host])).then_some([index, host])
+        if is_detail[host] || !is_balloon(&shapes[host]) {
+            return None;
+        }
+        Some((
+            [index, host],
+            outline_width(context, stroke, &shapes[host])?,
+        ))
     };
-    let pairs: Vec<[usize; 2]> = strokes.filter_map(around).collect();
+    let pairs: Vec<([usize; 2], f64)> = strokes.filter_map(around).collect();
     let narrowed = pairs.par_iter().with_min_len(GRAIN);
-    let narrowed = narrowed.map(|[stroke, host]| {
+    let narrowed = narrowed.map(|([stroke, host], _)| {
         let [stroke, host] = [*stroke, *host].map(|shape| &*shapes[shape].outline);
         without(host, stroke)
     });
     let narrowed: Vec<Option<Outline>> = narrowed.collect();
-    for ([stroke, host], inner) in pairs.into_iter().zip(narrowed) {
-        let (Some(inner), Some(width)) = (inner, width(context, &shapes[stroke])) else {
-            continue;
-        };
+    for (([stroke, host], width), inner) in pairs.into_iter().zip(narrowed) {
+        let Some(inner) = inner else { continue };
         shapes[host].solid_outline = Arc::new(inner);
         shapes[stroke].profile = Profile::cord(width);
         shapes[stroke].is_cord = true;
@@ -60,22 +63,17 @@ fn is_balloon(shape: &Shape) -> bool {
     matches!(shape.profile, Profile::Inflate(_)) && !shape.is_given && !shape.is_ink
 }
 
-/// Whether ink is the stroke of the shape that it lies on, without gaps, and nothing can be seen through it.
-fn is_outline(context: &FigureContext<'_>, stroke: &Shape, host: &Shape) -> bool {
+/// The width of ink that is the stroke of the shape that it lies on, without gaps, and that nothing can be seen through.
+fn outline_width(context: &FigureContext<'_>, stroke: &Shape, host: &Shape) -> Option<f64> {
     let [own, filled] = [stroke, host].map(|shape| &context.bindings.parts[shape.part]);
-    let source = context.drawing.shapes[own.shape].stroke.as_ref();
-    own.shape == filled.shape
+    let source = context.drawing.shapes[own.shape].stroke.as_ref()?;
+    let is_outline = own.shape == filled.shape
         && own.is_stroke
         && context.bindings.form(stroke.part) == host.part
         && host.is_outlined
-        && source.is_some_and(|source| !source.is_dashed())
-        && context.is_opaque(stroke.part)
-}
-
-fn width(context: &FigureContext<'_>, stroke: &Shape) -> Option<f64> {
-    let shape = context.bindings.parts[stroke.part].shape;
-    let stroke = context.drawing.shapes[shape].stroke.as_ref()?;
-    Some(stroke.width())
+        && !source.is_dashed()
+        && context.is_opaque(stroke.part);
+    is_outline.then(|| source.width())
 }
 
 /// What is left of an outline beside a stroke around it, if that is enough of it.

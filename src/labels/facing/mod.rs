@@ -210,14 +210,15 @@ impl<'a> Observed<'a> {
             let mut parts = parts.filter(|part| wanted(drafts[*part].class)).peekable();
             parts.peek().is_some().then(|| tree.around(parts))
         };
+        let wheels = wheeled::wheels(tree);
         Self {
             tree,
             drafts,
             limbs: segments::limbs(tree, drafts),
             trunk: around(&is_trunk),
             head: around(&|class| class == Some(Class::Head)),
-            wheels: wheeled::wheels(tree),
-            is_thing: wheeled::is_alone(tree, drafts),
+            is_thing: !wheels.is_empty() && wheeled::is_lifeless(drafts),
+            wheels,
         }
     }
 
