@@ -264,8 +264,16 @@ pub(crate) enum Seen {
     Anyhow,
     /// From the side: what is drawn on it is on its far side, too.
     InProfile,
+    /// The same; it is part of a vehicle.
+    VehicleInProfile,
     FromFront,
     FromBehind,
+}
+
+impl Seen {
+    pub(crate) fn is_in_profile(self) -> bool {
+        matches!(self, Self::InProfile | Self::VehicleInProfile)
+    }
 }
 
 /// The paint of a shape's fill, or of its stroke.

@@ -1,32 +1,67 @@
-//! Parts of bodies by their names: they are rounded even where they are drawn with straight lines.
+//! Parts of bodies and clothes by their names: they are rounded even where they are drawn with straight lines.
 
+use typed_index_collections::{TiVec, ti_vec};
+
+use super::bindings::PartId;
+use super::extents;
 use super::hierarchy::Tree;
 use super::matching::Matched;
 use crate::anatomy::{self, Role, Term};
+use crate::geometry::area;
 use crate::svg::Drawing;
 
 /// The share of its border that is drawn as curves, at least, of a part of a body that is inflated. What is drawn with straight lines
-/// alone is meant to have edges.
+/// alone is meant to have edges, but for clothes on a body that has none.
 const CURVED: f64 = 0.15;
+/// The share of a body that is rounded, by area, from which on all its clothes are.
+const MOSTLY: f64 = 0.5;
 
 /// Inflates the parts of bodies that would be plates because no string says `Shape` and most of their border is straight: trousers,
-/// a horse with straight legs.
+/// a horse with straight legs, a jacket below a round head.
 pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
     if !matched.is_first_look {
         return;
     }
-    for (index, part) in matched.parts.iter_mut_enumerated() {
-        let is_main = tree.nodes.main[index] == index;
-        part.is_balloon = part.is_balloon
-            || is_main
-                && drawing.shapes[part.shape].curved >= CURVED
-                && is_of_body(&tree.names[index].name);
+    let of_body: Vec<PartId> = matched
+        .parts
+        .keys()
+        .filter(|part| tree.nodes.main[*part] == *part && is_of_body(&tree.names[*part].name))
+        .collect();
+    if of_body.is_empty() {
+        return;
+    }
+    for part in &of_body {
+        let part = &mut matched.parts[*part];
+        part.is_balloon |= drawing.shapes[part.shape].curved >= CURVED;
+    }
+    let main = |part: PartId| tree.nodes.main[part];
+    let roots = extents::roots(matched.parts.len(), main, |part| tree.parents[part]);
+    // Per root the areas of what is rounded and of all of the body.
+    let mut areas: TiVec<PartId, [f64; 2]> = ti_vec![[0.0; 2]; matched.parts.len()];
+    for index in &of_body {
+        let part = &matched.parts[*index];
+        let area = area(&part.outline);
+        let [rounded, all] = &mut areas[roots[*index]];
+        *all += area;
+        if part.is_balloon {
+            *rounded += area;
+        }
+    }
+    for part in of_body {
+        let [rounded, all] = areas[roots[part]];
+        let is_soft = rounded >= MOSTLY * all && is_worn(&anatomy::terms(&tree.names[part].name));
+        matched.parts[part].is_balloon |= is_soft;
     }
 }
 
-/// Whether a name is that of a part of a body, or of clothes.
+/// Whether a name is that of a part of a body, of clothes, or of hair.
 fn is_of_body(name: &str) -> bool {
     let terms = anatomy::terms(name);
-    let is_worn = |term: &Term| matches!(term, Term::BodyWear | Term::HeadWear | Term::HipWear);
-    !terms.contains(&Term::Detail) && (Role::of(&terms).is_some() || terms.iter().any(is_worn))
+    let is_part = Role::of(&terms).is_some() || terms.contains(&Term::Hair);
+    !terms.contains(&Term::Detail) && (is_part || is_worn(&terms))
+}
+
+fn is_worn(terms: &[Term]) -> bool {
+    let worn = [Term::BodyWear, Term::HeadWear, Term::HipWear];
+    terms.iter().any(|term| worn.contains(term))
 }

@@ -4,6 +4,7 @@
 //! +Z towards the viewer; turning the node turns the limb about its joint.
 
 mod copies;
+mod depth_limits;
 mod layers;
 mod models;
 mod nodes;
@@ -264,6 +265,8 @@ struct FigureContext<'a> {
     bindings: &'a Bindings,
     /// Per main part from where it is drawn.
     seen: TiVec<PartId, Seen>,
+    /// Per part how far it reaches to either side of its plane at most where no string says its `Shape`, drawing units.
+    reaches: TiVec<PartId, Option<f64>>,
     /// How far the surface of a solid may be from a rounding without anybody seeing it, drawing units.
     invisible: f64,
 }
@@ -276,6 +279,7 @@ impl<'a> FigureContext<'a> {
         Self {
             drawing,
             bindings,
+            reaches: depth_limits::reaches(bindings, &seen),
             seen,
             invisible: INVISIBLE * extent,
         }
@@ -303,7 +307,13 @@ impl<'a> FigureContext<'a> {
 
     /// How a part's outline gets its thickness.
     fn profile(&self, part: PartId) -> Option<Profile> {
-        self.bindings.profile(self.drawing, part)
+        let profile = self.bindings.profile(self.drawing, part)?;
+        let form = self.bindings.form(part);
+        let reach = self.reaches[form].filter(|_| !self.bindings.is_shape_set(form));
+        Some(match reach {
+            Some(reach) => profile.at_most(reach),
+            None => profile,
+        })
     }
 
     /// The thickness of a part's solid that is moved by an offset; `None` without one.

@@ -41,10 +41,11 @@ pub(crate) fn seen(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, Seen
         let from = match figure.found.facing {
             Facing::Viewer => Seen::FromFront,
             Facing::Away => Seen::FromBehind,
+            Facing::Left | Facing::Right if figure.found.is_vehicle => Seen::VehicleInProfile,
             Facing::Left | Facing::Right => Seen::InProfile,
         };
         figure.parts.iter().for_each(|part| seen[*part] = from);
-        if from == Seen::InProfile {
+        if from.is_in_profile() {
             let one_sided = figure.limbs.iter().chain(&figure.face);
             one_sided.for_each(|part| seen[*part] = Seen::Anyhow);
         }
@@ -52,8 +53,7 @@ pub(crate) fn seen(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, Seen
     seen
 }
 
-/// Where those figures look that have limbs, or whose strings say so; and vehicles, and animals that show a profile without limbs of
-/// their own.
+/// Where those figures look that have limbs or a body with a face, or whose strings say so; and vehicles.
 pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacing> {
     let parts_of_node = bindings.parts_of_nodes();
     let groups = figures::find(bindings);
@@ -68,12 +68,11 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
         let found = &labeled.facing;
         let fewest = if labeled.has_names { 1 } else { FEWEST_UNNAMED };
         let has_limbs = limbs.len() >= fewest;
-        // A face alone, such as a smiley, is seen from the front even if it winks.
+        // A face alone, such as a smiley, is no figure.
         let is_body = |label: &Label| label.class == Class::Body;
         let has_body = labeled.labels.iter().flatten().any(is_body);
         let shows_face = labeled.has_names && has_body && found.has_face;
-        let is_animal = shows_face && found.facing.is_profile();
-        let is_figure = has_limbs || found.by_string || found.is_vehicle || is_animal;
+        let is_figure = has_limbs || found.by_string || found.is_vehicle || shows_face;
         is_figure.then(|| FigureFacing {
             root: group.root,
             limbs,

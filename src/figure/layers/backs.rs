@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use super::overlaps::Overlap;
 use super::shapes::Shape;
 use super::{Cover, FigureContext, Nodes, wraps};
-use crate::bind::{Seen, Side};
+use crate::bind::Side;
 use crate::geometry::{
     Outline, Polygon, Ring, area, bounds, contains, intersect, offset, shoelace,
 };
@@ -98,7 +98,7 @@ pub(super) fn mirrored(
             && !shape.is_given
             && match context.bindings.side(shape.part) {
                 Some(side) => side == Side::Both,
-                None => context.seen[shape.main] == Seen::InProfile,
+                None => context.seen[shape.main].is_in_profile(),
             }
             && below.all(|below| context.is_opaque(below.part))
     });

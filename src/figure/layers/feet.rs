@@ -3,14 +3,19 @@
 //! A foot that is drawn from the front is a half disc or an oval; blown up like all else, it would end at the shin, and the figure
 //! would stand on balls. Its toes reach forward instead, and what lies above them, where the leg goes into it, stays as it is.
 
+use glam::DVec2;
+
 use super::super::FigureContext;
 use super::shapes::Shape;
 use crate::bind::Seen;
+use crate::geometry::bounds_of;
 use crate::solid::Profile;
 
 /// How far a foot reaches forward, in its widths, and in its heights at most.
 const FORWARD: f64 = 1.2;
 const MOST: f64 = 2.0;
+/// How far it reaches at most, in what the figure's other parts may.
+const OF_FIGURE: f64 = 1.3;
 /// The width of a foot that is seen from the front, in its heights: higher ones are boots with a shaft, wider ones lie sideways.
 const WIDTHS: std::ops::RangeInclusive<f64> = 0.6..=3.5;
 /// Where toes begin and where they reach forward most, from the top, in heights of the foot.
@@ -32,20 +37,25 @@ pub(super) fn toes(context: &FigureContext<'_>, shape: &Shape) -> Option<Toes> {
     let away = match context.seen[shape.main] {
         Seen::FromFront => false,
         Seen::FromBehind => true,
-        Seen::InProfile | Seen::Anyhow => return None,
+        Seen::InProfile | Seen::VehicleInProfile | Seen::Anyhow => return None,
     };
     let part = &context.bindings.parts[shape.part];
     let (low, high) = shape.bounds;
-    let size = high - low;
+    // Both shoes may be one shape.
+    let polygons = shape.outline.polygons.iter();
+    let bounds = polygons.filter_map(|polygon| bounds_of(polygon.rings[0].iter().copied()));
+    let widths = bounds.map(|(low, high)| high.x - low.x);
+    let size = DVec2::new(widths.fold(0.0, f64::max), high.y - low.y);
     let is_foot = shape.is_named
         && !shape.is_ink
         && matches!(shape.profile, Profile::Inflate(_))
         && WIDTHS.contains(&(size.x / size.y))
         && !context.bindings.is_shape_set(shape.part)
         && part.is_foot();
+    let most = context.reaches[shape.part].map_or(f64::INFINITY, |reach| OF_FIGURE * reach);
     is_foot.then_some(Toes {
         down: TOES.map(|share| low.y + share * size.y),
-        reach: (FORWARD * size.x).min(MOST * size.y),
+        reach: (FORWARD * size.x).min(MOST * size.y).min(most),
         away,
     })
 }

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::FigureContext;
-use crate::bind::{PartId, Seen};
+use crate::bind::PartId;
 use crate::figure::PartFrames;
 use crate::memo::Memo;
 use crate::scene::WorldTransform;
@@ -302,7 +302,8 @@ impl Layers {
 /// of drawing is all that is known.
 fn is_flat(context: &FigureContext<'_>, nodes: &Nodes) -> bool {
     let has_names = nodes.parent.iter().any(Option::is_some);
-    has_names && !context.seen.contains(&Seen::InProfile)
+    let mut seen = context.seen.iter();
+    has_names && !seen.any(|seen| seen.is_in_profile())
 }
 
 /// Gives the soft shapes that lie over others or under them their heights.

@@ -24,7 +24,7 @@ impl Inflate {
     /// The same, no higher than this where no height is given, drawing units.
     pub(super) fn at_most(&self, height: f64) -> Self {
         Self(Balloon {
-            most: Some(height),
+            most: Some(self.0.most.map_or(height, |most| most.min(height))),
             ..self.0
         })
     }
