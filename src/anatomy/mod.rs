@@ -13,7 +13,7 @@ pub(crate) use role::{Role, sides};
 pub(crate) use things::{
     Thing, end_of_vehicle, is_disc, is_light, is_sheet, says_far_or_near, thing,
 };
-pub(crate) use vocabulary::{Term, terms};
+pub(crate) use vocabulary::{Term, is_several_limbs, terms};
 
 /// Whether a name is that of a limb that is attached at one end: an arm or a leg or a piece of one, a wing, a tail, a neck, an ear.
 /// Hands, feet and what is worn are none.
@@ -34,6 +34,26 @@ pub(crate) fn is_hinged(terms: &[Term]) -> bool {
     ];
     let at_its_end = [Term::Hand, Term::Foot, Term::Toe, Term::Detail];
     says(&limb) && !says(&at_its_end)
+}
+
+/// Whether a name is that of something which a figure has several of, each on its own: arms and legs, their pieces and what is worn on
+/// them, wheels.
+pub(crate) fn comes_in_pairs(name: &str) -> bool {
+    let pieces = [
+        Term::Arm,
+        Term::UpperArm,
+        Term::LowerArm,
+        Term::Hand,
+        Term::Leg,
+        Term::LegOrFoot,
+        Term::Thigh,
+        Term::Shin,
+        Term::Foot,
+        Term::Sleeve,
+        Term::Stocking,
+        Term::Worn,
+    ];
+    terms(name).iter().any(|term| pieces.contains(term)) || is_disc(name)
 }
 
 /// Whether a name says that its part hangs downwards from its joint as long as nothing holds it up: arms, legs and ears.

@@ -267,6 +267,16 @@ pub(crate) fn terms(name: &str) -> Vec<Term> {
     found
 }
 
+/// Whether a name is that of several limbs: `Legs`, `far arms`. That of a glove or a shoe may be of what is worn on one.
+pub(crate) fn is_several_limbs(name: &str) -> bool {
+    let is_limb = |term: &Term| matches!(term, Arm | UpperArm | LowerArm | Leg | Thigh | Shin);
+    name_words::split(name).iter().any(|word| {
+        let singular = word.strip_suffix('s').and_then(|word| TERMS.get(word));
+        !TERMS.contains_key(word.as_str())
+            && singular.is_some_and(|terms| terms.iter().all(is_limb))
+    })
+}
+
 /// The meaning of a word: as it is, without its plural, as words written together (`lefthand`), with a letter for its side
 /// (`Rarm`), and in Japanese also with unknown letters in between.
 fn word_terms(word: &str, found: &mut Vec<Term>) {

@@ -71,6 +71,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     let tree = PartTree::new(figure);
     let mut drafts = by_names(figure);
     details(&tree, &mut drafts);
+    merged_limbs(&tree, &mut drafts);
     by_shape::trunk(&tree, &mut drafts);
     by_shape::patches(&tree, &mut drafts);
     if !vehicle::is_alone(&tree, &drafts) {
@@ -200,6 +201,22 @@ fn details(tree: &PartTree<'_>, drafts: &mut Drafts) {
         // A wheel that stands on the ground is no leg.
         let is_wheel = drafts[part].class.is_none() && anatomy::is_disc(tree.name(part));
         if is_face || is_worn || is_wheel {
+            drafts[part].class = None;
+            drafts[part].detail = true;
+        }
+    }
+}
+
+/// What is the only one of its class and called `Legs` or `Arms` is all of them in one shape, which cannot move as one of them does.
+fn merged_limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
+    for class in [Class::Arm, Class::Leg] {
+        let mut members = drafts.iter_enumerated();
+        let mut members = members
+            .by_ref()
+            .filter(|(_, draft)| draft.class == Some(class));
+        if let (Some((part, _)), None) = (members.next(), members.next())
+            && anatomy::is_several_limbs(tree.name(part))
+        {
             drafts[part].class = None;
             drafts[part].detail = true;
         }

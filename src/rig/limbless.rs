@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Context;
 use super::builder::MatchedFigure;
+use crate::anatomy;
 use crate::bind::{ClipRequest, MotionSource, PartId};
 use crate::clips::BuiltIn;
 use crate::diagnostic::{Code, Diagnostic, listed};
@@ -21,6 +22,8 @@ pub(super) struct Limbless {
     is_gait: bool,
     /// What it has instead, for people to read.
     has: String,
+    /// The name of the shape that is all its limbs in one.
+    merged: Option<String>,
 }
 
 /// A figure without limbs, or without legs for a gait. Parts with `Bone` may be anything.
@@ -44,6 +47,8 @@ pub(super) fn find(
             found.entry(label.class).or_default().push(name);
         }
     }
+    let drawn = matched.figure.parts.iter().map(|part| &part.name);
+    let merged = drawn.clone().find(|name| anatomy::is_several_limbs(name));
     let has = |class: Class| found.contains_key(&class);
     let has_limbs = has(Class::Arm) || has(Class::Leg);
     if has(Class::Leg) || has_limbs && !is_gait {
@@ -66,6 +71,7 @@ pub(super) fn find(
         name: name(context, matched.group.root),
         is_gait,
         has: listed(listed_classes.into_iter()),
+        merged: merged.cloned(),
     })
 }
 
@@ -101,6 +107,18 @@ pub(super) fn report(
         _ => String::new(),
     };
     let message = format!("no {what} are found in {whose}, so {effect}{has}");
+    if let [
+        Limbless {
+            merged: Some(name), ..
+        },
+    ] = figures
+    {
+        let help = format!(
+            "`{name}` is one shape, which moves as one piece: draw each of them as a shape of its own"
+        );
+        diagnostics.push(Diagnostic::new(Code::NoLimbs, span, message).help(help));
+        return;
+    }
     let root = &first.name;
     let (left, right) = (format!("`Lleg@{root}`"), format!("`Rleg@{root}`"));
     let help = if figures.len() == 1 {

@@ -66,7 +66,10 @@ pub(super) fn of_main_part(drawing: &Drawing, matched: &Matched, part: PartId) -
     let part = &matched.parts[part];
     part.node_group
         .and_then(|group| of_element(&drawing.groups[group].element, Some(group)))
-        .or_else(|| of_element(&drawing.shapes[part.shape].element, None))
+        .or_else(|| {
+            let element = &drawing.shapes[part.shape].element;
+            of_element(element, None).filter(|_| !part.is_rest)
+        })
 }
 
 impl Names {

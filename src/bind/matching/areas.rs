@@ -12,6 +12,8 @@ use crate::svg::{Drawing, StrokeSource};
 pub(super) struct Area {
     pub(super) outline: Arc<Outline>,
     pub(super) measure: Measure,
+    /// Whether it is an island of a pair of limbs that is none of them: the name of its shape is not its own.
+    pub(super) is_rest: bool,
 }
 
 /// What an area is made from: the fill or the stroke of a shape.
@@ -36,6 +38,10 @@ pub(super) fn areas(drawing: &Drawing, sources: &[PartSource], memo: &Memo) -> V
             AreaKey::Stroke(stroke) => Arc::new(stroke.0.outline()),
         };
         let measure = measure(&outline)?;
-        Some(Area { outline, measure })
+        Some(Area {
+            outline,
+            measure,
+            is_rest: false,
+        })
     })
 }

@@ -13,11 +13,12 @@ use rstar::{AABB, PointDistance, RTree};
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
+use super::areas;
 use super::node_groups::PartSource;
 use super::parts::MatchedPart;
 use crate::bind::bindings::PartId;
 use crate::geometry::{
-    BoxTree, Measure, Outline, area_around, bounds, crosses, distance_squared, indexed_box,
+    BoxTree, Outline, area_around, bounds, crosses, distance_squared, indexed_box,
 };
 use crate::index::par_keys;
 use crate::memo::{Long, Memo, Same};
@@ -249,14 +250,12 @@ fn edges(outline: &Outline) -> RTree<Line<[f64; 2]>> {
 }
 
 /// Gives ink its host: the part that is the fill of the shape on which it lies. Ink on what is no part is left out.
-pub(super) fn attach(
-    drawn: impl Iterator<Item = (PartSource, Arc<Outline>, Measure)>,
-) -> TiVec<PartId, MatchedPart> {
+pub(super) fn attach(drawn: Vec<(PartSource, areas::Area)>) -> TiVec<PartId, MatchedPart> {
     let mut part_of_shape: FxHashMap<ShapeId, PartId> = FxHashMap::default();
     let mut attached: TiVec<PartId, MatchedPart> = TiVec::new();
-    for (source, outline, measure) in drawn {
+    for (source, area) in drawn {
         let index = attached.next_key();
-        let mut part = MatchedPart::new(index, &source, outline, measure);
+        let mut part = MatchedPart::new(index, &source, area);
         if let Some(host) = source.host {
             let Some(host) = part_of_shape.get(&host) else {
                 continue;

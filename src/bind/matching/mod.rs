@@ -8,6 +8,7 @@ mod fills;
 mod ground_shadows;
 mod held;
 mod ink;
+mod islands;
 mod kinds;
 mod layers;
 mod leaders;
@@ -46,7 +47,7 @@ use crate::memo::Memo;
 use crate::svg::Drawing;
 use areas::Area;
 use binder::{Binder, Bound, Rules};
-use node_groups::NodeGroups;
+use node_groups::{NodeGroups, PartSource};
 
 /// The strings and parts of a drawing, matched with each other.
 pub(in crate::bind) struct Matched {
@@ -99,11 +100,13 @@ pub(in crate::bind) fn find(
         memo,
     );
     let areas = areas::areas(drawing, &node_groups.sources, memo);
-    let drawn = node_groups.sources.iter().zip(areas);
-    let parts = ink::attach(drawn.filter_map(|(source, area)| {
-        let Area { outline, measure } = area?;
-        Some((*source, outline, measure))
-    }));
+    let drawn = node_groups.sources.iter().copied().zip(areas);
+    let drawn = drawn.filter_map(|(source, area)| Some((source, area?)));
+    let mut drawn: Vec<(PartSource, Area)> = drawn.collect();
+    if !strings::mean_parts(&read.all) {
+        drawn = islands::split(drawing, drawn, memo);
+    }
+    let parts = ink::attach(drawn);
     let binder = Binder::new(
         drawing,
         &read.all,

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::areas::Area;
 use super::held::Hold;
 use super::node_groups::PartSource;
 use crate::bind::bindings::{self, PartId, StringId};
@@ -23,6 +24,8 @@ pub(in crate::bind) struct MatchedPart {
     pub(in crate::bind) outline: Arc<Outline>,
     /// Its axis, center and ends, as they are drawn.
     pub(in crate::bind) measure: Measure,
+    /// Whether it is an island of a pair of limbs that is none of them: the name of its shape is not its own.
+    pub(in crate::bind) is_rest: bool,
     /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
     pub(in crate::bind) is_balloon: bool,
     /// For a wheel in such a drawing, half its thickness, drawing units.
@@ -42,8 +45,11 @@ impl MatchedPart {
     pub(super) fn new(
         index: PartId,
         source: &PartSource,
-        outline: Arc<Outline>,
-        measure: Measure,
+        Area {
+            outline,
+            measure,
+            is_rest,
+        }: Area,
     ) -> Self {
         Self {
             shape: source.shape,
@@ -52,6 +58,7 @@ impl MatchedPart {
             hold: source.hold,
             outline,
             measure,
+            is_rest,
             is_balloon: false,
             disc: None,
             string: None,
