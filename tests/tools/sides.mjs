@@ -56,9 +56,27 @@ function backOfHead(figure, text, model, file) {
   return covered(colours, heads, paints(text, figure.covers))
 }
 
+/** The drawing as a figure that walks. */
+function walking(text) {
+  const [left, top, width, height] = text.match(/viewBox="([^"]*)"/)[1].split(/\s+/).map(Number)
+  const at = `x="${left + 0.98 * width}" y="${top + 0.99 * height}" font-size="${0.01 * height}"`
+  return text.replace(/<\/svg>\s*$/, `<text ${at}>%Motion walk</text></svg>`)
+}
+
+/** How far parts come off what they hang on in a walk, as a share of the height; undefined for what has no legs. */
+function comesOff(text, file) {
+  fs.writeFileSync(`${file}-walk.svg`, walking(text))
+  const { diagnostics } = JSON.parse(run('check', '--format', 'json', `${file}-walk.svg`)).drawings[0]
+  if (diagnostics.some(({ code }) => code === 'W330')) return undefined
+  run('build', '-q', `${file}-walk.svg`, '-o', `${file}-walk.glb`)
+  run('render', '-q', `${file}-walk.glb`, '--strip', '6', '--view', '35,8', '--size', '200x200', '-o', `${file}-walk.png`)
+  const loose = diagnostics.filter(({ code }) => code === 'W331')
+  return Math.max(0, ...loose.map(({ message }) => Number(message.match(/([\d.]+) %/)[1]) / 100))
+}
+
 /** Builds and draws a figure, and counts. */
 function measured(figure) {
-  const { set, key, head } = figure
+  const { set, key, kind, head } = figure
   const name = `${set.split('-')[0]}-${key}`
   const file = path.join(folder, name)
   const text = named(drawing(load(`@iconify-json/${set}/icons.json`), key), figure.names)
@@ -78,6 +96,7 @@ function measured(figure) {
     // A drawing without limbs is no figure: nothing of it is mirrored.
     found: figures[0]?.facing ?? 'front',
     back: head && backOfHead(figure, text, model, file),
+    off: kind === 'vehicle' ? undefined : comesOff(text, file),
   }
 }
 

@@ -7,6 +7,7 @@ const COUNTS = {
   wide: { title: 'depth/width', least: 0.2, most: 0.6 },
   high: { title: 'depth/height', least: 0.2, most: 0.5, kind: 'animal' },
   back: { title: 'hair behind', least: 0.8, most: 1 },
+  off: { title: 'comes off', least: 0, most: 0.03 },
 }
 
 const percent = (value) => `${(100 * value).toFixed(1)} %`
@@ -55,7 +56,7 @@ export function rows(figures) {
   const row = (cells) => cells.map((cell, at) => (at === 0 ? cell.padEnd(32) : cell.padStart(14))).join('')
   const table = [row(['', 'half', ...Object.values(COUNTS).map(({ title }) => title), 'looks'])]
   for (const figure of figures) {
-    const { name, isHeldBack, front, wide, high, back, found } = figure
+    const { name, isHeldBack, front, wide, high, back, off, found } = figure
     const excepted = (count) => (EXCEPTIONS[name]?.[count] ? '*' : '')
     table.push(row([
       name,
@@ -64,6 +65,7 @@ export function rows(figures) {
       wide.toFixed(2) + excepted('wide'),
       high.toFixed(2) + excepted('high'),
       back === undefined ? '' : percent(back) + excepted('back'),
+      off === undefined ? '' : percent(off) + excepted('off'),
       found + excepted('found'),
     ]))
   }
@@ -76,6 +78,7 @@ export function rows(figures) {
 /** A page with the pictures of each figure. */
 export function page(figures, yaws) {
   const pictures = ({ name }) => yaws.map((yaw) => `<img src="${name}-${yaw}.png" alt="${yaw}°">`).join('')
-  const body = figures.map((figure) => `<h2>${figure.name}</h2>\n<img src="${figure.name}.svg" width="200" alt="drawing">${pictures(figure)}`)
+  const walk = ({ name, off }) => (off === undefined ? '' : `<br><img src="${name}-walk.png" alt="walking">`)
+  const body = figures.map((figure) => `<h2>${figure.name}</h2>\n<img src="${figure.name}.svg" width="200" alt="drawing">${pictures(figure)}${walk(figure)}`)
   return `<!DOCTYPE html><meta charset="utf-8"><title>All sides</title><style>body { background: #c8d0d8 }</style>\n${body.join('\n')}\n`
 }
