@@ -71,7 +71,6 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     let tree = PartTree::new(figure);
     let mut drafts = by_names(figure);
     details(&tree, &mut drafts);
-    merged_limbs(&tree, &mut drafts);
     by_shape::trunk(&tree, &mut drafts);
     by_shape::patches(&tree, &mut drafts);
     if !vehicle::is_alone(&tree, &drafts) {
@@ -81,6 +80,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabeledFigure {
     }
     let found = facing::find(&tree, &drafts);
     let facing = Front::of(&tree, &drafts, found.facing);
+    merged_limbs(&tree, &mut drafts);
     let limbs = segments::limbs(&tree, &drafts);
     placement::sides(&tree, &facing, &limbs, &mut drafts);
     placement::pairs(&tree, &facing, &limbs, &mut drafts);
