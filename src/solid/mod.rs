@@ -90,6 +90,8 @@ fn half_extents(outline: &Outline) -> Option<DVec2> {
 }
 
 #[cfg(test)]
+mod hidden_tests;
+#[cfg(test)]
 mod laws;
 #[cfg(test)]
 mod pile_tests;

@@ -13,7 +13,7 @@ use crate::geometry::{Outline, Ring, area, bounds};
 use crate::law;
 use crate::scene::{Surface, SurfaceSource};
 
-fn solid(outline: Outline, profile: Profile) -> Solid {
+pub(super) fn solid(outline: Outline, profile: Profile) -> Solid {
     Solid {
         outline: Arc::new(outline),
         to_frame: DAffine2::IDENTITY,
@@ -48,7 +48,7 @@ fn ink(outline: Outline, below: Vec<Solid>, step: f64) -> LaidSolid {
 }
 
 /// A solid in the plane of the drawing, by itself.
-fn body(solid: Solid) -> Body {
+pub(super) fn body(solid: Solid) -> Body {
     Body {
         solid,
         to_plane: DAffine2::IDENTITY,
@@ -58,6 +58,7 @@ fn body(solid: Solid) -> Body {
         is_given: false,
         is_detail: false,
         is_behind: false,
+        hidden_by: Vec::new(),
         lay: None,
     }
 }
@@ -84,7 +85,7 @@ fn laid(
     }
 }
 
-fn moved(mut outline: Outline, by: DVec2) -> Outline {
+pub(super) fn moved(mut outline: Outline, by: DVec2) -> Outline {
     let rings = outline
         .polygons
         .iter_mut()
@@ -162,7 +163,7 @@ fn skins_are_lawful() {
 }
 
 /// A layer of a generated stack: its outline, how large it is beside the stack and where, its kind and its form.
-type Drawn = (
+pub(super) type Drawn = (
     Vec<Ring>,
     f64,
     (f64, f64),
@@ -170,7 +171,7 @@ type Drawn = (
     prop::sample::Index,
 );
 
-fn drawn() -> impl Strategy<Value = Vec<Drawn>> {
+pub(super) fn drawn() -> impl Strategy<Value = Vec<Drawn>> {
     let layer = (
         rings(),
         0.1..1.2f64,
@@ -182,7 +183,7 @@ fn drawn() -> impl Strategy<Value = Vec<Drawn>> {
 }
 
 /// The solids of a stack, each laid on all before it, and closed around the one below if `wraps` says so.
-fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body>> {
+pub(super) fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body>> {
     let kinds = ["inflate", "round", "roundv", "roundh", "default"];
     let forms = [
         LayForm::Volume,

@@ -65,6 +65,12 @@ index_type!(
     pub GroupId
 );
 
+index_type!(
+    /// A transparency group of a drawing: what has an opacity of its own, with all that is in it. Its shapes are painted as if it were
+    /// opaque, and the whole then becomes translucent.
+    pub TransparencyGroupId
+);
+
 impl GroupId {
     /// The outermost `<svg>`.
     pub const ROOT: Self = Self(0);
@@ -79,6 +85,8 @@ pub struct Drawing {
     pub groups: TiVec<GroupId, Group>,
     /// The shapes in paint order, back-most first.
     pub shapes: TiVec<ShapeId, Shape>,
+    /// Per transparency group the one around it, which comes before it.
+    pub transparency_groups: TiVec<TransparencyGroupId, Option<TransparencyGroupId>>,
     /// The texts in document order, each with its group.
     pub labels: Vec<(Label, GroupId)>,
     /// What the drawing holds but does not show.
@@ -91,6 +99,16 @@ pub struct Drawing {
 const HAIRLINE: f64 = 1.0 / 300.0;
 
 impl Drawing {
+    /// Whether a transparency group is another one or is in it.
+    pub(crate) fn is_in_transparency_group(
+        &self,
+        group: TransparencyGroupId,
+        other: TransparencyGroupId,
+    ) -> bool {
+        let around = |group: &TransparencyGroupId| self.transparency_groups[*group];
+        std::iter::successors(Some(group), around).any(|group| group == other)
+    }
+
     /// Whether a stroke is not wider than a 300th of the page, as those of guides are.
     pub(crate) fn is_hairline(&self, stroke: &StrokeSource) -> bool {
         stroke.width() <= HAIRLINE * self.page.1.max_element()
@@ -186,6 +204,10 @@ pub struct Shape {
     pub paint: Paint,
     /// Opacity of fill, element and groups together, 0 to 1.
     pub opacity: f64,
+    /// The innermost transparency group that it is in.
+    pub transparency_group: Option<TransparencyGroupId>,
+    /// Whether its fill, or its stroke if it has no fill, hides what is painted before it in that group.
+    pub is_opaque_in_group: bool,
     /// Its stroke, if it has a visible one.
     pub stroke: Option<Arc<StrokeSource>>,
     /// The ends of the line, if the shape is an unfilled open line.

@@ -101,6 +101,18 @@ impl Context<'_, '_> {
     }
 }
 
+/// Whether nothing can be seen through a paint with this opacity. Patterns may have gaps.
+pub(super) fn is_opaque(paint: &usvg::Paint, opacity: usvg::Opacity) -> bool {
+    let are_opaque = |stops: &[usvg::Stop]| stops.iter().all(|stop| stop.opacity().get() >= 1.0);
+    let is_opaque = match paint {
+        usvg::Paint::Color(_) => true,
+        usvg::Paint::LinearGradient(gradient) => are_opaque(gradient.stops()),
+        usvg::Paint::RadialGradient(gradient) => are_opaque(gradient.stops()),
+        usvg::Paint::Pattern(_) => false,
+    };
+    is_opaque && opacity.get() >= 1.0
+}
+
 /// A paint in its own coordinates, and their position in the drawing.
 fn server(paint: &usvg::Paint, transform: DAffine2) -> Option<PaintServer> {
     let point = |x: f32, y: f32| DVec2::new(x.into(), y.into());

@@ -24,6 +24,8 @@ pub struct StrokeSource {
     pub(super) covered_by: Option<Arc<Outline>>,
     /// The stroke's paint.
     pub paint: Paint,
+    /// Whether nothing can be seen through it, apart from the opacities of its element and of groups.
+    pub is_opaque: bool,
 }
 
 impl StrokeSource {

@@ -11,12 +11,13 @@ use typed_index_collections::TiVec;
 use super::elements::{Ids, element, labels};
 use super::fit::ImageViewports;
 use super::links::{options, report_links, unusable};
+use super::paint::is_opaque;
 use super::paths::{StrokeSource, affine, bez_path, curved, open_line, rings};
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::tangles::Tangles;
 use super::unsolid::Who;
-use super::walk::{Leaf, Task, Walk, group_kind};
+use super::walk::{Inherited, Leaf, Task, Walk, group_kind};
 use super::{
     Drawing, Element, Paint, PaintKey, PictureSource, Shape, ShapeId, dropped, growth, unseen,
 };
@@ -80,10 +81,11 @@ pub(super) fn read(
         page: DAffine2::from_translation(offset),
         unsolid: Vec::new(),
         has_markers: false,
+        transparency_groups: TiVec::new(),
     };
     walk.group(document.root_element());
     let root = document.root_element().id();
-    walk.children(tree.root(), root, 1.0, None);
+    walk.children(tree.root(), Inherited::by_root(root));
     walk.note_markers(&styles);
     walk.note_dropped(dropped);
     let labels = labels
@@ -97,6 +99,7 @@ pub(super) fn read(
         by_id,
         group_of,
         unsolid,
+        transparency_groups,
         ..
     } = walk;
     let size = DVec2::new(
@@ -146,6 +149,7 @@ pub(super) fn read(
         page: (offset, size),
         groups,
         shapes,
+        transparency_groups,
         labels,
         unseen,
         pixel_groups: None,
@@ -329,17 +333,20 @@ impl Context<'_, '_> {
                 tolerance: self.tolerance,
                 covered_by: is_below.then(|| Arc::clone(&outline)),
                 paint: self.paint(stroke.paint(), node, "stroke", transform),
+                is_opaque: is_opaque(stroke.paint(), stroke.opacity()),
             })
         });
-        let (paint, opacity) = match (fill, &stroke) {
+        let (paint, opacity, is_opaque_in_group) = match (fill, &stroke) {
             (Some(fill), _) => (
                 self.paint(fill.paint(), node, "fill", transform),
                 f64::from(fill.opacity().get()),
+                is_opaque(fill.paint(), fill.opacity()),
             ),
             (None, Some(stroke)) => (
                 stroke.paint.clone(),
                 path.stroke()
                     .map_or(1.0, |stroke| f64::from(stroke.opacity().get())),
+                stroke.is_opaque,
             ),
             (None, None) => return None,
         };
@@ -353,6 +360,8 @@ impl Context<'_, '_> {
             curved: if fill.is_some() { curved(&bez) } else { 0.0 },
             paint,
             opacity,
+            transparency_group: task.transparency_group,
+            is_opaque_in_group,
             stroke,
             line,
             picture: None,
@@ -381,6 +390,8 @@ impl Context<'_, '_> {
                 server: None,
             },
             opacity: task.opacity,
+            transparency_group: task.transparency_group,
+            is_opaque_in_group: false,
             stroke: None,
             line: None,
             picture: Some(Arc::new(source)),

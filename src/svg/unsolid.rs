@@ -9,8 +9,6 @@ use crate::source::Span;
 pub(super) enum Feature {
     Mask,
     Filter,
-    /// The opacity of a group of several shapes.
-    GroupOpacity,
     Marker,
     /// `mix-blend-mode`.
     Blending,
@@ -66,11 +64,6 @@ impl Feature {
                 "has a filter, which has no meaning for solids",
                 "have filters, which have no meaning for solids",
                 "draw a blur or a shadow as a shape with a gradient, or remove the filter; the model is built without it",
-            ),
-            Self::GroupOpacity => (
-                "is transparent as a whole, but its shapes become transparent one by one",
-                "are transparent as a whole, but their shapes become transparent one by one",
-                "where they overlap, they show through each other; unite them (in Inkscape, Path → Union), or remove the opacity of the group",
             ),
             Self::Marker => (
                 "has markers, such as arrowheads, which are not built",
@@ -174,7 +167,7 @@ impl Feature {
     pub(super) fn is_of_elements(self) -> bool {
         !matches!(
             self,
-            Self::Mask | Self::Filter | Self::GroupOpacity | Self::Marker | Self::Blending
+            Self::Mask | Self::Filter | Self::Marker | Self::Blending
         )
     }
 }

@@ -14,7 +14,7 @@ use super::paths::affine;
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::unsolid::Feature;
-use super::{Group, GroupId, GroupKind};
+use super::{Group, GroupId, GroupKind, TransparencyGroupId};
 use crate::geometry::Outline;
 
 /// A usvg node that becomes a shape.
@@ -25,7 +25,31 @@ pub(super) struct Task<'a> {
     pub(super) xml: NodeId,
     pub(super) group: GroupId,
     pub(super) opacity: f64,
+    /// The innermost transparency group around it.
+    pub(super) transparency_group: Option<TransparencyGroupId>,
     pub(super) clips: Option<Arc<Vec<Clip>>>,
+}
+
+/// What a group passes on to what is in it.
+#[derive(Clone, Copy)]
+pub(super) struct Inherited<'c> {
+    /// Its element.
+    xml: NodeId,
+    opacity: f64,
+    transparency_group: Option<TransparencyGroupId>,
+    clips: Option<&'c Arc<Vec<Clip>>>,
+}
+
+impl Inherited<'_> {
+    /// What the outermost element passes on.
+    pub(super) fn by_root(xml: NodeId) -> Self {
+        Self {
+            xml,
+            opacity: 1.0,
+            transparency_group: None,
+            clips: None,
+        }
+    }
 }
 
 impl Task<'_> {
@@ -69,6 +93,8 @@ pub(super) struct Walk<'a, 'input> {
     pub(super) unsolid: Vec<(Feature, Vec<NodeId>)>,
     /// Whether shapes of markers were left out.
     pub(super) has_markers: bool,
+    /// See [`Drawing::transparency_groups`](super::Drawing::transparency_groups).
+    pub(super) transparency_groups: TiVec<TransparencyGroupId, Option<TransparencyGroupId>>,
 }
 
 impl<'a> Walk<'a, '_> {
@@ -96,38 +122,26 @@ impl<'a> Walk<'a, '_> {
         group
     }
 
-    pub(super) fn children(
-        &mut self,
-        group: &'a usvg::Group,
-        xml: NodeId,
-        opacity: f64,
-        clips: Option<&Arc<Vec<Clip>>>,
-    ) {
+    pub(super) fn children(&mut self, group: &'a usvg::Group, inherited: Inherited<'_>) {
         for node in group.children() {
             match node {
-                usvg::Node::Group(inner) => self.inner(inner, xml, opacity, clips),
+                usvg::Node::Group(inner) => self.inner(inner, inherited),
                 usvg::Node::Path(path) if path.is_visible() => {
-                    self.leaf(Leaf::Path(path), path.id(), xml, opacity, clips);
+                    self.leaf(Leaf::Path(path), path.id(), inherited);
                 }
                 usvg::Node::Image(image) if image.is_visible() => {
-                    self.leaf(Leaf::Image(image), image.id(), xml, opacity, clips);
+                    self.leaf(Leaf::Image(image), image.id(), inherited);
                 }
                 _ => {}
             }
         }
     }
 
-    fn inner(
-        &mut self,
-        group: &'a usvg::Group,
-        xml: NodeId,
-        opacity: f64,
-        clips: Option<&Arc<Vec<Clip>>>,
-    ) {
+    fn inner(&mut self, group: &'a usvg::Group, inherited: Inherited<'_>) {
         let own = self.by_id.get(group.id());
         let user = || {
             own.or_else(|| self.by_id.get(only_leaf(group)?))
-                .unwrap_or(xml)
+                .unwrap_or(inherited.xml)
         };
         let features = [
             (Feature::Mask, group.mask().is_some()),
@@ -136,32 +150,47 @@ impl<'a> Walk<'a, '_> {
                 Feature::Blending,
                 group.blend_mode() != usvg::BlendMode::Normal,
             ),
-            (
-                Feature::GroupOpacity,
-                group.opacity().get() < 1.0 && only_leaf(group).is_none(),
-            ),
         ];
         let used = features.into_iter().filter(|(_, used)| *used);
         let used: Vec<_> = used.map(|(feature, _)| (feature, user())).collect();
         for (feature, user) in used {
             self.note(feature, user);
         }
-        let xml = own.unwrap_or(xml);
-        let opacity = opacity * f64::from(group.opacity().get());
+        let opacity = f64::from(group.opacity().get());
+        let around = inherited.transparency_group;
+        let transparency_group = if opacity < 1.0 {
+            Some(self.transparency_groups.push_and_get_key(around))
+        } else {
+            around
+        };
+        let inherited = Inherited {
+            xml: own.unwrap_or(inherited.xml),
+            opacity: inherited.opacity * opacity,
+            transparency_group,
+            ..inherited
+        };
         match group.clip_path() {
-            None => self.children(group, xml, opacity, clips),
+            None => self.children(group, inherited),
             Some(clip) => {
-                let mut all = clips.map(|clips| Vec::clone(clips)).unwrap_or_default();
+                let mut all = inherited
+                    .clips
+                    .map(|clips| Vec::clone(clips))
+                    .unwrap_or_default();
                 let own = Clip::read(
                     clip,
                     self.page * affine(group.abs_transform()),
                     self.tolerance,
                 );
                 if let Some(frame) = own.first().and_then(|clip| clip.rectangle) {
-                    self.frames.insert(xml, frame);
+                    self.frames.insert(inherited.xml, frame);
                 }
                 all.extend(own);
-                self.children(group, xml, opacity, Some(&Arc::new(all)));
+                let all = Arc::new(all);
+                let inherited = Inherited {
+                    clips: Some(&all),
+                    ..inherited
+                };
+                self.children(group, inherited);
             }
         }
     }
@@ -214,18 +243,11 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
-    fn leaf(
-        &mut self,
-        leaf: Leaf<'a>,
-        id: &str,
-        xml: NodeId,
-        opacity: f64,
-        clips: Option<&Arc<Vec<Clip>>>,
-    ) {
+    fn leaf(&mut self, leaf: Leaf<'a>, id: &str, inherited: Inherited<'_>) {
         let number = self.leaves;
         self.leaves += 1;
         let own = self.by_id.get(id);
-        let Some(node) = self.root.document().get_node(own.unwrap_or(xml)) else {
+        let Some(node) = self.root.document().get_node(own.unwrap_or(inherited.xml)) else {
             return;
         };
         // Of paths, only those that a clone or a marker draws have no element of their own.
@@ -244,8 +266,9 @@ impl<'a> Walk<'a, '_> {
             leaf: number,
             xml,
             group,
-            opacity,
-            clips: clips.cloned(),
+            opacity: inherited.opacity,
+            transparency_group: inherited.transparency_group,
+            clips: inherited.clips.cloned(),
         });
     }
 }

@@ -25,37 +25,55 @@ fn looked_at(text: &str) -> (Compiled, Look) {
     (compiled, look)
 }
 
+/// Asserts that the picture of a drawing's model is the picture of the drawing.
+fn assert_same_picture(text: &str) {
+    let compiled = common::compiled(text, &MemoryResolver::default());
+    assert!(!compiled.has_errors(), "{:?}", compiled.diagnostics);
+    let view = DrawnView::new(&compiled, compiled.scene.clone(), 2.0).expect("a page");
+    assert_eq!(view.size, [200, 161]);
+    let picture = picture(&view, &MemoryResolver::default());
+    let plain = text.replace("width=\"300mm\"", "width=\"100\" height=\"80.5\"");
+    let tree = usvg::Tree::from_str(&plain, &usvg::Options::default()).expect("a drawing");
+    let mut drawn = Pixmap::new(200, 161).expect("a pixmap");
+    let twice = Transform::from_scale(2.0, 2.0);
+    resvg::render(&tree, twice, &mut drawn.as_mut());
+    for (at, (pixel, drawn)) in picture.pixels().zip(drawn.pixels()).enumerate() {
+        let drawn = drawn.demultiply();
+        let drawn = [drawn.red(), drawn.green(), drawn.blue(), drawn.alpha()];
+        let apart = (0..4).map(|channel| pixel.0[channel].abs_diff(drawn[channel]));
+        assert!(
+            apart.max() <= Some(2),
+            "{text}: pixel {}, {}: {:?}, not {drawn:?}",
+            at % 200,
+            at / 200,
+            pixel.0
+        );
+    }
+}
+
 #[test]
 fn the_picture_lies_on_the_drawing() {
     let shapes = r##"<rect x="-10" y="20" width="60" height="40" fill="#3060c0"/>
         <rect x="10" y="30" width="60" height="40" fill="#f0d020" opacity="0.5"/>
         <rect x="40" y="15" width="20" height="30" fill="#000000" fill-opacity="0.25"/>"##;
     for strings in ["", "%Axes +x +z -y", "%Scale 7 Ground 3 4"] {
-        let text = page(&format!(
+        assert_same_picture(&page(&format!(
             r#"{shapes}<text x="0" y="85" font-size="5">{strings}</text>"#
-        ));
-        let compiled = common::compiled(&text, &MemoryResolver::default());
-        assert!(!compiled.has_errors(), "{:?}", compiled.diagnostics);
-        let view = DrawnView::new(&compiled, compiled.scene.clone(), 2.0).expect("a page");
-        assert_eq!(view.size, [200, 161]);
-        let picture = picture(&view, &MemoryResolver::default());
-        let plain = text.replace("width=\"300mm\"", "width=\"100\" height=\"80.5\"");
-        let tree = usvg::Tree::from_str(&plain, &usvg::Options::default()).expect("a drawing");
-        let mut drawn = Pixmap::new(200, 161).expect("a pixmap");
-        let twice = Transform::from_scale(2.0, 2.0);
-        resvg::render(&tree, twice, &mut drawn.as_mut());
-        for (at, (pixel, drawn)) in picture.pixels().zip(drawn.pixels()).enumerate() {
-            let drawn = drawn.demultiply();
-            let drawn = [drawn.red(), drawn.green(), drawn.blue(), drawn.alpha()];
-            let apart = (0..4).map(|channel| pixel.0[channel].abs_diff(drawn[channel]));
-            assert!(
-                apart.max() <= Some(2),
-                "{strings}: pixel {}, {}: {:?}, not {drawn:?}",
-                at % 200,
-                at / 200,
-                pixel.0
-            );
-        }
+        )));
+    }
+}
+
+#[test]
+fn transparency_groups_are_translucent_as_a_whole() {
+    let shapes = r##"<rect x="-10" y="20" width="60" height="40" fill="#3060c0"/>
+        <rect x="0" y="30" width="20" height="20" fill="#ffffff"/>
+        <rect x="5" y="35" width="5" height="5" fill="#000000"/>
+        <rect x="30" y="50" width="30" height="20" fill="#f0d020" stroke="#804000" stroke-width="4"/>"##;
+    let behind = r##"<rect x="-15" y="40" width="90" height="10" fill="#c04040"/>"##;
+    for strings in ["", "%Shape default", "%Shape round"] {
+        assert_same_picture(&page(&format!(
+            r#"{behind}<g opacity="0.5">{shapes}</g><text x="0" y="89" font-size="5">{strings}</text>"#
+        )));
     }
 }
 

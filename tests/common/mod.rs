@@ -31,6 +31,7 @@ pub(crate) struct Primitive {
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) material: String,
     pub(crate) double_sided: bool,
+    pub(crate) is_translucent: bool,
 }
 
 /// A node of the file.
@@ -166,6 +167,7 @@ fn read_primitive(primitive: &gltf::Primitive<'_>, blob: &[u8]) -> Result<Primit
         normals,
         triangles: indices.chunks(3).map(|t| [t[0], t[1], t[2]]).collect(),
         double_sided: material.double_sided(),
+        is_translucent: material.alpha_mode() == gltf::material::AlphaMode::Blend,
         material: describe_material(&material),
     })
 }
@@ -242,6 +244,10 @@ pub(crate) fn check_laws(nodes: &[Node]) -> Result<(), String> {
             .iter()
             .filter(solid)
             .partition(|primitive| closed(primitive).is_ok());
+        // Of shapes that are translucent together, what they hide of each other is left out.
+        let (open, _): (Vec<&Primitive>, Vec<&Primitive>) = open
+            .into_iter()
+            .partition(|primitive| !primitive.is_translucent);
         // The primitives of a landscape's materials are closed together.
         closed_together(&open).map_err(|error| format!("`{}`: {error}", node.name))?;
         let volumes = closed.iter().map(|one| (volume(one), extent(one)));

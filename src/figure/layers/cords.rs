@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 
 use super::super::FigureContext;
 use super::shapes::Shape;
+use super::transparency::opaque_in;
 use crate::bind::PartId;
 use crate::geometry::{Outline, area, subtract};
 use crate::solid::Profile;
@@ -72,7 +73,7 @@ fn outline_width(context: &FigureContext<'_>, stroke: &Shape, host: &Shape) -> O
         && context.bindings.form(stroke.part) == host.part
         && host.is_outlined
         && !source.is_dashed()
-        && context.is_opaque(stroke.part);
+        && (context.is_opaque(stroke.part) || opaque_in(context, stroke).is_some());
     is_outline.then(|| source.width())
 }
 

@@ -38,6 +38,8 @@ pub(super) struct Lifting<'a> {
     pub(super) backs: &'a [Back],
     /// Per shape whether it shows on the back as well.
     pub(super) mirrored: &'a [bool],
+    /// Per shape those that hide parts of it although all of them are translucent.
+    pub(super) hidden: &'a [Vec<usize>],
 }
 
 /// The depths of plane faces, back and front, both measured outwards; `None` for a side without one.
@@ -276,6 +278,10 @@ impl Lifting<'_> {
                 others.for_each(|other| takes_part[*other] = true);
             }
         }
+        for (index, hidden_by) in self.hidden.iter().enumerate() {
+            takes_part[index] |= !hidden_by.is_empty();
+            hidden_by.iter().for_each(|other| takes_part[*other] = true);
+        }
         for back in self.backs {
             takes_part[back.on] = true;
             back.plates
@@ -309,7 +315,10 @@ impl Lifting<'_> {
                 ..lay
             });
             places[shape.part] = Some(made.len());
-            made.push(self.body(index, lay, raised[shape.part]));
+            made.push(Body {
+                hidden_by: to_place(self.hidden[index].clone()),
+                ..self.body(index, lay, raised[shape.part])
+            });
         }
         // Per volume the skins that lie on its back so far.
         let mut skins: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
@@ -441,6 +450,7 @@ impl Lifting<'_> {
             is_given: shape.is_given,
             is_detail: self.arrangement.covers[index].is_detail,
             is_behind: false,
+            hidden_by: Vec::new(),
             lay,
         }
     }

@@ -10,6 +10,7 @@ mod node_depths;
 mod nodes;
 mod overlaps;
 mod shapes;
+mod transparency;
 mod wraps;
 
 use std::sync::Arc;
@@ -230,8 +231,10 @@ impl Layers {
             is_one,
         };
         let backs = backs::backs(context, &shapes, &nodes, &overlaps, &covers, is_one);
+        let hidden = transparency::hidden(context, &shapes, &nodes, &overlaps, &covers);
         let lifting = lifting::Lifting {
             arrangement,
+            hidden: &hidden,
             frames,
             world,
             backs: &backs,

@@ -32,11 +32,11 @@ pub(super) struct Ground {
 
 impl BodyInFrame {
     /// The front over a point, where the body is, and the number of the triangle there.
-    fn front(&self, point: DVec2) -> Option<(f64, u32)> {
+    pub(super) fn front(&self, point: DVec2) -> Option<(f64, u32)> {
         self.body.front(self.to.transform_point2(point))
     }
 
-    fn back(&self, point: DVec2) -> Option<f64> {
+    pub(super) fn back(&self, point: DVec2) -> Option<f64> {
         self.body.back(self.to.transform_point2(point))
     }
 
@@ -52,6 +52,15 @@ impl BodyInFrame {
     pub(super) fn crossings(&self, from: DVec2, to: DVec2, found: &mut Vec<f64>) {
         let [from, to] = [from, to].map(|point| self.to.transform_point2(point));
         self.front_heights().crossings(from, to, found);
+    }
+
+    /// The same for both sides.
+    pub(super) fn all_crossings(&self, from: DVec2, to: DVec2) -> Vec<f64> {
+        let mut found = Vec::new();
+        self.crossings(from, to, &mut found);
+        let [from, to] = [from, to].map(|point| self.to.transform_point2(point));
+        self.back_heights().crossings(from, to, &mut found);
+        found
     }
 
     /// The corners of one side's triangles that are in a box.

@@ -22,6 +22,7 @@ use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 use field::Field;
 use ground::{BodyInFrame, Ground, Own, Target};
+use hidden::Hider;
 use rim::Rim;
 
 pub(crate) use recent::{RecentHeights, SolidHeights};
@@ -29,7 +30,9 @@ pub(crate) use recent::{RecentHeights, SolidHeights};
 mod cover;
 mod field;
 mod ground;
+mod hidden;
 mod recent;
+mod region;
 mod rim;
 
 /// Points that all bodies together may spend on following those below, beside what each may by its own size.
@@ -78,6 +81,8 @@ pub(crate) struct Body {
     /// Whether it lies on the backs of others: all of it is described as seen from behind, mirrored in the plane of the drawing,
     /// its depths included.
     pub is_behind: bool,
+    /// The bodies that hide what lies in them or is drawn under them, although all of them are translucent: that is cut away.
+    pub hidden_by: Vec<usize>,
     /// How it is lifted; `None` leaves it as it is.
     pub lay: Option<Lay>,
 }
@@ -247,6 +252,8 @@ impl Pile {
         let mut carries = vec![false; bodies.len()];
         let lays = bodies.iter().filter_map(|body| body.lay.as_ref());
         lays.flat_map(Lay::on).for_each(|on| carries[on] = true);
+        let hiders = bodies.iter().flat_map(|body| &body.hidden_by);
+        hiders.for_each(|hider| carries[*hider] = true);
         let lifted = bodies.iter().filter(|body| body.lay.is_some()).count();
         // Rounded, so that most changes of one body leave those of the others as they are.
         let each = MORE_POINTS / lifted.max(1).next_power_of_two();
@@ -279,6 +286,7 @@ impl Pile {
                 is_given,
                 is_detail,
                 is_behind,
+                hidden_by: _,
                 lay: _,
             } = &self.bodies[index];
             hasher.write_u128(self.solids[index]);
@@ -384,29 +392,14 @@ impl Pile {
     fn field(&self, index: usize, known: &FxHashMap<usize, BodyHeights>) -> Option<Field> {
         let body = &self.bodies[index];
         let lay = body.lay.as_ref()?;
-        let in_frame = |other: &usize, heights: BodyHeights| {
-            let other = &self.bodies[*other];
-            let is_seen_from_behind = other.is_behind != body.is_behind;
-            BodyInFrame {
-                body: if is_seen_from_behind {
-                    heights.mirrored()
-                } else {
-                    heights
-                },
-                to: other.to_plane.inverse() * body.to_plane,
-                // From behind, what is drawn later need not come out in front.
-                is_given: other.is_given || is_seen_from_behind,
-                is_detail: other.is_detail,
-            }
-        };
-        let lies_on = |other: &usize| in_frame(other, known[other].clone());
+        let lies_on = |other: &usize| self.in_frame(*other, known[other].clone(), body);
         let behind = lay.behind.iter();
         let outline = self.outline(body);
         let ground = Ground::new(
             lay.below.iter().rev().map(lies_on).collect(),
             lay.wraps.iter().map(lies_on).collect(),
             behind
-                .map(|other| in_frame(other, self.unlifted(*other)))
+                .map(|other| self.in_frame(*other, self.unlifted(*other), body))
                 .collect(),
             &outline,
         );
@@ -429,6 +422,40 @@ impl Pile {
             more_points: self.more_points,
         };
         Field::new(&outline, &body.solid, &target)
+    }
+
+    /// A body with these heights as seen from another one.
+    fn in_frame(&self, other: usize, heights: BodyHeights, body: &Body) -> BodyInFrame {
+        let other = &self.bodies[other];
+        let is_seen_from_behind = other.is_behind != body.is_behind;
+        BodyInFrame {
+            body: if is_seen_from_behind {
+                heights.mirrored()
+            } else {
+                heights
+            },
+            to: other.to_plane.inverse() * body.to_plane,
+            // From behind, what is drawn later need not come out in front.
+            is_given: other.is_given || is_seen_from_behind,
+            is_detail: other.is_detail,
+        }
+    }
+
+    /// The bodies that hide parts of another one.
+    fn hiders(&self, index: usize) -> Vec<Hider> {
+        let body = &self.bodies[index];
+        let mut known = FxHashMap::default();
+        let hider = |other: &usize| {
+            self.place(*other, &mut known);
+            let heights = known[other].clone();
+            let hider = self.in_frame(*other, heights, body);
+            let back = hider.to.inverse();
+            let outline = self.outline(&self.bodies[*other]);
+            let outline =
+                outline.map_rings(|ring| ring.iter().map(|p| back.transform_point2(*p)).collect());
+            Hider::new(hider, outline, *other > index)
+        };
+        body.hidden_by.iter().filter_map(hider).collect()
     }
 
     /// The outline of a body in the frame of its node.
@@ -456,6 +483,11 @@ impl Pile {
             Some(field) => field.surface(body.node_depth, body.solid.options.crease),
             None => self.unlifted_surface(index),
         };
+        let surface = if body.hidden_by.is_empty() {
+            surface
+        } else {
+            hidden::cut(&surface, body.node_depth, &self.hiders(index))
+        };
         if body.is_behind {
             surface.mirrored()
         } else {
@@ -481,7 +513,8 @@ impl Pile {
     /// Whether the surface of a body is made from more than its solid, or from what those on top need too.
     pub(crate) fn makes(&self, body: usize) -> bool {
         let is_field = || self.bodies[body].solid.profile.height_field().is_some();
-        self.bodies[body].lay.is_some() || (self.carries[body] && is_field())
+        let Body { lay, hidden_by, .. } = &self.bodies[body];
+        lay.is_some() || !hidden_by.is_empty() || (self.carries[body] && is_field())
     }
 
     /// A hash of all that the surface of a body is made from, in the frame of its node.
@@ -490,8 +523,18 @@ impl Pile {
             lay,
             depth,
             node_depth,
+            hidden_by,
             ..
         } = &self.bodies[body];
+        if !hidden_by.is_empty() {
+            return long_hash(|hasher| {
+                hasher.write_u128(self.keys[body]);
+                for hider in hidden_by {
+                    hasher.write_u128(self.keys[*hider]);
+                    hasher.write_u8((*hider > body).into());
+                }
+            });
+        }
         match lay {
             Some(_) => self.keys[body],
             // Equal solids at different places of the drawing have the same surface.
