@@ -60,6 +60,16 @@ enum Form {
     Laid(Lay),
 }
 
+/// A pile while it is made.
+struct Heap {
+    bodies: Vec<Body>,
+    /// Per shape its place in the pile, if it has one.
+    place: Vec<Option<usize>>,
+    /// Per volume the skins that lie on its back so far.
+    skins: FxHashMap<usize, Vec<usize>>,
+    backs: Vec<BackSkin>,
+}
+
 impl Lifting<'_> {
     /// How the parts lie in depth, with nodes at these depths.
     pub(super) fn arrange(
@@ -270,6 +280,31 @@ impl Lifting<'_> {
         raised: &TiSlice<PartId, [f64; 2]>,
         recent: Arc<RecentHeights>,
     ) -> (Pile, TiVec<PartId, Option<usize>>, Vec<BackSkin>) {
+        let mut count = 0;
+        let place = |takes_part: bool| {
+            count += usize::from(takes_part);
+            takes_part.then(|| count - 1)
+        };
+        let place: Vec<Option<usize>> = self.takes_part(&lays).into_iter().map(place).collect();
+        let mut heap = Heap {
+            bodies: Vec::with_capacity(count),
+            place,
+            skins: FxHashMap::default(),
+            backs: Vec::with_capacity(self.backs.len()),
+        };
+        let copied: Vec<Option<Lay>> = lays
+            .iter()
+            .zip(self.mirrored)
+            .map(|(lay, is_mirrored)| lay.clone().filter(|_| *is_mirrored))
+            .collect();
+        let places = self.pile_shapes(&mut heap, lays, raised);
+        self.pile_back_skins(&mut heap);
+        self.pile_images(&mut heap, copied, raised);
+        (Pile::new(heap.bodies, recent), places, heap.backs)
+    }
+
+    /// Per shape whether it is in the pile.
+    fn takes_part(&self, lays: &[Option<Lay>]) -> Vec<bool> {
         let mut takes_part = vec![false; self.arrangement.shapes.len()];
         for (index, lay) in lays.iter().enumerate() {
             if let Some(lay) = lay {
@@ -283,79 +318,88 @@ impl Lifting<'_> {
             hidden_by.iter().for_each(|other| takes_part[*other] = true);
         }
         for back in self.backs {
-            takes_part[back.on] = true;
-            back.plates
-                .iter()
-                .for_each(|plate| takes_part[*plate] = true);
+            let on = std::iter::once(&back.on).chain(&back.plates);
+            on.for_each(|shape| takes_part[*shape] = true);
         }
-        let mut place = vec![usize::MAX; self.arrangement.shapes.len()];
+        takes_part
+    }
+
+    /// Adds the shapes to a pile. Per part its place in it, if it has one.
+    fn pile_shapes(
+        &self,
+        heap: &mut Heap,
+        lays: Vec<Option<Lay>>,
+        raised: &TiSlice<PartId, [f64; 2]>,
+    ) -> TiVec<PartId, Option<usize>> {
         let mut places = ti_vec![None; self.arrangement.context.bindings.parts.len()];
-        let mut count = 0;
-        for index in (0..self.arrangement.shapes.len()).filter(|index| takes_part[*index]) {
-            place[index] = count;
-            count += 1;
-        }
-        let copied: Vec<Option<Lay>> = lays
-            .iter()
-            .zip(self.mirrored)
-            .map(|(lay, is_mirrored)| lay.clone().filter(|_| *is_mirrored))
-            .collect();
-        let to_place = |list: Vec<usize>| list.into_iter().map(|index| place[index]).collect();
-        let mut made = Vec::with_capacity(count);
-        for (index, lay) in lays
-            .into_iter()
-            .enumerate()
-            .filter(|(index, _)| takes_part[*index])
-        {
-            let shape = &self.arrangement.shapes[index];
+        for (index, lay) in lays.into_iter().enumerate() {
+            let Some(place) = heap.place[index] else {
+                continue;
+            };
+            let to_place =
+                |list: Vec<usize>| list.iter().filter_map(|on| heap.place[*on]).collect();
             let lay = lay.map(|lay| Lay {
                 below: to_place(lay.below),
                 wraps: to_place(lay.wraps),
                 behind: to_place(lay.behind),
                 ..lay
             });
-            places[shape.part] = Some(made.len());
-            made.push(Body {
-                hidden_by: to_place(self.hidden[index].clone()),
-                ..self.body(index, lay, raised[shape.part])
+            let part = self.arrangement.shapes[index].part;
+            places[part] = Some(place);
+            let hidden_by = to_place(self.hidden[index].clone());
+            heap.bodies.push(Body {
+                hidden_by,
+                ..self.body(index, lay, raised[part])
             });
         }
-        // Per volume the skins that lie on its back so far.
-        let mut skins: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
-        let mut backs = Vec::with_capacity(self.backs.len());
+        places
+    }
+
+    /// Adds what closes behind volumes.
+    fn pile_back_skins(&self, heap: &mut Heap) {
         for back in self.backs {
             // The backs of plates that lie over one another are as close to each other as to a skin.
             let plates = back.plates.iter().copied();
             let volumes: Vec<usize> = std::iter::once(back.on).chain(plates).collect();
-            let mut below: Vec<usize> = volumes.iter().map(|shape| place[*shape]).collect();
+            let places = volumes.iter().filter_map(|shape| heap.place[*shape]);
+            let mut below: Vec<usize> = places.collect();
             below.sort_unstable();
             let mut before: Vec<usize> = volumes
                 .iter()
-                .filter_map(|shape| skins.get(shape))
+                .filter_map(|shape| heap.skins.get(shape))
                 .flatten()
                 .copied()
                 .collect();
             before.sort_unstable();
             below.extend(before);
-            let skin = self.back_skin(back, below);
-            skins.entry(back.on).or_default().push(made.len());
-            backs.push(BackSkin {
+            let body = heap.bodies.len();
+            heap.skins.entry(back.on).or_default().push(body);
+            heap.backs.push(BackSkin {
                 part: self.arrangement.shapes[back.of].part,
                 why: Behind::Closes {
                     on: self.arrangement.shapes[back.on].part,
                 },
-                body: made.len(),
+                body,
             });
-            made.push(skin);
+            heap.bodies.push(self.back_skin(back, below));
         }
+    }
+
+    /// Adds the mirror images of shapes, given how each is laid on others if it has one.
+    fn pile_images(
+        &self,
+        heap: &mut Heap,
+        copied: Vec<Option<Lay>>,
+        raised: &TiSlice<PartId, [f64; 2]>,
+    ) {
         // Per shape its mirror image, once it is made.
         let mut images: Vec<Option<usize>> = vec![None; self.arrangement.shapes.len()];
         for (index, lay) in copied.into_iter().enumerate() {
             let Some(lay) = lay else { continue };
             let on = |shape: &usize| {
                 let is_volume = !self.arrangement.covers[*shape].is_detail;
-                let volume = is_volume.then_some(place[*shape]);
-                let skins = skins.get(shape).into_iter().flatten().copied();
+                let volume = heap.place[*shape].filter(|_| is_volume);
+                let skins = heap.skins.get(shape).into_iter().flatten().copied();
                 volume.into_iter().chain(skins).chain(images[*shape])
             };
             let mut below: Vec<usize> = lay.below.iter().flat_map(on).collect();
@@ -368,20 +412,19 @@ impl Lifting<'_> {
             };
             let part = self.arrangement.shapes[index].part;
             let body = self.body(index, Some(lay), raised[part]);
-            images[index] = Some(made.len());
-            backs.push(BackSkin {
+            images[index] = Some(heap.bodies.len());
+            heap.backs.push(BackSkin {
                 part,
                 why: Behind::Mirrored,
-                body: made.len(),
+                body: heap.bodies.len(),
             });
-            made.push(Body {
+            heap.bodies.push(Body {
                 depth: -body.depth,
                 node_depth: -body.node_depth,
                 is_behind: true,
                 ..body
             });
         }
-        (Pile::new(made, recent), places, backs)
     }
 
     /// A skin on the back of a volume, described as seen from behind.
