@@ -31,6 +31,8 @@ index_type!(
 pub struct Bindings {
     /// Whether the drawing is annotated at all.
     pub annotated: bool,
+    /// Whether no string says `Shape`, so that what no string says is found by rule.
+    pub(super) is_first_look: bool,
     /// The strings, in the order of the file.
     pub strings: TiVec<StringId, DrawingString>,
     /// The parts, back-most first; sub-parts, legends and unused parts included.
@@ -264,8 +266,16 @@ pub(crate) enum Seen {
     Anyhow,
     /// From the side: what is drawn on it is on its far side, too.
     InProfile,
+    /// The same; it is part of a vehicle.
+    VehicleInProfile,
     FromFront,
     FromBehind,
+}
+
+impl Seen {
+    pub(crate) fn is_in_profile(self) -> bool {
+        matches!(self, Self::InProfile | Self::VehicleInProfile)
+    }
 }
 
 /// The paint of a shape's fill, or of its stroke.

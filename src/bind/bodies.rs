@@ -25,7 +25,7 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
 }
 
 /// Whether a name is that of a part of a body, or of clothes.
-fn is_of_body(name: &str) -> bool {
+pub(super) fn is_of_body(name: &str) -> bool {
     let terms = anatomy::terms(name);
     let is_worn = |term: &Term| matches!(term, Term::BodyWear | Term::HeadWear | Term::HipWear);
     !terms.contains(&Term::Detail) && (Role::of(&terms).is_some() || terms.iter().any(is_worn))

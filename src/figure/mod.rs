@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
-use crate::bind::{Bindings, PartId, Seen, SetBy};
+use crate::bind::{Bindings, PartId, Seen, SetBy, VehiclePart};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::index::par_keys;
@@ -235,6 +235,7 @@ impl<'a> Figures<'a> {
         world: &WorldTransform,
     ) -> Option<SurfacePatch> {
         let (_, both) = self.context.stand(main, part);
+        let both = both || self.layers.is_on_both_sides(part);
         let sides = if both { Sides::Both } else { Sides::Front };
         if let Some((pile, body)) = self.layers.in_pile(part) {
             return Some(SurfacePatch::Deferred(Arc::new(LaidSolid {
@@ -264,6 +265,8 @@ struct FigureContext<'a> {
     bindings: &'a Bindings,
     /// Per main part from where it is drawn.
     seen: TiVec<PartId, Seen>,
+    /// Per part what it is of a vehicle.
+    of_vehicle: TiVec<PartId, Option<VehiclePart>>,
     /// How far the surface of a solid may be from a rounding without anybody seeing it, drawing units.
     invisible: f64,
 }
@@ -276,6 +279,7 @@ impl<'a> FigureContext<'a> {
         Self {
             drawing,
             bindings,
+            of_vehicle: bindings.vehicle_parts(&seen),
             seen,
             invisible: INVISIBLE * extent,
         }
@@ -303,7 +307,11 @@ impl<'a> FigureContext<'a> {
 
     /// How a part's outline gets its thickness.
     fn profile(&self, part: PartId) -> Option<Profile> {
-        self.bindings.profile(self.drawing, part)
+        let profile = self.bindings.profile(self.drawing, part)?;
+        Some(match self.of_vehicle[self.bindings.form(part)] {
+            Some(of_vehicle) => of_vehicle.profile(profile),
+            None => profile,
+        })
     }
 
     /// The thickness of a part's solid that is moved by an offset; `None` without one.

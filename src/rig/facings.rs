@@ -41,10 +41,11 @@ pub(crate) fn seen(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, Seen
         let from = match figure.found.facing {
             Facing::Viewer => Seen::FromFront,
             Facing::Away => Seen::FromBehind,
+            Facing::Left | Facing::Right if figure.found.is_vehicle => Seen::VehicleInProfile,
             Facing::Left | Facing::Right => Seen::InProfile,
         };
         figure.parts.iter().for_each(|part| seen[*part] = from);
-        if from == Seen::InProfile {
+        if from.is_in_profile() {
             let one_sided = figure.limbs.iter().chain(&figure.face);
             one_sided.for_each(|part| seen[*part] = Seen::Anyhow);
         }

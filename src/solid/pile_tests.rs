@@ -43,6 +43,7 @@ fn ink(outline: Outline, below: Vec<Solid>, step: f64) -> LaidSolid {
             form: LayForm::Ink,
             toes: None,
             is_line: true,
+            is_symmetric: false,
         },
     )
 }
@@ -231,6 +232,7 @@ fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body>> {
             form,
             toes: None,
             is_line: form == LayForm::Ink,
+            is_symmetric: false,
         });
         bodies.push(Body {
             is_detail: form != LayForm::Volume,
@@ -291,6 +293,7 @@ fn high_piles_grow_linearly() {
                     form: LayForm::Skin,
                     toes: None,
                     is_line: false,
+                    is_symmetric: false,
                 }),
                 is_detail: index > 0,
                 ..body(solid(outline, profile("inflate", &[])))
@@ -399,6 +402,7 @@ fn skin_of(
         form: LayForm::BackSkin,
         toes: None,
         is_line: false,
+        is_symmetric: false,
     };
     let skin = Body {
         depth: if is_behind { -depth } else { depth },
@@ -694,6 +698,7 @@ proptest! {
                 form: LayForm::Skin,
                 toes: None,
                 is_line: false,
+                is_symmetric: false,
             }),
             ..body(solid(moved(outline(vec![ellipse(radii, turn)]), at), profile("inflate", &[])))
         });

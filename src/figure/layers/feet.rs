@@ -32,7 +32,7 @@ pub(super) fn toes(context: &FigureContext<'_>, shape: &Shape) -> Option<Toes> {
     let away = match context.seen[shape.main] {
         Seen::FromFront => false,
         Seen::FromBehind => true,
-        Seen::InProfile | Seen::Anyhow => return None,
+        Seen::InProfile | Seen::VehicleInProfile | Seen::Anyhow => return None,
     };
     let part = &context.bindings.parts[shape.part];
     let (low, high) = shape.bounds;

@@ -10,6 +10,7 @@ mod node_depths;
 mod nodes;
 mod overlaps;
 mod shapes;
+mod vehicles;
 mod wraps;
 
 use std::sync::Arc;
@@ -18,7 +19,7 @@ use rayon::prelude::*;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::FigureContext;
-use crate::bind::{PartId, Seen};
+use crate::bind::PartId;
 use crate::figure::PartFrames;
 use crate::memo::Memo;
 use crate::scene::WorldTransform;
@@ -71,6 +72,12 @@ pub enum Reason {
         /// The part.
         of: PartId,
     },
+    /// It is part of a vehicle that is the same on both sides.
+    Vehicle,
+    /// It is a wheel, which is on both sides of a vehicle.
+    Wheel,
+    /// It is one of two wheels in a line.
+    MiddleWheel,
 }
 
 /// The depth of a node.
@@ -150,6 +157,10 @@ pub(super) struct Layers {
     offsets: TiVec<PartId, f64>,
     /// Per part how far the faces of its solid are moved outwards, back and front.
     raised: TiVec<PartId, [f64; 2]>,
+    /// Per part whether its solid is there twice, the other one mirrored in the plane of its node.
+    both_sides: TiVec<PartId, bool>,
+    /// The details among these.
+    on_back: Vec<PartId>,
     /// Per part its place in the pile, if it has one.
     places: TiVec<PartId, Option<usize>>,
     /// The skins on backs.
@@ -178,7 +189,8 @@ impl Layers {
             ))
         };
         let is_one = !context.bindings.annotated;
-        let details = details(&shapes, &nodes, &overlaps, is_one);
+        let mut details = details(&shapes, &nodes, &overlaps, is_one);
+        vehicles::place_wheels(&mut shapes, &overlaps, &mut details);
         let is_flat = is_one && is_flat(context, &nodes);
         if is_one && !is_flat {
             nodes.hang_on_trunks(&shapes, &overlaps, &details);
@@ -236,6 +248,7 @@ impl Layers {
             world,
             backs: &backs,
             mirrored: &backs::mirrored(context, &shapes, &covers, &overlaps),
+            on_wheels: &vehicles::on_wheels(&shapes, &covers, &overlaps),
         };
         let node = |part: PartId| {
             let node = nodes.of_part[part]?;
@@ -260,7 +273,8 @@ impl Layers {
 
     /// What each part shows from behind beside its own back.
     pub(super) fn behind(&self) -> impl Iterator<Item = (PartId, Behind)> {
-        self.backs.iter().map(|back| (back.part, back.why))
+        let backs = self.backs.iter().map(|back| (back.part, back.why));
+        backs.chain(self.on_back.iter().map(|part| (*part, Behind::Mirrored)))
     }
 
     /// How far the node of a main part is in front of the node that it hangs on, drawing units.
@@ -277,6 +291,11 @@ impl Layers {
     /// How far the back and the front face of a part's solid are moved outwards, drawing units.
     pub(super) fn raised(&self, part: PartId) -> [f64; 2] {
         self.raised[part]
+    }
+
+    /// Whether a part's solid is there twice, the other one mirrored in the plane of its node.
+    pub(super) fn is_on_both_sides(&self, part: PartId) -> bool {
+        self.both_sides[part]
     }
 
     /// Whether a part is lifted by others.
@@ -302,7 +321,8 @@ impl Layers {
 /// of drawing is all that is known.
 fn is_flat(context: &FigureContext<'_>, nodes: &Nodes) -> bool {
     let has_names = nodes.parent.iter().any(Option::is_some);
-    has_names && !context.seen.contains(&Seen::InProfile)
+    let mut seen = context.seen.iter();
+    has_names && !seen.any(|seen| seen.is_in_profile())
 }
 
 /// Gives the soft shapes that lie over others or under them their heights.
