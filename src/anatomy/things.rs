@@ -80,6 +80,15 @@ pub(crate) fn end_of_vehicle(name: &str) -> Option<f64> {
     }
 }
 
+/// Words for vehicles with two wheels in a line, and for what only these have.
+const BIKES: &str = "bike motorbike minibike bicycle motorcycle cycle scooter moped handlebar handlebars pedal pedals 自転車 じてんしゃ ばいく \
+     おーとばい すくーたー";
+
+/// Whether a name is that of a vehicle with two wheels in a line, or of a part of one.
+pub(crate) fn is_bike(name: &str) -> bool {
+    has_word(name, BIKES)
+}
+
 /// Whether a name is that of lights.
 pub(crate) fn is_light(name: &str) -> bool {
     has_word(name, LIGHTS)

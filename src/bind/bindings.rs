@@ -31,6 +31,8 @@ index_type!(
 pub struct Bindings {
     /// Whether the drawing is annotated at all.
     pub annotated: bool,
+    /// Whether no string says `Shape`, so that what no string says is found by rule.
+    pub(super) is_first_look: bool,
     /// The strings, in the order of the file.
     pub strings: TiVec<StringId, DrawingString>,
     /// The parts, back-most first; sub-parts, legends and unused parts included.

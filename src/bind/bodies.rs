@@ -55,7 +55,7 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
 }
 
 /// Whether a name is that of a part of a body, of clothes, or of hair.
-fn is_of_body(name: &str) -> bool {
+pub(super) fn is_of_body(name: &str) -> bool {
     let terms = anatomy::terms(name);
     let is_part = Role::of(&terms).is_some() || terms.contains(&Term::Hair);
     !terms.contains(&Term::Detail) && (is_part || is_worn(&terms))

@@ -3,12 +3,12 @@
 use glam::DVec2;
 
 use super::hierarchy::Tree;
-use super::matching::{Matched, MatchedPart};
+use super::matching::Matched;
 use crate::anatomy;
-use crate::geometry::bounds_of;
+use crate::geometry::{Outline, bounds_of};
 
 /// How thick a wheel is, as a share of its diameter.
-const THICKNESS: f64 = 0.35;
+pub(super) const THICKNESS: f64 = 0.35;
 
 /// Makes discs of the wheels that would be inflated because no string says `Shape`. The other shapes of a wheel are plates on it.
 pub(super) fn find(matched: &mut Matched, tree: &Tree) {
@@ -23,14 +23,14 @@ pub(super) fn find(matched: &mut Matched, tree: &Tree) {
         }
         part.is_balloon = false;
         if main == index {
-            part.disc = diameter(part).map(|diameter| THICKNESS / 2.0 * diameter);
+            part.disc = diameter(&part.outline).map(|diameter| THICKNESS / 2.0 * diameter);
         }
     }
 }
 
 /// The diameter of the largest disc of an outline, which may be that of several wheels, drawing units.
-fn diameter(part: &MatchedPart) -> Option<f64> {
-    let borders = part.outline.polygons.iter();
+pub(super) fn diameter(outline: &Outline) -> Option<f64> {
+    let borders = outline.polygons.iter();
     let borders = borders.filter_map(|polygon| polygon.rings.first());
     let sizes = borders.filter_map(|ring| {
         let (low, high) = bounds_of(ring.iter().copied())?;

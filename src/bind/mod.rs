@@ -17,6 +17,7 @@ mod reports;
 mod sheets;
 #[cfg(test)]
 mod tests;
+mod vehicles;
 mod words;
 
 pub(crate) use attributes::{
@@ -32,6 +33,7 @@ pub use matching::in_layers_of_pixels;
 pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
 pub(crate) use names::written_by_a_person;
 pub(crate) use reports::locate;
+pub(crate) use vehicles::VehiclePart;
 
 use typed_index_collections::TiVec;
 
@@ -83,6 +85,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
     }
     Bindings {
         annotated: matched.annotated,
+        is_first_look: matched.is_first_look,
         strings: matched.strings,
         parts,
         defaults: matched.defaults,

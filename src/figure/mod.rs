@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
-use crate::bind::{Bindings, PartId, Seen, SetBy};
+use crate::bind::{Bindings, PartId, Seen, SetBy, VehiclePart};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::index::par_keys;
@@ -236,6 +236,7 @@ impl<'a> Figures<'a> {
         world: &WorldTransform,
     ) -> Option<SurfacePatch> {
         let (_, both) = self.context.stand(main, part);
+        let both = both || self.layers.is_on_both_sides(part);
         let sides = if both { Sides::Both } else { Sides::Front };
         if let Some((pile, body)) = self.layers.in_pile(part) {
             return Some(SurfacePatch::Deferred(Arc::new(LaidSolid {
@@ -267,6 +268,8 @@ struct FigureContext<'a> {
     seen: TiVec<PartId, Seen>,
     /// Per part how far it reaches to either side of its plane at most where no string says its `Shape`, drawing units.
     reaches: TiVec<PartId, Option<f64>>,
+    /// Per part what it is of a vehicle.
+    of_vehicle: TiVec<PartId, Option<VehiclePart>>,
     /// How far the surface of a solid may be from a rounding without anybody seeing it, drawing units.
     invisible: f64,
 }
@@ -280,6 +283,7 @@ impl<'a> FigureContext<'a> {
             drawing,
             bindings,
             reaches: depth_limits::reaches(bindings, &seen),
+            of_vehicle: bindings.vehicle_parts(&seen),
             seen,
             invisible: INVISIBLE * extent,
         }
@@ -309,6 +313,9 @@ impl<'a> FigureContext<'a> {
     fn profile(&self, part: PartId) -> Option<Profile> {
         let profile = self.bindings.profile(self.drawing, part)?;
         let form = self.bindings.form(part);
+        if let Some(of_vehicle) = self.of_vehicle[form] {
+            return Some(of_vehicle.profile(profile));
+        }
         let reach = self.reaches[form].filter(|_| !self.bindings.is_shape_set(form));
         Some(match reach {
             Some(reach) => profile.at_most(reach),

@@ -31,6 +31,9 @@ pub(crate) fn depth_reason(compiled: &Compiled, part: PartId) -> Option<String> 
         Reason::DrawnUnder { part } => format!("{}: drawn before it", place(part)),
         Reason::With { part } => format!("lies on {}", name(part)),
         Reason::Backdrop { of } => format!("{}: covered by it", place(of)),
+        Reason::Vehicle => "the same on both sides of a vehicle".to_owned(),
+        Reason::Wheel => "on both sides of a vehicle".to_owned(),
+        Reason::MiddleWheel => "in the middle, one of two wheels".to_owned(),
         Reason::Twin { of } => {
             let parent = parts[part].parent;
             let parent = parent.map(|parent| format!("{}: ", place(parent)));

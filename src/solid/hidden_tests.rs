@@ -107,6 +107,7 @@ fn laid_on_one(form: LayForm, kind: &str, numbers: &[f64], at: DVec2) -> Vec<Bod
         form,
         toes: None,
         is_line: false,
+        is_symmetric: false,
     };
     let outline = if is_soft {
         circle(6.0, 48)

@@ -43,6 +43,7 @@ fn ink(outline: Outline, below: Vec<Solid>, step: f64) -> LaidSolid {
             form: LayForm::Ink,
             toes: None,
             is_line: true,
+            is_symmetric: false,
         },
     )
 }
@@ -232,6 +233,7 @@ pub(super) fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body
             form,
             toes: None,
             is_line: form == LayForm::Ink,
+            is_symmetric: false,
         });
         bodies.push(Body {
             is_detail: form != LayForm::Volume,
@@ -292,6 +294,7 @@ fn high_piles_grow_linearly() {
                     form: LayForm::Skin,
                     toes: None,
                     is_line: false,
+                    is_symmetric: false,
                 }),
                 is_detail: index > 0,
                 ..body(solid(outline, profile("inflate", &[])))
@@ -400,6 +403,7 @@ fn skin_of(
         form: LayForm::BackSkin,
         toes: None,
         is_line: false,
+        is_symmetric: false,
     };
     let skin = Body {
         depth: if is_behind { -depth } else { depth },

@@ -88,6 +88,10 @@ impl Joints<'_> {
                 return at;
             }
         }
+        // A wheel rolls about its axle.
+        if self.context.matched.is_first_look && anatomy::is_disc(self.names.of(index)) {
+            return measure.center;
+        }
         let candidates = [start, end, measure.center];
         let beside = self.measure(parent).center;
         // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.

@@ -82,27 +82,33 @@ fn is_plate(shape: &Shape) -> bool {
     !shape.is_soft && !shape.is_ink
 }
 
-/// Per shape whether it shows on the back as well, mirrored: details with `Side both`, and those of figures in profile that `Side
-/// near` does not keep where they are drawn.
+/// Per shape whether it shows on the back as well, mirrored: details with `Side both`, and those of figures in profile and wheels of
+/// vehicles that `Side near` does not keep where they are drawn.
 pub(super) fn mirrored(
     context: &FigureContext<'_>,
     shapes: &[Shape],
     covers: &[Cover],
     overlaps: &[Vec<Overlap>],
 ) -> Vec<bool> {
-    let each = shapes.iter().zip(covers).zip(overlaps);
-    let is_mirrored = each.map(|((shape, cover), overlaps)| {
-        let mut below = overlaps.iter().map(|overlap| &shapes[overlap.below]);
-        cover.is_detail
-            && !shape.is_cord
-            && !shape.is_given
+    let mut mirrored = vec![false; shapes.len()];
+    for (index, (shape, cover)) in shapes.iter().zip(covers).enumerate() {
+        let is_both = !shape.is_given
             && match context.bindings.side(shape.part) {
                 Some(side) => side == Side::Both,
                 None => context.seen[shape.main].is_in_profile(),
-            }
-            && below.all(|below| context.is_opaque(below.part))
-    });
-    is_mirrored.collect()
+            };
+        let is_below_on_both = |overlap: &Overlap| {
+            let below = &shapes[overlap.below];
+            context.is_opaque(below.part) && (!below.is_wheel() || mirrored[overlap.below])
+        };
+        mirrored[index] = is_both
+            && if cover.is_detail {
+                !shape.is_cord && overlaps[index].iter().all(is_below_on_both)
+            } else {
+                shape.is_wheel()
+            };
+    }
+    mirrored
 }
 
 /// The skins on backs, in the order of their volumes.
@@ -129,16 +135,14 @@ pub(super) fn backs(
         let shape = &shapes[index];
         let is_solid = !shape.is_ink && !shape.is_given && !shape.profile.is_open();
         is_solid
+            // The far side of a vehicle is like its near one.
+            && shape.of_vehicle.is_none()
             && !covers[index].is_detail
             && !is_hidden[index]
             && shape.area > 0.0
             && context.is_opaque(shape.part)
     };
     let may_show_back: Vec<bool> = (0..shapes.len()).map(may_show_back).collect();
-    let is_near: Vec<bool> = shapes
-        .iter()
-        .map(|shape| context.bindings.side(shape.part) == Some(Side::Near))
-        .collect();
     let is_kin = |one: usize, other: usize| {
         let [one, other] = [one, other].map(|shape| nodes.of_shape[shape]);
         is_one || nodes.hangs_on(one, other) || nodes.hangs_on(other, one)
@@ -146,7 +150,7 @@ pub(super) fn backs(
     let mut garments: Vec<Vec<Garment>> = vec![Vec::new(); shapes.len()];
     for (above, below) in overlaps.iter().enumerate() {
         let garment = &shapes[above];
-        if garment.is_ink || garment.is_given || is_near[above] {
+        if garment.is_ink || garment.is_given || garment.is_near {
             continue;
         }
         for overlap in below {
@@ -163,7 +167,7 @@ pub(super) fn backs(
             // Long hair behind a head is about as large as that, which a trunk behind an arm is not.
             let [volume, behind] = [garment.area, shapes[on].area];
             let is_alike = overlap.area >= BEHIND * volume && overlap.area >= BEHIND * behind;
-            let is_free = !shapes[on].is_ink && !shapes[on].is_given && !is_near[on];
+            let is_free = !shapes[on].is_ink && !shapes[on].is_given && !shapes[on].is_near;
             if is_alike && is_free && may_show_back[above] && is_kin(above, on) {
                 garments[above].push(Garment {
                     shape: on,

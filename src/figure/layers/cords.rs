@@ -61,7 +61,11 @@ pub(super) fn lay(context: &FigureContext<'_>, shapes: &mut [Shape], is_detail: 
 
 /// Whether a shape is blown up without a depth of its own.
 fn is_balloon(shape: &Shape) -> bool {
-    matches!(shape.profile, Profile::Inflate(_)) && !shape.is_given && !shape.is_ink
+    matches!(shape.profile, Profile::Inflate(_))
+        && !shape.is_given
+        && !shape.is_ink
+        // A box has walls, and no border that a cord could lie along.
+        && shape.of_vehicle.is_none()
 }
 
 /// The width of ink that is the stroke of the shape that it lies on, without gaps, and that nothing can be seen through.

@@ -12,7 +12,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 use super::backs::Back;
 use super::feet;
 use super::{Arrangement, BackSkin, Behind, Layers, NodeDepth};
-use crate::bind::PartId;
+use crate::bind::{PartId, VehiclePart};
 use crate::figure::PartFrames;
 use crate::scene::WorldTransform;
 use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights, Solid, Toes};
@@ -23,6 +23,8 @@ const BULGE: f64 = 0.3;
 const NAMED_BULGE: f64 = 0.6;
 /// How far a face of a plate is moved outwards at most, in its own heights.
 const MAX_RAISE: f64 = 2.0;
+/// How far a face of a piece of a vehicle is moved outwards as a whole at most, in steps.
+const MAX_STEPS: f64 = 8.0;
 /// Layers per half turn of a skin on a back, whose mesh follows that of the volume where it has to.
 const SKIN_SEGMENTS: u32 = 8;
 /// Layers per half turn of a cord, which is thin.
@@ -40,6 +42,8 @@ pub(super) struct Lifting<'a> {
     pub(super) mirrored: &'a [bool],
     /// Per shape those that hide parts of it although all of them are translucent.
     pub(super) hidden: &'a [Vec<usize>],
+    /// Per shape whether it lies on a wheel.
+    pub(super) on_wheels: &'a [bool],
 }
 
 /// The depths of plane faces, back and front, both measured outwards; `None` for a side without one.
@@ -92,11 +96,15 @@ impl Lifting<'_> {
             faces: Vec::with_capacity(count),
         };
         let mut lays: Vec<Option<Lay>> = Vec::with_capacity(count);
+        let mut both_sides = ti_vec![false; offsets.len()];
+        let mut on_back = Vec::new();
         for (index, shape) in self.arrangement.shapes.iter().enumerate() {
             let (by, lay) = match self.form(index, &moved) {
                 Form::Raised(by) => (by, None),
                 // The backs of plates are plane, whatever lifts their fronts.
-                Form::Laid(lay) if lay.form == LayForm::Volume && !shape.is_soft => {
+                Form::Laid(lay)
+                    if lay.form == LayForm::Volume && !shape.is_soft && !lay.is_symmetric =>
+                {
                     ([self.raise(index, &moved)[0], 0.0], Some(lay))
                 }
                 Form::Laid(lay) => ([0.0; 2], Some(lay)),
@@ -104,7 +112,11 @@ impl Lifting<'_> {
             raised[shape.part] = by;
             let [back, front] = self.faces(index);
             let is_exact = lay.is_none();
-            let has_back = is_exact || !shape.is_soft;
+            let has_back = is_exact || !(shape.is_soft || self.is_symmetric(index));
+            both_sides[shape.part] = self.is_on_both_sides(index, lay.as_ref());
+            if both_sides[shape.part] && self.arrangement.covers[index].is_detail {
+                on_back.push(shape.part);
+            }
             moved.is_exact.push(is_exact);
             moved.faces.push([
                 back.filter(|_| has_back).map(|back| back + by[0]),
@@ -118,6 +130,8 @@ impl Lifting<'_> {
             nodes,
             offsets,
             raised,
+            both_sides,
+            on_back,
             places,
             pile: Arc::new(pile),
         }
@@ -136,11 +150,18 @@ impl Lifting<'_> {
         }
         let is_plate =
             |other: usize| moved.is_exact[other] && !self.arrangement.shapes[other].is_soft;
-        if !shape.is_soft && below().all(is_plate) {
+        // A door that went through a vehicle would show on the vehicle's ends.
+        let is_on_vehicle = shape.of_vehicle.is_some() && cover.is_detail && !self.on_wheels[index];
+        if !shape.is_soft && !is_on_vehicle && below().all(is_plate) {
             let by = self.raise(index, moved);
-            if by[1] <= MAX_RAISE * shape.height().max(self.arrangement.steps[index])
-                || self.arrangement.shapes[index].profile.is_open()
-            {
+            // A chimney that touches a boiler stays as narrow as it is, while a wheel stays round.
+            let is_body = matches!(shape.of_vehicle, Some(VehiclePart::Body { .. }));
+            let most = if is_body && self.is_symmetric(index) {
+                MAX_STEPS * self.arrangement.steps[index]
+            } else {
+                MAX_RAISE * shape.height().max(self.arrangement.steps[index])
+            };
+            if by[1] <= most || self.arrangement.shapes[index].profile.is_open() {
                 return Form::Raised(by);
             }
         }
@@ -157,6 +178,7 @@ impl Lifting<'_> {
             () if shape.is_ink => LayForm::Ink,
             () if shape.profile.is_open() => LayForm::Sheet,
             () if !cover.is_detail => LayForm::Volume,
+            () if is_on_vehicle && !shape.is_soft => LayForm::Skin,
             () if shape.is_main && !self.arrangement.is_one => LayForm::DeepSkin,
             () => LayForm::Skin,
         };
@@ -202,7 +224,28 @@ impl Lifting<'_> {
             form,
             toes,
             is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,
+            is_symmetric: self.is_symmetric(index),
         })
+    }
+
+    /// Whether a shape is one of a vehicle that is no wheel and lies on none, so that it reaches as far to the back as to the front.
+    fn is_symmetric(&self, index: usize) -> bool {
+        let shape = &self.arrangement.shapes[index];
+        let is_volume = !self.arrangement.covers[index].is_detail;
+        shape.of_vehicle.is_some()
+            && !shape.is_wheel()
+            && !self.on_wheels[index]
+            && (is_volume || self.mirrored[index])
+    }
+
+    /// Whether a shape is there twice, the other one mirrored in the plane of its node: wheels, what lies on these, and skins on the
+    /// bodies of vehicles.
+    fn is_on_both_sides(&self, index: usize, lay: Option<&Lay>) -> bool {
+        let shape = &self.arrangement.shapes[index];
+        let is_skin = lay.is_some_and(|lay| lay.form != LayForm::Volume);
+        shape.of_vehicle.is_some()
+            && self.mirrored[index]
+            && (is_skin || shape.is_wheel() || self.on_wheels[index])
     }
 
     /// How the toes of a foot come out of it.
@@ -237,7 +280,7 @@ impl Lifting<'_> {
         let shape = &self.arrangement.shapes[index];
         let step = self.arrangement.steps[index];
         let faces = self.faces(index);
-        [0, 1].map(|side| {
+        let raised = [0, 1].map(|side| {
             let Some(own) = faces[side] else { return 0.0 };
             let below = self.arrangement.overlaps[index]
                 .iter()
@@ -269,7 +312,12 @@ impl Lifting<'_> {
                 level = other + away;
             }
             level - own
-        })
+        });
+        if self.is_symmetric(index) {
+            [raised[1]; 2]
+        } else {
+            raised
+        }
     }
 
     /// The pile of all shapes that are laid on others, and of those that they are laid on. Per part its place in it, if it has
@@ -292,11 +340,12 @@ impl Lifting<'_> {
             skins: FxHashMap::default(),
             backs: Vec::with_capacity(self.backs.len()),
         };
-        let copied: Vec<Option<Lay>> = lays
-            .iter()
-            .zip(self.mirrored)
-            .map(|(lay, is_mirrored)| lay.clone().filter(|_| *is_mirrored))
-            .collect();
+        // What belongs to a vehicle is there twice as a whole.
+        let copied = lays.iter().enumerate().map(|(index, lay)| {
+            let is_apart = self.arrangement.shapes[index].of_vehicle.is_none();
+            lay.clone().filter(|_| self.mirrored[index] && is_apart)
+        });
+        let copied: Vec<Option<Lay>> = copied.collect();
         let places = self.pile_shapes(&mut heap, lays, raised);
         self.pile_back_skins(&mut heap);
         self.pile_images(&mut heap, copied, raised);
@@ -456,6 +505,7 @@ impl Lifting<'_> {
             form: LayForm::BackSkin,
             toes: None,
             is_line: false,
+            is_symmetric: false,
         };
         Body {
             solid,

@@ -11,6 +11,7 @@ mod nodes;
 mod overlaps;
 mod shapes;
 mod transparency;
+mod vehicles;
 mod wraps;
 
 use std::sync::Arc;
@@ -72,6 +73,12 @@ pub enum Reason {
         /// The part.
         of: PartId,
     },
+    /// It is part of a vehicle that is the same on both sides.
+    Vehicle,
+    /// It is a wheel, which is on both sides of a vehicle.
+    Wheel,
+    /// It is one of two wheels in a line.
+    MiddleWheel,
 }
 
 /// The depth of a node.
@@ -151,6 +158,10 @@ pub(super) struct Layers {
     offsets: TiVec<PartId, f64>,
     /// Per part how far the faces of its solid are moved outwards, back and front.
     raised: TiVec<PartId, [f64; 2]>,
+    /// Per part whether its solid is there twice, the other one mirrored in the plane of its node.
+    both_sides: TiVec<PartId, bool>,
+    /// The details among these.
+    on_back: Vec<PartId>,
     /// Per part its place in the pile, if it has one.
     places: TiVec<PartId, Option<usize>>,
     /// The skins on backs.
@@ -179,7 +190,8 @@ impl Layers {
             ))
         };
         let is_one = !context.bindings.annotated;
-        let details = details(&shapes, &nodes, &overlaps, is_one);
+        let mut details = details(&shapes, &nodes, &overlaps, is_one);
+        vehicles::place_wheels(&mut shapes, &overlaps, &mut details);
         let is_flat = is_one && is_flat(context, &nodes);
         if is_one && !is_flat {
             nodes.hang_on_trunks(&shapes, &overlaps, &details);
@@ -239,6 +251,7 @@ impl Layers {
             world,
             backs: &backs,
             mirrored: &backs::mirrored(context, &shapes, &covers, &overlaps),
+            on_wheels: &vehicles::on_wheels(&shapes, &covers, &overlaps),
         };
         let node = |part: PartId| {
             let node = nodes.of_part[part]?;
@@ -263,7 +276,8 @@ impl Layers {
 
     /// What each part shows from behind beside its own back.
     pub(super) fn behind(&self) -> impl Iterator<Item = (PartId, Behind)> {
-        self.backs.iter().map(|back| (back.part, back.why))
+        let backs = self.backs.iter().map(|back| (back.part, back.why));
+        backs.chain(self.on_back.iter().map(|part| (*part, Behind::Mirrored)))
     }
 
     /// How far the node of a main part is in front of the node that it hangs on, drawing units.
@@ -280,6 +294,11 @@ impl Layers {
     /// How far the back and the front face of a part's solid are moved outwards, drawing units.
     pub(super) fn raised(&self, part: PartId) -> [f64; 2] {
         self.raised[part]
+    }
+
+    /// Whether a part's solid is there twice, the other one mirrored in the plane of its node.
+    pub(super) fn is_on_both_sides(&self, part: PartId) -> bool {
+        self.both_sides[part]
     }
 
     /// Whether a part is lifted by others.

@@ -8,7 +8,7 @@ use typed_index_collections::TiSlice;
 use super::nodes::Nodes;
 use super::overlaps::{Overlap, Scratch};
 use super::shapes::Shape;
-use super::{Cover, Reason};
+use super::{Cover, Reason, vehicles};
 use crate::bind::{Part, PartId};
 
 /// The share of an overlap in front of which what is drawn later lies.
@@ -62,6 +62,7 @@ pub(super) fn backdrops(
             if shape.is_soft
                 && shape.is_main
                 && !shape.is_given
+                && shape.of_vehicle.is_none()
                 && node != later
                 && is_near
                 && overlap.area >= least * shape.area
@@ -130,8 +131,11 @@ impl Figure<'_> {
                 .unwrap_or(0.0);
             let base = base + nodes.shift[node];
             let cover = nodes.shape[node].map(|shape| &self.covers[shape]);
+            let shape = nodes.shape[node].map(|shape| &self.shapes[shape]);
             let (depth, reason) = if let Some(offset) = nodes.given[node] {
                 (base + offset, Reason::Given)
+            } else if let Some(reason) = shape.and_then(vehicles::reason) {
+                (base, reason)
             } else if cover.is_some_and(|cover| !cover.behind.is_empty()) {
                 let height = self.height(&units[node]);
                 let first = cover.and_then(|cover| cover.behind.first());
@@ -412,6 +416,7 @@ impl Figure<'_> {
         let node = self.nodes.of_shape[shape];
         self.covers[shape].behind.is_empty()
             && !self.shapes[shape].is_given
+            && self.shapes[shape].of_vehicle.is_none()
             && self.nodes.given[node].is_none()
     }
 

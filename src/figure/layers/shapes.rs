@@ -6,7 +6,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::super::FigureContext;
-use crate::bind::{PartId, PartKind};
+use crate::bind::{PartId, PartKind, Side, VehiclePart};
 use crate::geometry::{EdgeRanges, Outline, area};
 use crate::index::par_keys;
 use crate::solid::{Profile, Solid, SolidHeights};
@@ -41,6 +41,10 @@ pub(super) struct Shape {
     pub(super) is_soft: bool,
     /// Whether its depth is given by numbers.
     pub(super) is_given: bool,
+    /// What it is of a vehicle.
+    pub(super) of_vehicle: Option<VehiclePart>,
+    /// Whether `Side near` keeps it where it is drawn.
+    pub(super) is_near: bool,
     /// How far its plane lies in front of that of its node, drawing units.
     pub(super) offset: f64,
     /// How far a shape that is not soft reaches to the back and to the front of its plane, drawing units.
@@ -76,6 +80,11 @@ impl Shape {
             Some(natural) => self.flattened * natural.highest(),
             None => self.plate[0].midpoint(self.plate[1]).max(0.0),
         }
+    }
+
+    /// Whether it is a wheel that stands on both sides of a vehicle.
+    pub(super) fn is_wheel(&self) -> bool {
+        matches!(self.of_vehicle, Some(VehiclePart::Wheel { .. }))
     }
 
     /// Makes it no higher than this.
@@ -142,6 +151,8 @@ fn shape(context: &FigureContext<'_>, index: PartId) -> Option<Shape> {
         is_sheet: part.is_sheet(),
         is_soft,
         is_given: !is_ink && (has_depth || is_mirrored),
+        of_vehicle: context.of_vehicle[bindings.form(index)],
+        is_near: bindings.side(index) == Some(Side::Near),
         offset: context.stand(part.main, index).0,
         plate,
         faces,

@@ -64,6 +64,8 @@ pub(super) struct Balloon {
     pub(super) height: Option<f64>,
     /// What the height is at most where none is given, drawing units: that of cloth.
     pub(super) most: Option<f64>,
+    /// Whether it is as high as that wherever it is not narrower, with rounded edges.
+    pub(super) is_box: bool,
     /// For the stroke of a line its width, drawing units: it becomes a tube.
     pub(super) line: Option<f64>,
 }
@@ -95,7 +97,7 @@ impl Balloon {
     pub(super) fn heights(&self, mesh: &Mesh, half: DVec2, scale: f64) -> Vec<f64> {
         match self.line {
             Some(width) => tube::heights(mesh, width * scale, self.most(half) * scale),
-            None => balloon(mesh, self.height, self.most(half), scale),
+            None => balloon(mesh, self, self.most(half), scale),
         }
     }
 
@@ -110,8 +112,13 @@ impl Balloon {
     }
 }
 
+/// How sharp the edges of boxes are: how many times as steep as a balloon they begin, and the exponent of the power mean of that and
+/// of the box.
+const STEEP: f64 = 2.0;
+const EDGE: f64 = 4.0;
+
 /// The heights of a balloon over a mesh: at most `most`, or exactly that if the height is given.
-fn balloon(mesh: &Mesh, given: Option<f64>, most: f64, scale: f64) -> Vec<f64> {
+fn balloon(mesh: &Mesh, kind: &Balloon, most: f64, scale: f64) -> Vec<f64> {
     let Some(first) = mesh.points.first() else {
         return Vec::new();
     };
@@ -129,17 +136,36 @@ fn balloon(mesh: &Mesh, given: Option<f64>, most: f64, scale: f64) -> Vec<f64> {
     let highest = solution.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
 
     let own = 2.0 * highest.sqrt() * extent / scale;
-    let height = if given.is_none() { most.min(own) } else { most };
+    let height = if kind.height.is_none() {
+        most.min(own)
+    } else {
+        most
+    };
+    let is_box = kind.is_box && kind.height.is_none();
     let least = MIN_HEIGHT * height;
     let heights = solution.iter().zip(&mesh.on_border);
     let heights = heights.map(|(u, on_border)| {
         if *on_border {
             0.0
         } else {
-            scale * ((u / highest).max(0.0).sqrt() * height).max(least)
+            let share = (u / highest).max(0.0).sqrt();
+            let over = if is_box {
+                boxed(STEEP * share * own, height)
+            } else {
+                share * height
+            };
+            scale * over.max(least)
         }
     });
     heights.collect()
+}
+
+/// The height of a box with rounded edges where it would have another one as a balloon.
+fn boxed(height: f64, most: f64) -> f64 {
+    if height <= 0.0 || most <= 0.0 {
+        return 0.0;
+    }
+    most * (1.0 + (most / height).powf(EDGE)).powf(-1.0 / EDGE)
 }
 
 /// The largest height over an outline whose bounding box has these half extents, drawing units.

@@ -29,11 +29,21 @@ impl Inflate {
         })
     }
 
+    /// The same as a box with rounded edges that reaches as far at most where no height is given, drawing units.
+    pub(super) fn boxed(&self, reach: f64) -> Self {
+        Self(Balloon {
+            most: Some(reach),
+            is_box: true,
+            ..self.0
+        })
+    }
+
     /// A tube along the stroke of a line of this width, drawing units.
     pub(super) fn cord(width: f64) -> Self {
         Self(Balloon {
             height: None,
             most: None,
+            is_box: false,
             line: Some(width),
         })
     }
@@ -53,14 +63,20 @@ impl Kind for Inflate {
             height: numbers.first().copied(),
             line: None,
             most: None,
+            is_box: false,
         };
         (numbers.len() <= 1).then_some(Self(balloon))
     }
 
     fn numbers(&self) -> Vec<f64> {
-        let Balloon { height, most, line } = self.0;
+        let Balloon {
+            height,
+            most,
+            is_box,
+            line,
+        } = self.0;
         // Hashes tell one from the other.
-        [height, most, line]
+        [height, most, is_box.then_some(1.0), line]
             .map(|number| number.unwrap_or(f64::NAN))
             .to_vec()
     }

@@ -87,6 +87,16 @@ impl Profile {
         }
     }
 
+    /// The same as a box that reaches as far to both sides, drawing units, where no depth is given: a plate, or what is inflated as a
+    /// box with rounded edges, thinner where it is narrower.
+    pub fn boxed(self, reach: f64) -> Self {
+        match self {
+            Self::Inflate(inflate) => Self::Inflate(inflate.boxed(reach)),
+            Self::Default(_) => Self::Default(taper::Default::plate(reach)),
+            other => other,
+        }
+    }
+
     /// A tube along the stroke of a line of this width, drawing units.
     pub fn cord(width: f64) -> Self {
         Self::Inflate(inflate::Inflate::cord(width))

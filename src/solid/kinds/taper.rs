@@ -25,6 +25,16 @@ pub struct Taper<const ACROSS: bool, const ALONG: bool> {
     top: f64,
 }
 
+impl Default {
+    /// A plate that reaches as far to both sides, drawing units.
+    pub(super) fn plate(reach: f64) -> Self {
+        Self {
+            depths: [-reach, reach],
+            top: 1.0,
+        }
+    }
+}
+
 impl<const ACROSS: bool, const ALONG: bool> Kind for Taper<ACROSS, ALONG> {
     fn new(numbers: &[f64], plate: f64) -> Option<Self> {
         let (depths, top) = match (ACROSS || ALONG, numbers) {

@@ -286,11 +286,14 @@ impl<'a> Cover<'a> {
             }
         }
         let front = self.levels.iter().zip(&more);
-        let front = front.map(|(level, more)| level.front + more);
-        [
-            front.collect(),
-            self.levels.iter().map(|level| level.back).collect(),
-        ]
+        let front: Vec<f64> = front.map(|(level, more)| level.front + more).collect();
+        let back = self.levels.iter().zip(&front);
+        let back = back.map(|(level, front)| {
+            let mirrored = self.target.mirrored(*front);
+            mirrored.map_or(level.back, |mirrored| level.back.min(mirrored))
+        });
+        let back = back.collect();
+        [front, back]
     }
 
     /// The mesh.

@@ -338,6 +338,12 @@ impl Target<'_> {
             || points.iter().any(|point| self.lifts(*point))
     }
 
+    /// The back where the front is here, if the solid reaches as far to the back as to the front.
+    pub(super) fn mirrored(&self, front: f64) -> Option<f64> {
+        let is_symmetric = self.lay.is_symmetric && self.lay.form == LayForm::Volume;
+        is_symmetric.then_some(2.0 * self.depth - front)
+    }
+
     /// The target over a point where the solid by itself reaches this far to the front and to the back.
     pub(super) fn at(&self, point: DVec2, [reach, back]: [f64; 2]) -> Level {
         let Lay {
@@ -382,7 +388,9 @@ impl Target<'_> {
         let covered = behind(&self.ground.behind).map(|covered| covered - step);
         // A hoop is as deep behind the border that it is around as in front of it.
         let hoop = rim.is_finite().then(|| 2.0 * self.beside(point) - rim);
+        let other_side = self.mirrored(front);
         let lower = around.into_iter().chain(covered).chain(hoop);
+        let lower = lower.chain(other_side);
         let back = lower.fold(back, f64::min);
         Level {
             front,

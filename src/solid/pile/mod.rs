@@ -112,6 +112,8 @@ pub(crate) struct Lay {
     pub toes: Option<Toes>,
     /// Whether it is the stroke of a line.
     pub is_line: bool,
+    /// Whether a volume that is lifted reaches as far to the back as to the front.
+    pub is_symmetric: bool,
 }
 
 /// Toes: towards one end of it, a solid reaches out to one side by a multiple of its heights.
@@ -315,6 +317,7 @@ impl Pile {
                 form,
                 toes,
                 is_line,
+                is_symmetric,
             } = lay;
             hasher.write_u64(step.to_bits());
             hasher.write_u64(lay.tolerance().to_bits());
@@ -325,6 +328,7 @@ impl Pile {
             hasher.write_u8(*form as u8);
             hasher.write_u8((*clips).into());
             hasher.write_u8((*is_line).into());
+            hasher.write_u8((*is_symmetric).into());
             hasher.write_u8(toes.is_some().into());
             if let Some(Toes {
                 down,

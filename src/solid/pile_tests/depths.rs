@@ -238,6 +238,7 @@ proptest! {
                 form: LayForm::Skin,
                 toes: None,
                 is_line: false,
+                is_symmetric: false,
             }),
             ..body(solid(moved(outline(vec![ellipse(radii, turn)]), at), profile("inflate", &[])))
         });
