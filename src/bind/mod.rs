@@ -9,6 +9,7 @@ mod bindings;
 mod bodies;
 mod describe;
 mod discs;
+mod forms;
 mod hierarchy;
 mod matching;
 mod names;
@@ -26,6 +27,7 @@ pub(crate) use bindings::{
     Bindings, BoundBy, DrawingString, NamedBy, Part, Seen, StringHolder, StringId,
 };
 pub use bindings::{PartId, PartKind};
+pub(crate) use forms::FormByName;
 pub use matching::in_layers_of_pixels;
 pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
 pub(crate) use names::written_by_a_person;
