@@ -12,10 +12,10 @@ use typed_index_collections::{TiVec, ti_vec};
 use crate::billboard::{self, Character, RegionMaterials};
 use crate::bind::{Bindings, PartId};
 use crate::diagnostic::Diagnostic;
-use crate::figure::{Behind, FigureNodes, Figures, LinkedModels, NodeDepth};
+use crate::figure::{Behind, FigureNodes, Figures, FormInFigure, LinkedModels, NodeDepth};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
-use crate::rig::{self, FigureClip, RestNode};
+use crate::rig::{self, FigureClip, FigureFacing, RestNode};
 use crate::scene::{MaterialId, PartMaterial, Scene, WorldTransform};
 use crate::svg::Drawing;
 use crate::terrain::{self, LandscapeId, Layer};
@@ -38,6 +38,10 @@ pub(crate) struct Assembled {
     pub depths: TiVec<PartId, Option<NodeDepth>>,
     /// What parts show from behind beside their own backs.
     pub behind: Vec<(PartId, Behind)>,
+    /// What figures do to the forms of parts.
+    pub forms: Vec<(PartId, FormInFigure)>,
+    /// Where figures look.
+    pub facings: Vec<FigureFacing>,
 }
 
 /// What a surface of a scene is made from.
@@ -73,6 +77,7 @@ pub(crate) fn assemble(
         layers,
         world,
         figures,
+        facings,
         of_part,
         ..
     } = build(
@@ -118,6 +123,8 @@ pub(crate) fn assemble(
         clips,
         depths: figures.depths,
         behind: figures.behind,
+        forms: figures.forms,
+        facings,
     }
 }
 
@@ -175,6 +182,7 @@ struct Built {
     layers: TiVec<LandscapeId, Layer>,
     world: WorldTransform,
     figures: FigureNodes,
+    facings: Vec<FigureFacing>,
     /// Per part its material.
     of_part: TiVec<PartId, PartMaterial>,
     of_looks: LookMaterials,
@@ -194,10 +202,12 @@ fn build(
     let world = world::world_transform(bindings, &layers);
     let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
     let mut found = Vec::new();
-    let (figures, materials) = rayon::join(
+    let ((figures, facings), materials) = rayon::join(
         || {
-            let seen = rig::seen(drawing, bindings);
-            Figures::lay_out(drawing, bindings, seen, &world, memo, &mut found)
+            let facings = rig::facings(drawing, bindings);
+            let seen = rig::seen(bindings, &facings);
+            let figures = Figures::lay_out(drawing, bindings, seen, &world, memo, &mut found);
+            (figures, facings)
         },
         || {
             Materials::collect(
@@ -236,6 +246,7 @@ fn build(
         layers,
         world,
         figures,
+        facings,
         of_part,
         of_looks,
     }

@@ -10,6 +10,7 @@ mod bodies;
 mod describe;
 mod discs;
 mod extents;
+mod forms;
 mod hierarchy;
 mod matching;
 mod names;
@@ -29,6 +30,7 @@ pub(crate) use bindings::{
 };
 pub use bindings::{PartId, PartKind};
 pub(crate) use extents::FigureExtent;
+pub(crate) use forms::FormByName;
 pub use matching::in_layers_of_pixels;
 pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
 pub(crate) use names::written_by_a_person;

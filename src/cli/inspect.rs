@@ -2,9 +2,13 @@
 
 mod clips;
 mod matches;
+#[cfg(test)]
+mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+
+use rustc_hash::FxHashMap;
 
 use super::args::{Common, Inspect};
 use super::loading::{Loaded, load};
@@ -17,7 +21,7 @@ use crate::disk::is_standard_stream;
 use crate::export;
 use crate::ide::{Subject, Which};
 use crate::lang::keyword::Keyword;
-use crate::report::{depth_reason, describe_character, figures, inspection_json, node_back_reason};
+use crate::report::{Reasons, Undo, describe_character, figures, inspection_json};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
@@ -84,6 +88,7 @@ fn tree(loaded: &Loaded, numbers: Numbers) -> String {
         let parent = subject.parent().map(|parent| parent.which);
         children.entry(parent).or_default().push(subject);
     }
+    let mut nodes = Nodes::new(&loaded.compiled);
     let mut rows: Vec<[String; 2]> = vec![["Root".to_owned(), String::new()]];
     let mut stack: Vec<(Subject<'_>, String, bool)> = Vec::new();
     let push = |stack: &mut Vec<_>, parent, indent: &str| {
@@ -100,7 +105,7 @@ fn tree(loaded: &Loaded, numbers: Numbers) -> String {
             ("├─ ", "│  ")
         };
         let (what, listed) = match subject.which {
-            Which::Part(part) => (describe_part(loaded, subject, part), Vec::new()),
+            Which::Part(part) => (nodes.describe(subject, part), Vec::new()),
             Which::Landscape(layer) => {
                 let layer = &loaded.compiled.layers[layer];
                 (describe_layer(layer), contents(layer))
@@ -130,9 +135,32 @@ fn tree(loaded: &Loaded, numbers: Numbers) -> String {
         out.push_str("left out\n");
         out.push_str(&columns(&left_out));
     }
+    out.push_str(&undoing(&nodes.undo));
     out.push_str(&faced(&loaded.compiled));
     out.push_str(&clips::clips(&loaded.compiled));
     out
+}
+
+/// What undoes what was said of nodes, in the strings of their parts.
+fn undoing(all: &BTreeSet<Undo>) -> String {
+    let mut listed: Vec<(&str, Vec<&str>)> = Vec::new();
+    for undo in all {
+        match listed
+            .last_mut()
+            .filter(|(string, _)| *string == undo.string())
+        {
+            Some((_, of)) => of.push(undo.of()),
+            None => listed.push((undo.string(), vec![undo.of()])),
+        }
+    }
+    let listed = listed.into_iter();
+    let listed: Vec<String> = listed
+        .map(|(string, of)| format!("{string} ({})", of.join(", ")))
+        .collect();
+    match listed.as_slice() {
+        [] => String::new(),
+        _ => format!("to undo, in a part's string: {}\n", listed.join(", ")),
+    }
 }
 
 /// Where each figure looks, and why.
@@ -144,7 +172,7 @@ fn faced(compiled: &Compiled) -> String {
             "back" => "away from the viewer".to_owned(),
             side => format!("the drawing's {side}"),
         };
-        let against = match figure.doubts.as_slice() {
+        let against = match figure.doubts {
             [] => String::new(),
             doubts => format!("; against it: {}", doubts.join(", ")),
         };
@@ -235,40 +263,62 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
     listed
 }
 
-fn describe_part(loaded: &Loaded, subject: Subject<'_>, index: PartId) -> String {
-    let attributes = subject.attributes().into_iter();
-    let mut shape = attributes.filter(|attribute| attribute.keyword == Keyword::Shape);
-    let solid = shape
-        .next()
-        .map_or("default".to_owned(), |shape| match shape.from {
-            SetBy::Own | SetBy::Builtin => shape.value,
-            from => format!("{} ({})", shape.value, from.name()),
+/// The nodes of a drawing, and how many solids each has beside that of its main part.
+struct Nodes<'a> {
+    reasons: Reasons<'a>,
+    /// Per main part its sub-parts without ink, and its ink.
+    solids: FxHashMap<PartId, [usize; 2]>,
+    /// What undoes all that was said.
+    undo: BTreeSet<Undo>,
+}
+
+impl<'a> Nodes<'a> {
+    fn new(compiled: &'a Compiled) -> Self {
+        let mut solids: FxHashMap<PartId, [usize; 2]> = FxHashMap::default();
+        for sub in Subject::all(compiled).filter(|subject| subject.is_sub()) {
+            let main = sub.parent().map(|main| main.which);
+            if let Some(Which::Part(main)) = main {
+                solids.entry(main).or_default()[usize::from(sub.host().is_some())] += 1;
+            }
+        }
+        Self {
+            reasons: Reasons::new(compiled),
+            solids,
+            undo: BTreeSet::new(),
+        }
+    }
+
+    fn describe(&mut self, subject: Subject<'_>, index: PartId) -> String {
+        let attributes = subject.attributes().into_iter();
+        let mut shape = attributes.filter(|attribute| attribute.keyword == Keyword::Shape);
+        let solid = shape
+            .next()
+            .map_or("default".to_owned(), |shape| match shape.from {
+                SetBy::Own | SetBy::Builtin => shape.value,
+                from => format!("{} ({})", shape.value, from.name()),
+            });
+        let [subs, ink] = self.solids.get(&index).copied().unwrap_or_default();
+        let listed = |count: usize, word: &str| match count {
+            0 => String::new(),
+            count => format!(", {}", counted(count, word)),
+        };
+        let (subs, ink) = (listed(subs, "sub-part"), listed(ink, "stroke"));
+        let element = subject
+            .element()
+            .map_or(String::new(), |element| element.describe());
+        let depth = self.reasons.depth(index);
+        let said = depth.into_iter().chain(self.reasons.node_back(index));
+        let said = said.chain(self.reasons.node_forms(index));
+        let reasons = said.map(|said| {
+            self.undo.extend(said.undo);
+            format!("; {}", said.text)
         });
-    let is_within = |other: &Subject<'_>| {
-        other.is_sub()
-            && other
-                .parent()
-                .is_some_and(|main| main.which == subject.which)
-    };
-    let others = Subject::all(&loaded.compiled).filter(is_within);
-    let (ink, subs): (Vec<_>, Vec<_>) = others.partition(|other| other.host().is_some());
-    let listed = |count: usize, word: &str| match count {
-        0 => String::new(),
-        count => format!(", {}", counted(count, word)),
-    };
-    let subs = listed(subs.len(), "sub-part");
-    let ink = listed(ink.len(), "stroke");
-    let element = subject
-        .element()
-        .map_or(String::new(), |element| element.describe());
-    let depth = depth_reason(&loaded.compiled, index);
-    let back = node_back_reason(&loaded.compiled, index);
-    let reasons = depth.into_iter().chain(back);
-    let reasons: String = reasons.map(|reason| format!("; {reason}")).collect();
-    format!(
-        "{solid}{subs}{ink}; {element}, {}{reasons}",
-        string(subject)
-    )
+        let reasons: String = reasons.collect();
+        format!(
+            "{solid}{subs}{ink}; {element}, {}{reasons}",
+            string(subject)
+        )
+    }
 }
 
 /// By what rule a part has its string.

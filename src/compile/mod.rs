@@ -12,7 +12,7 @@ use crate::billboard::Character;
 use crate::bind::{self, Bindings, PartId};
 use crate::crash::{self, Crash};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
-use crate::figure::{Behind, NodeDepth};
+use crate::figure::{Behind, FormInFigure, NodeDepth};
 use crate::memo::Memo;
 use crate::resolver::{Dependency, Recorder, Resolver};
 use crate::rig;
@@ -75,6 +75,10 @@ pub struct Compiled {
     /// What parts show from behind beside their own backs.
     #[doc(hidden)]
     pub behind: Vec<(PartId, Behind)>,
+    /// What figures do to the forms of parts.
+    pub(crate) forms: Vec<(PartId, FormInFigure)>,
+    /// Where figures look.
+    pub(crate) facings: Vec<rig::FigureFacing>,
     /// The drawing. Its outlines and texts are shared with the bindings.
     #[doc(hidden)]
     pub drawing: Arc<Drawing>,
@@ -190,6 +194,8 @@ impl Reading {
             clips,
             depths,
             behind,
+            forms,
+            facings,
         } = assemble::assemble(&drawing, &bindings, &recorder, memo, &mut diagnostics);
         bind::locate(&drawing, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
@@ -205,6 +211,8 @@ impl Reading {
             clips,
             depths,
             behind,
+            forms,
+            facings,
             drawing,
             diagnostics,
             dependencies,

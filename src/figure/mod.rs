@@ -36,7 +36,7 @@ use layers::Layers;
 use models::Models;
 use tree::FigureNode;
 
-pub(crate) use layers::{Behind, NodeDepth, Reason};
+pub(crate) use layers::{Behind, FormInFigure, NodeDepth, Reason};
 pub(crate) use nodes::PartNode;
 
 /// The linked models of a drawing's figures, read before anything else: parts that are models need no material.
@@ -77,6 +77,7 @@ struct PartFrames {
 pub(crate) struct Figures<'a> {
     context: FigureContext<'a>,
     layers: Layers,
+    forms: Vec<(PartId, FormInFigure)>,
     frames: TiVec<PartId, PartFrames>,
     parts_of_node: TiVec<PartId, Vec<PartId>>,
     tree: TiVec<NodeId, FigureNode>,
@@ -102,6 +103,8 @@ pub(crate) struct FigureNodes {
     pub depths: TiVec<PartId, Option<NodeDepth>>,
     /// What parts show from behind beside their own backs.
     pub behind: Vec<(PartId, Behind)>,
+    /// What figures do to the forms of parts.
+    pub forms: Vec<(PartId, FormInFigure)>,
     /// Per part the thickness of its solid, `None` without one; empty if the drawing has no motion.
     pub thicknesses: TiVec<PartId, Option<Thickness>>,
 }
@@ -127,7 +130,7 @@ impl<'a> Figures<'a> {
             }
         });
         let frames: TiVec<PartId, PartFrames> = frames.collect::<Vec<_>>().into();
-        let (layers, buried) = Layers::arrange(&context, &frames, world, memo);
+        let (layers, forms, buried) = Layers::arrange(&context, &frames, world, memo);
         let tree = tree::nodes(&context, &frames, &layers, diagnostics);
         copies::check(&context, diagnostics);
         layers::report(&context, buried, diagnostics);
@@ -135,6 +138,7 @@ impl<'a> Figures<'a> {
             parts_of_node: bindings.parts_of_nodes(),
             context,
             layers,
+            forms,
             frames,
             tree,
         }
@@ -180,6 +184,7 @@ impl<'a> Figures<'a> {
             nodes,
             node_of_part,
             behind: self.layers.behind().collect(),
+            forms: self.forms,
             depths: self.layers.into_nodes(),
         }
     }

@@ -41,12 +41,14 @@ pub(crate) use inlay::Inlay;
 pub(crate) use letters::has_letters;
 pub(crate) use rename::RenameError;
 pub(crate) use signature::{SignatureHelp, signature};
+#[cfg(test)]
+pub(crate) use subject::VISITED;
 pub(crate) use subject::{Subject, Which};
 pub(crate) use symbols::Outline;
 pub(crate) use tokens::{SemanticToken, TokenClass};
 pub(crate) use uses::{Symbol, Use};
 
-pub(crate) use crate::bind::PartId;
+pub(crate) use crate::bind::{FormByName, PartId};
 
 use std::sync::Arc;
 

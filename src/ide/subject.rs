@@ -13,6 +13,12 @@ use crate::source::Span;
 use crate::svg::{Element, GroupId, ShapeId};
 use crate::terrain::{LandscapeId, Layer};
 
+#[cfg(test)]
+thread_local! {
+    /// How many subjects [`Subject::all`] has gone through in this thread.
+    pub(crate) static VISITED: std::cell::Cell<usize> = const { std::cell::Cell::new(0) };
+}
+
 /// Something that a drawing consists of.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
@@ -49,6 +55,8 @@ impl<'a> Subject<'a> {
             std::iter::once(Which::Character(index)).chain(regions)
         });
         let all = parts.chain(landscapes).chain(characters);
+        #[cfg(test)]
+        let all = all.inspect(|_| VISITED.set(VISITED.get() + 1));
         all.map(move |which| Self { compiled, which })
     }
 

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::compile::Compiled;
-use crate::rig;
+use crate::rig::FigureFacing;
 
 /// A figure with limbs.
 #[derive(Debug, Clone, Serialize)]
@@ -15,28 +15,27 @@ pub(crate) struct Figure<'a> {
     /// Whether a string says so.
     pub by_string: bool,
     /// What speaks for it.
-    pub reasons: Vec<String>,
+    pub reasons: &'a [String],
     /// What speaks against it.
-    pub doubts: Vec<String>,
+    pub doubts: &'a [String],
     /// The names of its parts.
     pub parts: Vec<&'a str>,
 }
 
 /// The figures of a drawing that have limbs, in drawing order.
-pub(crate) fn figures(compiled: &Compiled) -> Vec<Figure<'_>> {
+pub(crate) fn figures<'a>(compiled: &'a Compiled) -> Vec<Figure<'a>> {
     let parts = &compiled.bindings.parts;
-    let figures = rig::facings(&compiled.drawing, &compiled.bindings);
-    let figure = |figure: rig::FigureFacing| Figure {
+    let figure = |figure: &'a FigureFacing| Figure {
         figure: &parts[figure.root].name,
         facing: figure.found.facing.word(),
         by_string: figure.found.by_string,
-        reasons: figure.found.reasons,
-        doubts: figure.found.doubts,
+        reasons: &figure.found.reasons,
+        doubts: &figure.found.doubts,
         parts: figure
             .parts
             .iter()
             .map(|part| parts[*part].name.as_str())
             .collect(),
     };
-    figures.into_iter().map(figure).collect()
+    compiled.facings.iter().map(figure).collect()
 }

@@ -3,26 +3,26 @@
 
 mod billboards;
 mod clips;
-mod depths;
 mod figures;
 mod findings;
 mod inspection;
 mod joints;
 mod matches;
 mod parts;
+mod reasons;
 #[cfg(test)]
 pub(crate) mod samples;
 mod terrain;
 
 pub(crate) use billboards::{Billboard, billboards, describe_character};
 pub(crate) use clips::{Clip, clips};
-pub(crate) use depths::{depth_reason, node_back_reason};
 pub(crate) use figures::{Figure, figures};
 pub use findings::Findings;
 pub(crate) use findings::{Likeness, findings_json};
 pub(crate) use inspection::inspection_json;
 pub use matches::picture_of_matches;
 pub(crate) use parts::{Part, everything, part_count, parts};
+pub(crate) use reasons::{Reasons, Undo};
 pub(crate) use terrain::{Terrain, terrain};
 
 /// Indented JSON. Reports hold only text and numbers, so this cannot fail.

@@ -6,8 +6,8 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::billboards::middle;
-use super::depths::{back_reason, depth_reason};
 use super::joints::{Driver, drivers};
+use super::reasons::Reasons;
 use crate::billboard::ViewId;
 use crate::compile::Compiled;
 use crate::ide::{Subject, Which};
@@ -50,6 +50,12 @@ pub(crate) struct Part<'a> {
     /// What it shows from behind beside its own back; `None` for nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub back: Option<String>,
+    /// What is done to its form without a string that says so; `None` for nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub form: Option<String>,
+    /// What undoes `depth_why`, `back` and `form` in a string, by these names.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub undo: BTreeMap<&'static str, &'static str>,
     /// All attributes that are set, and those that every solid has.
     pub attributes: BTreeMap<&'static str, AttributeReport>,
     /// The joint that drives it in the first clip that does.
@@ -101,18 +107,20 @@ fn reports<'a>(
     subjects: impl Iterator<Item = Subject<'a>>,
 ) -> Vec<Part<'a>> {
     let (lines, drivers) = (LineIndex::new(text), drivers(compiled));
+    let reasons = Reasons::new(compiled);
     let report = |subject: Subject<'a>| {
         let driver = match subject.which {
             Which::Part(part) => drivers[part],
             _ => None,
         };
         let string = string_report(compiled, subject, &lines);
-        report(compiled, subject, string, driver)
+        report(&reasons, compiled, subject, string, driver)
     };
     subjects.map(report).collect()
 }
 
 fn report<'a>(
+    reasons: &Reasons<'a>,
     compiled: &'a Compiled,
     subject: Subject<'a>,
     string: Option<StringReport<'a>>,
@@ -139,14 +147,17 @@ fn report<'a>(
             at(middle(character, &character.regions[region]))
         }
     };
-    let (depth, depth_why, back) = match subject.which {
-        Which::Part(part) => {
-            let depth = compiled.depths[part].map(|node| node.depth);
-            let reason = depth_reason(compiled, part);
-            (depth, reason, back_reason(compiled, part))
-        }
-        _ => (None, None, None),
+    let (depth, said) = match subject.which {
+        Which::Part(part) => (
+            compiled.depths[part].map(|node| node.depth),
+            [reasons.depth(part), reasons.back(part), reasons.form(part)],
+        ),
+        _ => (None, [None, None, None]),
     };
+    let undo = ["depth_why", "back", "form"].into_iter().zip(&said);
+    let undo = undo.filter_map(|(name, said)| Some((name, said.as_ref()?.undo?.string())));
+    let undo = undo.collect();
+    let [depth_why, back, form] = said.map(|said| said.map(|said| said.text));
     let attributes = subject.attributes().into_iter().map(|attribute| {
         let report = AttributeReport {
             value: attribute.value,
@@ -169,6 +180,8 @@ fn report<'a>(
         depth,
         depth_why,
         back,
+        form,
+        undo,
         attributes: attributes.collect(),
         joint: driver.and_then(|driver| driver.joint),
         joint_why: driver.map(|driver| driver.why),

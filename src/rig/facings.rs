@@ -30,10 +30,9 @@ pub(crate) struct FigureFacing {
     pub found: FoundFacing,
 }
 
-/// Per main part from where it is drawn.
-pub(crate) fn seen(drawing: &Drawing, bindings: &Bindings) -> TiVec<PartId, Seen> {
+/// Per main part from where it is drawn, given where the figures of its drawing look.
+pub(crate) fn seen(bindings: &Bindings, figures: &[FigureFacing]) -> TiVec<PartId, Seen> {
     let mut seen = ti_vec![Seen::Anyhow; bindings.parts.len()];
-    let figures = facings(drawing, bindings);
     let known = figures
         .iter()
         .filter(|figure| figure.has_names || figure.found.by_string);

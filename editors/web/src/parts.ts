@@ -91,5 +91,8 @@ export function depthReasonOf(part: Part): string {
   return part.depthWhy ?? (part.parent === null ? "nothing moves it" : `in the plane of ${part.parent}`);
 }
 
+/** What is said of a part, and what undoes it in a string, if anything does. */
+export const withUndo = (said: string, undo: string | null): string => (undo === null ? said : `${said} (\`${undo}\` undoes that)`);
+
 /** Whether okoshi generated the part's name, because no string gives one. */
 export const isAutomatic = (part: Part): boolean => part.namedBy === "automatic";

@@ -52,6 +52,12 @@ export interface Part {
   readonly depth: number | null;
   /** Why, in words; null for a part in the plane of its parent. */
   readonly depthWhy: string | null;
+  /** What it shows from behind beside its own back; null for nothing. */
+  readonly back: string | null;
+  /** What is done to its form without a string that says so; null for nothing. */
+  readonly form: string | null;
+  /** What undoes the depth, the back and the form in a string; null for what is not automatic. */
+  readonly undo: { readonly depth: string | null; readonly back: string | null; readonly form: string | null };
 }
 
 /** Facts about a figure's clip that are not in the model's animation of the same name. Frames count from 0. */
@@ -316,6 +322,7 @@ function readFinding(value: unknown): Finding {
 function readPart(value: unknown): Part {
   const raw = object(value);
   const string = raw["string"] === undefined || raw["string"] === null ? null : object(raw["string"]);
+  const undo = object(raw["undo"]);
   return {
     name: text(raw["name"]),
     parent: textOrNull(raw["parent"]),
@@ -336,5 +343,8 @@ function readPart(value: unknown): Part {
     joint: textOrNull(raw["joint"]),
     depth: typeof raw["depth"] === "number" ? number(raw["depth"]) : null,
     depthWhy: textOrNull(raw["depth_why"]),
+    back: textOrNull(raw["back"]),
+    form: textOrNull(raw["form"]),
+    undo: { depth: textOrNull(undo["depth_why"]), back: textOrNull(undo["back"]), form: textOrNull(undo["form"]) },
   };
 }

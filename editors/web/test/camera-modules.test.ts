@@ -85,7 +85,7 @@ test("trails have gaps where the mark is lost", () => {
 });
 
 test("the drawing's marks are offered, and the strings for the track told", () => {
-  const part = (name: string, value: string) => ({ name, parent: null, kind: "main" as const, element: "", namedBy: null, string: null, attributes: [{ name: "Mark", value, from: "own" as const }], joint: null, depth: null, depthWhy: null });
+  const part = (name: string, value: string) => ({ name, parent: null, kind: "main" as const, element: "", namedBy: null, string: null, attributes: [{ name: "Mark", value, from: "own" as const }], joint: null, depth: null, depthWhy: null, back: null, form: null, undo: { depth: null, back: null, form: null } });
   assert.deepEqual(markNames(new Parts([part("a", "red"), part("b", "#102030"), part("c", "red"), part("d", "blue")])), ["red", "blue"]);
   const said = strings("hands.json", [{ name: "red", color: "#d01020" }, { name: "left-hand", color: "#1020d0" }], (name) => name === "red");
   assert.deepEqual(said, { perform: 'Perform "hands.json"', marks: ["Mark red", "Mark #1020d0"] });

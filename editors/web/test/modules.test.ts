@@ -27,12 +27,12 @@ test("unknown messages are dropped, and missing fields become empty", () => {
   assert.deepEqual(build.build.findings, []);
   assert.equal(build.build.size, null);
   assert.deepEqual(build.build.parts, [
-    { name: "Arm", parent: null, kind: "main", element: "", namedBy: null, string: null, attributes: [{ name: "Shape", value: "round", from: "own" }], joint: null, depth: null, depthWhy: null },
+    { name: "Arm", parent: null, kind: "main", element: "", namedBy: null, string: null, attributes: [{ name: "Shape", value: "round", from: "own" }], joint: null, depth: null, depthWhy: null, back: null, form: null, undo: { depth: null, back: null, form: null } },
   ]);
   assert.deepEqual(read({ type: "light", drawing: "a" }), { type: "light", drawing: "a", part: null });
 });
 
-const part = (name: string, parent: string | null, kind: Part["kind"] = "main"): Part => ({ name, parent, kind, element: `e-${name}`, namedBy: null, string: null, attributes: [], joint: null, depth: null, depthWhy: null });
+const part = (name: string, parent: string | null, kind: Part["kind"] = "main"): Part => ({ name, parent, kind, element: `e-${name}`, namedBy: null, string: null, attributes: [], joint: null, depth: null, depthWhy: null, back: null, form: null, undo: { depth: null, back: null, form: null } });
 
 test("a build may refer to parts of the build before, and to no other", () => {
   const messages = new Messages();

@@ -78,7 +78,7 @@ pub(in crate::bind) struct Matched {
 }
 
 /// The share of its border that is drawn as curves, from which on a shape is inflated in a drawing that never says `Shape`.
-const ROUNDED: f64 = 0.5;
+pub(super) const ROUNDED: f64 = 0.5;
 
 /// Reads the strings of a drawing, finds its parts, and binds each string to the part that it means.
 pub(in crate::bind) fn find(

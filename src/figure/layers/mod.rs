@@ -141,6 +141,21 @@ pub enum Behind {
     Mirrored,
 }
 
+/// What the figure that a part belongs to does to its form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FormInFigure {
+    /// It is a foot whose toes come out of it.
+    Toes {
+        /// Whether they point away from the viewer.
+        away: bool,
+    },
+    /// It is the outline of a soft volume: a cord around it.
+    Cord {
+        /// The volume.
+        around: PartId,
+    },
+}
+
 /// What a part has on the back of a volume.
 #[derive(Debug, Clone, Copy)]
 struct BackSkin {
@@ -170,13 +185,13 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    /// How the parts lie, and which of them given depths hide or let float.
+    /// How the parts lie, what figures do to their forms, and which of them given depths hide or let float.
     pub(super) fn arrange(
         context: &FigureContext<'_>,
         frames: &TiSlice<PartId, PartFrames>,
         world: &WorldTransform,
         memo: &Memo,
-    ) -> (Self, Vec<Buried>) {
+    ) -> (Self, Vec<(PartId, FormInFigure)>, Vec<Buried>) {
         let recent = memo.get((), |_: &()| Arc::new(RecentHeights::default()));
         let mut shapes = shapes(context);
         let mut nodes = Nodes::new(context, &shapes);
@@ -266,7 +281,24 @@ impl Layers {
             layers: &layers,
         }
         .find();
-        (layers, buried)
+        let forms = layers.forms(context, &shapes);
+        (layers, forms, buried)
+    }
+
+    /// What figures do to the forms of these shapes.
+    fn forms(&self, context: &FigureContext<'_>, shapes: &[Shape]) -> Vec<(PartId, FormInFigure)> {
+        let form = |shape: &Shape| {
+            if shape.is_cord {
+                let around = context.bindings.parts[shape.part].host?;
+                return Some(FormInFigure::Cord { around });
+            }
+            let lay = self.pile.bodies[self.places[shape.part]?].lay.as_ref()?;
+            let away = lay.toes.as_ref()?.away;
+            Some(FormInFigure::Toes { away })
+        };
+        let forms = shapes.iter();
+        let forms = forms.filter_map(|shape| Some((shape.part, form(shape)?)));
+        forms.collect()
     }
 
     /// Per part that has a node, its depth.

@@ -3,7 +3,7 @@
 import { Eye, EyeOff, Focus, ScanEye } from "lucide";
 import type { Commands } from "../commands";
 import { button, count, fill, h, icon, inCode } from "../dom";
-import { depthOf, depthReasonOf, isAside } from "../parts";
+import { depthOf, depthReasonOf, isAside, withUndo } from "../parts";
 import type { ClipFacts, Part, Source } from "../protocol";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
@@ -121,7 +121,9 @@ export class Inspector {
     if (driven) rows.push(["Driven by", driven]);
     else if (part.joint !== null) rows.push(["Joint", part.joint]);
     const depth = depthOf(part);
-    if (depth !== null) rows.push(["Depth", `${depth} — ${depthReasonOf(part)}`]);
+    if (depth !== null) rows.push(["Depth", withUndo(`${depth} — ${depthReasonOf(part)}`, part.undo.depth)]);
+    if (part.form !== null) rows.push(["Form", withUndo(part.form, part.undo.form)]);
+    if (part.back !== null) rows.push(["From behind", withUndo(part.back, part.undo.back)]);
     rows.push(["Element", `#${part.element}`]);
     return h("dl", { class: "facts" }, ...rows.flatMap(([term, value]) => [h("dt", {}, term), h("dd", {}, ...(typeof value === "string" ? inCode(value) : [value]))]));
   }
