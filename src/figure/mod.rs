@@ -321,19 +321,41 @@ impl<'a> FigureContext<'a> {
         if let Some(of_vehicle) = self.of_vehicle[form] {
             return Some(of_vehicle.profile(profile));
         }
-        let reach = self.reaches[form].filter(|_| !self.bindings.is_shape_set(form));
-        Some(match reach {
+        Some(match self.reach(part) {
             Some(reach) => profile.at_most(reach),
             None => profile,
         })
     }
 
+    /// How far a part reaches to either side of its plane at most, drawing units; `None` if nothing but its form says so.
+    fn reach(&self, part: PartId) -> Option<f64> {
+        let form = self.bindings.form(part);
+        let is_free = self.of_vehicle[form].is_none() && !self.bindings.is_shape_set(form);
+        self.reaches[form].filter(|_| is_free)
+    }
+
+    /// Whether a part would be deeper if its figure were larger.
+    fn is_flattened(&self, part: PartId) -> bool {
+        let depths = || {
+            let profile = self.bindings.profile(self.drawing, part)?;
+            let is_inflated = matches!(profile, Profile::Inflate(_));
+            let depths = profile.depths(self.half(part), &self.options(part, &profile));
+            depths.filter(|_| is_inflated)
+        };
+        let reach = self.reach(part);
+        reach.is_some_and(|reach| depths().is_some_and(|[_, front]| front > reach))
+    }
+
+    /// The half extents of a part's outline across its axis and along it, drawing units.
+    fn half(&self, part: PartId) -> DVec2 {
+        let measure = &self.bindings.parts[part].measure;
+        DVec2::new(measure.half_across, measure.half_along)
+    }
+
     /// The thickness of a part's solid that is moved by an offset; `None` without one.
     fn thickness(&self, part: PartId, offset: f64) -> Option<Thickness> {
         let profile = self.profile(part)?;
-        let measure = &self.bindings.parts[part].measure;
-        let half = DVec2::new(measure.half_across, measure.half_along);
-        let depths = profile.depths(half, &self.options(part, &profile))?;
+        let depths = profile.depths(self.half(part), &self.options(part, &profile))?;
         Some(Thickness {
             depths: depths.map(|depth| depth + offset),
             is_soft: profile.is_soft(),
@@ -342,8 +364,7 @@ impl<'a> FigureContext<'a> {
 
     fn options(&self, part: PartId, profile: &Profile) -> solid::Options {
         let attributes = self.bindings.attributes(self.bindings.form(part));
-        let measure = &self.bindings.parts[part].measure;
-        let half = DVec2::new(measure.half_across, measure.half_along);
+        let half = self.half(part);
         let crease = attributes.crease();
         let segments = attributes.segments();
         solid::Options {

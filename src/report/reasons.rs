@@ -28,6 +28,7 @@ pub(crate) enum Undo {
     Toes,
     Thin,
     Disc,
+    Flattened,
     Rounded,
 }
 
@@ -37,7 +38,7 @@ impl Undo {
         match self {
             Self::Depth | Self::Cord => "Offset 0",
             Self::Back => "Side near",
-            Self::Toes | Self::Thin | Self::Disc => "Shape inflate",
+            Self::Toes | Self::Thin | Self::Disc | Self::Flattened => "Shape inflate",
             Self::Rounded => "Shape default",
         }
     }
@@ -51,6 +52,7 @@ impl Undo {
             Self::Toes => "foot",
             Self::Thin => "cloth",
             Self::Disc => "wheel",
+            Self::Flattened => "flattened",
             Self::Rounded => "body",
         }
     }
@@ -206,6 +208,9 @@ impl<'a> Reasons<'a> {
         let (text, undo) = match form {
             FormInFigure::Toes { away: false } => ("points forward: a foot".to_owned(), Undo::Toes),
             FormInFigure::Toes { away: true } => ("points away: a foot".to_owned(), Undo::Toes),
+            FormInFigure::Flattened => {
+                ("flattened: deep for its figure".to_owned(), Undo::Flattened)
+            }
             FormInFigure::Cord { around } if around == main => {
                 ("outline is a cord".to_owned(), Undo::Cord)
             }

@@ -87,6 +87,7 @@ fn what_is_automatic_is_said_and_undone_by_the_string_that_it_names() {
         Undo::Toes,
         Undo::Thin,
         Undo::Disc,
+        Undo::Flattened,
     ];
     for kind in expected {
         assert!(kinds.contains(&kind), "{kind:?}: {all:?}");

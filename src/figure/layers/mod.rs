@@ -154,6 +154,8 @@ pub(crate) enum FormInFigure {
         /// The volume.
         around: PartId,
     },
+    /// It is no deeper than its figure may be.
+    Flattened,
 }
 
 /// What a part has on the back of a volume.
@@ -292,9 +294,14 @@ impl Layers {
                 let around = context.bindings.parts[shape.part].host?;
                 return Some(FormInFigure::Cord { around });
             }
-            let lay = self.pile.bodies[self.places[shape.part]?].lay.as_ref()?;
-            let away = lay.toes.as_ref()?.away;
-            Some(FormInFigure::Toes { away })
+            let body = self.places[shape.part].map(|place| &self.pile.bodies[place]);
+            let lay = body.and_then(|body| body.lay.as_ref());
+            match lay.and_then(|lay| lay.toes.as_ref()) {
+                Some(toes) => Some(FormInFigure::Toes { away: toes.away }),
+                None => context
+                    .is_flattened(shape.part)
+                    .then_some(FormInFigure::Flattened),
+            }
         };
         let forms = shapes.iter();
         let forms = forms.filter_map(|shape| Some((shape.part, form(shape)?)));
