@@ -1,7 +1,9 @@
 //! Parts of vehicles that are drawn from the side: bodies that are as deep as a toy's, and wheels on both sides.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::bindings::{Bindings, PartId, PartKind, Seen};
@@ -74,7 +76,7 @@ impl Bindings {
             return found;
         }
         let extents = self.extents_of_figures();
-        let mut members: FxHashMap<PartId, Vec<PartId>> = FxHashMap::default();
+        let mut members: BTreeMap<PartId, Vec<PartId>> = BTreeMap::new();
         for (index, part) in self.parts.iter_enumerated() {
             let is_solid = matches!(part.kind, PartKind::Main | PartKind::Sub);
             if is_solid && seen[part.main] == Seen::VehicleInProfile {
