@@ -11,7 +11,7 @@ mod vocabulary;
 pub(crate) use clothes::dress;
 pub(crate) use role::{Role, sides};
 pub(crate) use things::{
-    Thing, end_of_vehicle, is_disc, is_light, is_sheet, says_far_or_near, thing,
+    Garment, Thing, end_of_vehicle, garment, is_disc, is_light, is_sheet, says_far_or_near, thing,
 };
 pub(crate) use vocabulary::{Term, terms};
 

@@ -1,5 +1,6 @@
 //! Parts of bodies by their names: they are rounded even where they are drawn with straight lines.
 
+use super::bindings::PartId;
 use super::hierarchy::Tree;
 use super::matching::Matched;
 use crate::anatomy::{self, Role, Term};
@@ -19,9 +20,15 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
         let is_main = tree.nodes.main[index] == index;
         part.is_balloon = part.is_balloon
             || is_main
-                && drawing.shapes[part.shape].curved >= CURVED
-                && is_of_body(&tree.names[index].name);
+                && (is_worn(tree, index)
+                    || drawing.shapes[part.shape].curved >= CURVED
+                        && is_of_body(&tree.names[index].name));
     }
+}
+
+/// Whether a part is a garment that is round about what it hangs on, however straight its border is: a crown, a skirt.
+fn is_worn(tree: &Tree, part: PartId) -> bool {
+    tree.parents[part].is_some() && anatomy::garment(&tree.names[part].name).is_some()
 }
 
 /// Whether a name is that of a part of a body, or of clothes.

@@ -18,6 +18,7 @@ mod sheets;
 mod tests;
 mod words;
 
+pub(crate) use crate::anatomy::Garment;
 pub(crate) use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
     MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, Side, SignedAxis,
@@ -81,6 +82,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
     }
     Bindings {
         annotated: matched.annotated,
+        is_first_look: matched.is_first_look,
         strings: matched.strings,
         parts,
         defaults: matched.defaults,

@@ -4,6 +4,8 @@
 //! +Z towards the viewer; turning the node turns the limb about its joint.
 
 mod copies;
+#[cfg(test)]
+mod depth_tests;
 mod layers;
 mod models;
 mod nodes;

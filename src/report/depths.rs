@@ -51,7 +51,7 @@ pub(crate) fn node_back_reason(compiled: &Compiled, main: PartId) -> Option<Stri
     back(compiled, |of, why| {
         let is_apart = match why {
             Behind::Closes { on } => main_of(on) != main,
-            Behind::Mirrored => of == main,
+            Behind::Mirrored | Behind::Round => of == main,
         };
         main_of(of) == main && is_apart
     })
@@ -60,7 +60,7 @@ pub(crate) fn node_back_reason(compiled: &Compiled, main: PartId) -> Option<Stri
 fn back(compiled: &Compiled, is_meant: impl Fn(PartId, Behind) -> bool) -> Option<String> {
     let parts = &compiled.bindings.parts;
     let mut on: Vec<&str> = Vec::new();
-    let mut is_mirrored = false;
+    let (mut is_mirrored, mut is_round) = (false, false);
     for (_, why) in compiled
         .behind
         .iter()
@@ -68,6 +68,7 @@ fn back(compiled: &Compiled, is_meant: impl Fn(PartId, Behind) -> bool) -> Optio
     {
         match why {
             Behind::Mirrored => is_mirrored = true,
+            Behind::Round => is_round = true,
             Behind::Closes { on: other } => {
                 let other = &parts[*other];
                 let name = Some(other.name.as_str()).filter(|name| !name.is_empty());
@@ -80,7 +81,9 @@ fn back(compiled: &Compiled, is_meant: impl Fn(PartId, Behind) -> bool) -> Optio
     }
     let closes = (!on.is_empty()).then(|| format!("closes behind {}", on.join(", ")));
     let mirrored = is_mirrored.then(|| "on the back as well".to_owned());
-    let reasons: Vec<String> = closes.into_iter().chain(mirrored).collect();
+    let round = is_round.then(|| "round about what wears it".to_owned());
+    let reasons = closes.into_iter().chain(mirrored).chain(round);
+    let reasons: Vec<String> = reasons.collect();
     (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 

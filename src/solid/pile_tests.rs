@@ -42,6 +42,8 @@ fn ink(outline: Outline, below: Vec<Solid>, step: f64) -> LaidSolid {
             segments: None,
             form: LayForm::Ink,
             toes: None,
+            girth: None,
+            root: None,
             is_line: true,
         },
     )
@@ -230,6 +232,8 @@ fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body>> {
             segments: None,
             form,
             toes: None,
+            girth: None,
+            root: None,
             is_line: form == LayForm::Ink,
         });
         bodies.push(Body {
@@ -290,6 +294,8 @@ fn high_piles_grow_linearly() {
                     segments: None,
                     form: LayForm::Skin,
                     toes: None,
+                    girth: None,
+                    root: None,
                     is_line: false,
                 }),
                 is_detail: index > 0,
@@ -398,6 +404,8 @@ fn skin_of(
         segments: Some(8),
         form: LayForm::BackSkin,
         toes: None,
+        girth: None,
+        root: None,
         is_line: false,
     };
     let skin = Body {
@@ -693,6 +701,8 @@ proptest! {
                 segments: None,
                 form: LayForm::Skin,
                 toes: None,
+                girth: None,
+                root: None,
                 is_line: false,
             }),
             ..body(solid(moved(outline(vec![ellipse(radii, turn)]), at), profile("inflate", &[])))

@@ -24,10 +24,12 @@ use field::Field;
 use ground::{BodyInFrame, Ground, Own, Target};
 use rim::Rim;
 
+pub(crate) use girth::{Girth, Section};
 pub(crate) use recent::{RecentHeights, SolidHeights};
 
 mod cover;
 mod field;
+mod girth;
 mod ground;
 mod recent;
 mod rim;
@@ -105,6 +107,10 @@ pub(crate) struct Lay {
     pub form: LayForm,
     /// Where it reaches out more than its heights say.
     pub toes: Option<Toes>,
+    /// How it is round about what wears it, and from the frame of its node to the drawing.
+    pub girth: Option<(Arc<Girth>, DAffine2)>,
+    /// How far around the origin of its node it reaches back to what it lies on, however far in front of that it is.
+    pub root: Option<f64>,
     /// Whether it is the stroke of a line.
     pub is_line: bool,
 }
@@ -306,6 +312,8 @@ impl Pile {
                 segments,
                 form,
                 toes,
+                girth,
+                root,
                 is_line,
             } = lay;
             hasher.write_u64(step.to_bits());
@@ -330,6 +338,12 @@ impl Pile {
                 numbers.for_each(|number| hasher.write_u64(number.to_bits()));
                 hasher.write_u8((*away).into());
             }
+            hasher.write_u8(girth.is_some().into());
+            if let Some((girth, to_drawing)) = girth {
+                let numbers = girth.numbers().chain(to_drawing.to_cols_array());
+                numbers.for_each(|number| hasher.write_u64(number.to_bits()));
+            }
+            hasher.write_u64(root.unwrap_or(f64::NAN).to_bits());
             for list in [below, wraps] {
                 hasher.write_usize(list.len());
                 for other in list {
