@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use rustc_hash::FxHashMap;
 
 use super::name_words::{self, has_word};
+use super::{Role, terms};
 
 /// What a name means that is none of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,9 +114,50 @@ pub(crate) fn is_sheet(name: &str) -> bool {
     known.any(|known| known == last || known == singular) || matches!(last.as_str(), "leaves")
 }
 
+/// What is round about the body that wears it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Garment {
+    /// Also a crown.
+    Hat,
+    Skirt,
+    /// Clothes of the whole body that end in a skirt.
+    Dress,
+    Trousers,
+}
+
+/// English and Japanese words; katakana words are written in hiragana here.
+const GARMENTS: [(Garment, &str); 4] = [
+    (
+        Garment::Hat,
+        "hat cap helmet helm bonnet beanie turban bowler sombrero beret fez toque crown tiara diadem coronet 帽子 ぼうし 兜 かぶと へるめっと 王冠 おうかん 冠 \
+         かんむり てぃあら",
+    ),
+    (Garment::Skirt, "skirt kilt tutu すかーと"),
+    (Garment::Dress, "dress gown robe kimono どれす 着物 きもの"),
+    (
+        Garment::Trousers,
+        "trousers pants shorts jeans ずぼん じーんず ぱんつ",
+    ),
+];
+
+/// The garment that a name means, by the last of its known words; `None` if it also says a limb, such as `left leg of trousers`.
+pub(crate) fn garment(name: &str) -> Option<Garment> {
+    if Role::of(&terms(name)).is_some_and(Role::is_piece_of_limb) {
+        return None;
+    }
+    let words = name_words::split(name);
+    let known = |word: &String| {
+        let mut garments = GARMENTS.iter();
+        let is_one = |known: &str| known == word || word.strip_suffix('s') == Some(known);
+        let found = garments.find(|(_, words)| words.split_whitespace().any(is_one));
+        found.map(|(garment, _)| *garment)
+    };
+    words.iter().rev().find_map(known)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Thing, is_disc, is_sheet, thing};
+    use super::{Garment, Thing, garment, is_disc, is_sheet, thing};
 
     #[test]
     fn sheets_are_thin() {
@@ -132,6 +174,23 @@ mod tests {
         }
         for name in ["Head", "wing tip", "Tentacle", "capelet holder", ""] {
             assert!(!is_sheet(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn garments_are_known_by_their_names() {
+        for (name, known) in [
+            ("Witch's hat", Garment::Hat),
+            ("cap2", Garment::Hat),
+            ("王冠", Garment::Hat),
+            ("スカート", Garment::Skirt),
+            ("Red_dress", Garment::Dress),
+            ("trousers", Garment::Trousers),
+        ] {
+            assert_eq!(garment(name), Some(known), "{name}");
+        }
+        for name in ["left pant leg", "Capsule", "hatch", "Head"] {
+            assert_eq!(garment(name), None, "{name}");
         }
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use typed_index_collections::{TiVec, ti_vec};
 
-use crate::anatomy::{self, Role, Term};
+use crate::anatomy::{self, Garment, Role, Term};
 use crate::geometry::{Measure, Outline};
 use crate::index::index_type;
 use crate::lang::Variables;
@@ -32,7 +32,7 @@ pub struct Bindings {
     /// Whether the drawing is annotated at all.
     pub annotated: bool,
     /// Whether no string says `Shape`, so that what no string says is found by rule.
-    pub(super) is_first_look: bool,
+    pub is_first_look: bool,
     /// The strings, in the order of the file.
     pub strings: TiVec<StringId, DrawingString>,
     /// The parts, back-most first; sub-parts, legends and unused parts included.
@@ -241,6 +241,42 @@ impl Part {
     /// Whether it is a foot or a shoe by its name.
     pub fn is_foot(&self) -> bool {
         Role::of(&anatomy::terms(&self.name)) == Some(Role::Foot)
+    }
+
+    /// Whether it is an arm or a lower arm by its name, and no wing.
+    pub fn is_arm(&self) -> bool {
+        let terms = anatomy::terms(&self.name);
+        let role = Role::of(&terms);
+        matches!(role, Some(Role::UpperArm | Role::LowerArm)) && !terms.contains(&Term::Wing)
+    }
+
+    /// Whether it is a hand by its name.
+    pub fn is_hand(&self) -> bool {
+        Role::of(&anatomy::terms(&self.name)) == Some(Role::Hand)
+    }
+
+    /// Whether it is by its name in the plane in which a body is symmetric: trunk, neck, head or tail.
+    pub fn is_in_the_middle(&self) -> bool {
+        let terms = anatomy::terms(&self.name);
+        Role::of(&terms).is_some_and(|role| {
+            role.trunk().is_some() || matches!(role, Role::Neck | Role::Head | Role::Tail)
+        })
+    }
+
+    /// Whether it is an arm or a leg by its name, or a piece of one.
+    pub fn is_piece_of_limb(&self) -> bool {
+        Role::of(&anatomy::terms(&self.name)).is_some_and(Role::is_piece_of_limb)
+    }
+
+    /// The garment that it is by its name.
+    pub(crate) fn garment(&self) -> Option<Garment> {
+        anatomy::garment(&self.name)
+    }
+
+    /// Whether it is a head or a face by its name.
+    pub fn is_head(&self) -> bool {
+        let terms = anatomy::terms(&self.name);
+        Role::of(&terms) == Some(Role::Head) || terms.contains(&Term::Face)
     }
 
     /// Whether it is hair by its name.

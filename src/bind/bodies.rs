@@ -22,6 +22,9 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
     if !matched.is_first_look {
         return;
     }
+    for (index, part) in matched.parts.iter_mut_enumerated() {
+        part.is_balloon |= tree.nodes.main[index] == index && goes_round(tree, index);
+    }
     let of_body: Vec<PartId> = matched
         .parts
         .keys()
@@ -52,6 +55,11 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
         let is_soft = rounded >= MOSTLY * all && is_worn(&anatomy::terms(&tree.names[part].name));
         matched.parts[part].is_balloon |= is_soft;
     }
+}
+
+/// Whether a part is a garment that is round about what it hangs on, however straight its border is: a crown, a skirt.
+fn goes_round(tree: &Tree, part: PartId) -> bool {
+    tree.parents[part].is_some() && anatomy::garment(&tree.names[part].name).is_some()
 }
 
 /// Whether a name is that of a part of a body, of clothes, or of hair.

@@ -21,6 +21,7 @@ mod tests;
 mod vehicles;
 mod words;
 
+pub(crate) use crate::anatomy::Garment;
 pub(crate) use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
     MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, Side, SignedAxis,

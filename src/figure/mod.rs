@@ -5,6 +5,8 @@
 
 mod copies;
 mod depth_limits;
+#[cfg(test)]
+mod depth_tests;
 mod layers;
 mod models;
 mod nodes;

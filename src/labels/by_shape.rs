@@ -332,20 +332,28 @@ fn outward(
 }
 
 /// Makes legs of all limbs without a name if there are too many for a figure with arms: insects and spiders are often drawn from
-/// above, where some legs point up.
+/// above, where some legs point up. A figure without legs also walks on arms and tentacles by name: an octopus.
 fn many_legs(tree: &PartTree<'_>, drafts: &mut Drafts, trunk: [DVec2; 2]) {
     let is_limb = |part: FigurePartId| drafts[part].class.is_some_and(Class::is_limb);
     let is_root = |part: &FigurePartId| {
         let continues = tree.parents[*part].is_some_and(is_limb);
-        is_limb(*part) && !continues && !drafts[*part].named
+        is_limb(*part) && !continues
     };
-    let count = drafts.keys().filter(is_root).count();
+    let count = |may_be_named: bool| {
+        let roots = drafts.keys().filter(is_root);
+        roots
+            .filter(|part| may_be_named || !drafts[*part].named)
+            .count()
+    };
+    let has_legs = drafts.iter().any(|draft| draft.class == Some(Class::Leg));
     let lies = trunk[0].y <= tree.above_ground(LOW);
+    let walks_on_arms = !has_legs && count(true) >= MANY_LIMBS;
+    let count = count(walks_on_arms);
     if count < MANY_LIMBS && (count < LIMBS_AROUND || !lies) {
         return;
     }
     for (part, draft) in drafts.iter_mut_enumerated() {
-        if draft.class == Some(Class::Arm) && !draft.named {
+        if draft.class == Some(Class::Arm) && (walks_on_arms || !draft.named) {
             let why = format!(
                 "`{}` belongs to one of {count} limbs, so it is a leg",
                 tree.name(part)

@@ -28,6 +28,7 @@ pub(crate) enum Undo {
     Toes,
     Thin,
     Disc,
+    Round,
     Flattened,
     Rounded,
 }
@@ -38,7 +39,7 @@ impl Undo {
         match self {
             Self::Depth | Self::Cord => "Offset 0",
             Self::Back => "Side near",
-            Self::Toes | Self::Thin | Self::Disc | Self::Flattened => "Shape inflate",
+            Self::Toes | Self::Thin | Self::Disc | Self::Round | Self::Flattened => "Shape inflate",
             Self::Rounded => "Shape default",
         }
     }
@@ -52,6 +53,7 @@ impl Undo {
             Self::Toes => "foot",
             Self::Thin => "cloth",
             Self::Disc => "wheel",
+            Self::Round => "round",
             Self::Flattened => "flattened",
             Self::Rounded => "body",
         }
@@ -152,7 +154,7 @@ impl<'a> Reasons<'a> {
     pub(crate) fn node_back(&self, main: PartId) -> Option<Said> {
         self.described(main, |of, why| match why {
             Behind::Closes { on } => self.compiled.bindings.parts[on].main != main,
-            Behind::Mirrored => of == main,
+            Behind::Mirrored | Behind::Round => of == main,
         })
     }
 
@@ -160,11 +162,12 @@ impl<'a> Reasons<'a> {
     fn described(&self, main: PartId, is_meant: impl Fn(PartId, Behind) -> bool) -> Option<Said> {
         let parts = &self.compiled.bindings.parts;
         let mut on: Vec<&str> = Vec::new();
-        let mut is_mirrored = false;
+        let (mut is_mirrored, mut is_round) = (false, false);
         let all = self.behind.get(&main)?.iter();
         for (_, why) in all.filter(|(of, why)| is_meant(*of, *why)) {
             match why {
                 Behind::Mirrored => is_mirrored = true,
+                Behind::Round => is_round = true,
                 Behind::Closes { on: other } => {
                     let name = Some(parts[*other].name.as_str());
                     let name = name.filter(|name| !name.is_empty());
@@ -177,10 +180,12 @@ impl<'a> Reasons<'a> {
         }
         let closes = (!on.is_empty()).then(|| format!("closes behind {}", on.join(", ")));
         let mirrored = is_mirrored.then(|| "on the back as well".to_owned());
-        let reasons: Vec<String> = closes.into_iter().chain(mirrored).collect();
+        let round = is_round.then(|| "round about what wears it".to_owned());
+        let reasons = closes.into_iter().chain(mirrored).chain(round);
+        let reasons: Vec<String> = reasons.collect();
         (!reasons.is_empty()).then(|| Said {
             text: reasons.join("; "),
-            undo: Some(Undo::Back),
+            undo: Some(if is_round { Undo::Round } else { Undo::Back }),
         })
     }
 

@@ -106,6 +106,8 @@ fn laid_on_one(form: LayForm, kind: &str, numbers: &[f64], at: DVec2) -> Vec<Bod
         segments: None,
         form,
         toes: None,
+        girth: None,
+        root: None,
         is_line: false,
         is_symmetric: false,
     };

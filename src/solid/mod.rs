@@ -34,7 +34,9 @@ use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
 pub(crate) use kinds::Profile;
-pub(crate) use pile::{Body, LaidSolid, Lay, LayForm, Pile, RecentHeights, SolidHeights, Toes};
+pub(crate) use pile::{
+    Body, Girth, LaidSolid, Lay, LayForm, Pile, RecentHeights, Section, SolidHeights, Toes,
+};
 pub use source::{Sides, Solid};
 
 /// What a solid depends on besides its outline and its profile.

@@ -288,6 +288,11 @@ impl Bindings {
         self.setting(part, Keyword::Shape).is_some()
     }
 
+    /// Whether a string says how far drawing order moves a part.
+    pub fn is_stack_set(&self, part: PartId) -> bool {
+        self.setting(part, Keyword::Stack).is_some()
+    }
+
     /// How a part's outline gets its thickness; `None` for `Shape none`, and for ink on a model, which takes the place of all
     /// that is drawn there.
     pub fn profile(&self, drawing: &Drawing, part: PartId) -> Option<Profile> {

@@ -14,8 +14,9 @@ use super::feet;
 use super::{Arrangement, BackSkin, Behind, Layers, NodeDepth};
 use crate::bind::{PartId, VehiclePart};
 use crate::figure::PartFrames;
+use crate::geometry::Frame;
 use crate::scene::WorldTransform;
-use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights, Solid, Toes};
+use crate::solid::{Body, Girth, Lay, LayForm, Pile, RecentHeights, Solid, Toes};
 
 /// The share of its own heights that a rounded shape adds to those of what it lies on.
 const BULGE: f64 = 0.3;
@@ -125,8 +126,11 @@ impl Lifting<'_> {
             lays.push(lay);
         }
         let (pile, places, backs) = self.pile(lays, &raised, recent);
+        let shapes = self.arrangement.shapes.iter();
+        let round = shapes.filter(|shape| shape.girth.is_some());
         Layers {
             backs,
+            round: round.map(|shape| shape.part).collect(),
             nodes,
             offsets,
             raised,
@@ -193,7 +197,9 @@ impl Lifting<'_> {
             .collect::<Vec<usize>>();
         let clips = shape.is_soft && !shape.is_ink && overflows();
         let toes = self.toes(index);
-        let is_alone = below.is_empty() && cover.behind.is_empty() && toes.is_none();
+        let girth = self.girth(index).filter(|_| form == LayForm::Volume);
+        let is_formed = toes.is_some() || girth.is_some();
+        let is_alone = below.is_empty() && cover.behind.is_empty() && !is_formed;
         // A line beside all shapes is a band too, and no solid of its host's kind.
         if is_alone && !clips && !shape.is_ink {
             return Form::Raised(self.raise(index, moved));
@@ -223,6 +229,8 @@ impl Lifting<'_> {
             },
             form,
             toes,
+            girth,
+            root: self.root(index),
             is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,
             is_symmetric: self.is_symmetric(index),
         })
@@ -263,6 +271,25 @@ impl Lifting<'_> {
             factor,
             away: toes.away,
         })
+    }
+
+    /// How a shape is round about what wears it, and from the frame of its node to the drawing.
+    fn girth(&self, index: usize) -> Option<(Arc<Girth>, DAffine2)> {
+        let shape = &self.arrangement.shapes[index];
+        let girth = shape.girth.as_ref()?;
+        let scale = self.world.scale;
+        let to_drawing = DAffine2::from_scale(DVec2::new(1.0, -1.0) / scale)
+            * to_plane(&self.frames[shape.main].node, scale);
+        Some((Arc::clone(girth), to_drawing))
+    }
+
+    /// How far around its joint an arm in front of a trunk reaches back to that, model units.
+    fn root(&self, index: usize) -> Option<f64> {
+        let shape = &self.arrangement.shapes[index];
+        let node = self.arrangement.nodes.of_shape[index];
+        let has_room = shape.is_main && self.arrangement.room[node] > 0.0;
+        let part = &self.arrangement.context.bindings.parts[shape.part];
+        has_room.then(|| part.node_measure().half_across * self.world.scale)
     }
 
     /// The depths of the plane faces of a shape by itself, both measured outwards.
@@ -504,6 +531,8 @@ impl Lifting<'_> {
             segments: Some(SKIN_SEGMENTS),
             form: LayForm::BackSkin,
             toes: None,
+            girth: None,
+            root: None,
             is_line: false,
             is_symmetric: false,
         };
@@ -531,12 +560,9 @@ impl Lifting<'_> {
             [shape.main, shape.part],
             profile,
         ));
-        let node = &self.frames[shape.main].node;
-        let to_plane =
-            DAffine2::from_translation(node.origin * scale) * DAffine2::from_angle(node.angle);
         Body {
             solid,
-            to_plane,
+            to_plane: to_plane(&self.frames[shape.main].node, scale),
             depth: self.arrangement.plane(index) * scale,
             node_depth: self.arrangement.depths[self.arrangement.nodes.of_shape[index]] * scale,
             flattened: shape.flattened,
@@ -547,4 +573,9 @@ impl Lifting<'_> {
             lay,
         }
     }
+}
+
+/// From the frame of a node to the plane of the drawing, y up, model units.
+fn to_plane(node: &Frame, scale: f64) -> DAffine2 {
+    DAffine2::from_translation(node.origin * scale) * DAffine2::from_angle(node.angle)
 }

@@ -5,10 +5,12 @@ mod backs;
 mod buried;
 mod cords;
 mod feet;
+mod girth;
 mod lifting;
 mod node_depths;
 mod nodes;
 mod overlaps;
+mod room;
 mod shapes;
 mod transparency;
 mod vehicles;
@@ -20,7 +22,7 @@ use rayon::prelude::*;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::FigureContext;
-use crate::bind::PartId;
+use crate::bind::{Part, PartId, Seen};
 use crate::figure::PartFrames;
 use crate::memo::Memo;
 use crate::scene::WorldTransform;
@@ -111,6 +113,8 @@ struct Arrangement<'a> {
     covers: &'a [Cover],
     /// Per node its depth.
     depths: &'a [f64],
+    /// Per node how far it lies in front of what it hangs on to have room to turn.
+    room: &'a [f64],
     /// Per shape its step.
     steps: &'a [f64],
     is_one: bool,
@@ -139,6 +143,8 @@ pub enum Behind {
     },
     /// It is on the back as well, mirrored.
     Mirrored,
+    /// It is round about what wears it.
+    Round,
 }
 
 /// What the figure that a part belongs to does to its form.
@@ -183,6 +189,8 @@ pub(super) struct Layers {
     places: TiVec<PartId, Option<usize>>,
     /// The skins on backs.
     backs: Vec<BackSkin>,
+    /// The parts that are round about what wears them.
+    round: Vec<PartId>,
     pile: Arc<Pile>,
 }
 
@@ -207,25 +215,25 @@ impl Layers {
             ))
         };
         let is_one = !context.bindings.annotated;
-        let mut details = details(&shapes, &nodes, &overlaps, is_one);
+        let mut details = details(context, &shapes, &nodes, &overlaps, is_one);
         vehicles::place_wheels(&mut shapes, &overlaps, &mut details);
         let is_flat = is_one && is_flat(context, &nodes);
         if is_one && !is_flat {
             nodes.hang_on_trunks(&shapes, &overlaps, &details);
         }
         cords::lay(context, &mut shapes, &details);
+        let worn = girth::find(context, &shapes, &nodes, &details);
         describe(&mut shapes, &overlaps, solid, &recent);
         let mut covers = covers(&shapes, &nodes, &overlaps, details, is_one);
+        girth::lay(&mut shapes, &worn, &nodes, &overlaps, &mut covers);
         let spread: Vec<f64> = nodes
             .main
             .iter()
             .map(|part| context.bindings.attributes(*part).stack())
             .collect();
+        let room = room::room(context, &shapes, &nodes, &covers);
         let node_depths = if is_flat {
-            NodeDepths {
-                depths: vec![0.0; nodes.len()],
-                reasons: vec![Reason::Plane; nodes.len()],
-            }
+            NodeDepths::in_one_plane(&nodes, &room)
         } else {
             // On all cores, before they are asked for one by one: what hangs on something may be moved by its height.
             let hangs = |shape: usize| nodes.parent[nodes.of_shape[shape]].is_some();
@@ -245,6 +253,8 @@ impl Layers {
                 overlaps: &overlaps,
                 covers: &covers,
                 spread: &spread,
+                room: &room,
+                is_in_plane: &is_in_plane(context, &nodes),
             }
             .place()
         };
@@ -256,6 +266,7 @@ impl Layers {
             overlaps: &overlaps,
             covers: &covers,
             depths: &node_depths.depths,
+            room: &room,
             steps: &steps,
             is_one,
         };
@@ -316,7 +327,9 @@ impl Layers {
     /// What each part shows from behind beside its own back.
     pub(super) fn behind(&self) -> impl Iterator<Item = (PartId, Behind)> {
         let backs = self.backs.iter().map(|back| (back.part, back.why));
-        backs.chain(self.on_back.iter().map(|part| (*part, Behind::Mirrored)))
+        backs
+            .chain(self.on_back.iter().map(|part| (*part, Behind::Mirrored)))
+            .chain(self.round.iter().map(|part| (*part, Behind::Round)))
     }
 
     /// How far the node of a main part is in front of the node that it hangs on, drawing units.
@@ -367,6 +380,24 @@ fn is_flat(context: &FigureContext<'_>, nodes: &Nodes) -> bool {
     has_names && !seen.any(|seen| seen.is_in_profile())
 }
 
+/// Per node whether it stays in the plane of what it hangs on: trunk, neck, head and tail of a figure in profile, which is symmetric
+/// about that plane.
+fn is_in_plane(context: &FigureContext<'_>, nodes: &Nodes) -> Vec<bool> {
+    let bindings = context.bindings;
+    let roots = nodes.roots();
+    let mut in_profile = vec![false; nodes.len()];
+    for (node, part) in nodes.main.iter().enumerate() {
+        in_profile[roots[node]] |= context.seen[*part] == Seen::InProfile;
+    }
+    let is_in_plane = |(node, part): (usize, &PartId)| {
+        bindings.is_first_look
+            && in_profile[roots[node]]
+            && bindings.parts[*part].is_in_the_middle()
+            && !bindings.is_stack_set(*part)
+    };
+    nodes.main.iter().enumerate().map(is_in_plane).collect()
+}
+
 /// Gives the soft shapes that lie over others or under them their heights.
 fn describe(
     shapes: &mut [Shape],
@@ -388,8 +419,26 @@ fn describe(
     });
 }
 
-/// Per shape whether it is a detail: whether it lies on its own part, or on those that it hangs on.
-fn details(shapes: &[Shape], nodes: &Nodes, overlaps: &[Vec<Overlap>], is_one: bool) -> Vec<bool> {
+/// Per shape whether it is a detail: whether it lies on its own part, or on those that it hangs on. Arms are none, because they swing.
+fn details(
+    context: &FigureContext<'_>,
+    shapes: &[Shape],
+    nodes: &Nodes,
+    overlaps: &[Vec<Overlap>],
+    is_one: bool,
+) -> Vec<bool> {
+    let part = |node: usize| &context.bindings.parts[nodes.main[node]];
+    let swings = |shape: usize| {
+        let node = nodes.of_shape[shape];
+        let is_of_arm = || {
+            let carrier = nodes.parent[node].map(part);
+            part(node).is_arm() || part(node).is_hand() && carrier.is_some_and(Part::is_arm)
+        };
+        context.bindings.is_first_look
+            && shapes[shape].is_main
+            && shapes[shape].outline.polygons.len() == 1
+            && is_of_arm()
+    };
     let is_kin = |above: usize, below: usize| {
         is_one || nodes.hangs_on(nodes.of_shape[above], nodes.of_shape[below])
     };
@@ -398,6 +447,9 @@ fn details(shapes: &[Shape], nodes: &Nodes, overlaps: &[Vec<Overlap>], is_one: b
         .map_init(Scratch::default, |scratch, (above, below)| {
             if shapes[above].is_ink {
                 return true;
+            }
+            if swings(above) {
+                return false;
             }
             let kin = below
                 .iter()

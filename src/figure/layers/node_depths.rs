@@ -37,6 +37,26 @@ pub(super) struct NodeDepths {
     pub(super) reasons: Vec<Reason>,
 }
 
+impl NodeDepths {
+    /// Those of a figure that lies in one plane, but for arms that have room to turn in front of it.
+    pub(super) fn in_one_plane(nodes: &Nodes, room: &[f64]) -> Self {
+        let mut depths = vec![0.0; nodes.len()];
+        let mut reasons = vec![Reason::Plane; nodes.len()];
+        for node in nodes.by_level() {
+            let Some(parent) = nodes.parent[node] else {
+                continue;
+            };
+            depths[node] = depths[parent] + room[node];
+            if room[node] > 0.0 {
+                reasons[node] = Reason::DrawnOver {
+                    part: nodes.main[parent],
+                };
+            }
+        }
+        Self { depths, reasons }
+    }
+}
+
 /// Per shape the later shapes that it is a backdrop of; makes backdrops thin.
 pub(super) fn backdrops(
     shapes: &mut [Shape],
@@ -63,6 +83,7 @@ pub(super) fn backdrops(
                 && shape.is_main
                 && !shape.is_given
                 && shape.of_vehicle.is_none()
+                && shape.girth.is_none()
                 && node != later
                 && is_near
                 && overlap.area >= least * shape.area
@@ -89,6 +110,10 @@ pub(super) struct Figure<'a> {
     pub(super) covers: &'a [Cover],
     /// Per node what `Stack` sets.
     pub(super) spread: &'a [f64],
+    /// Per node how far it lies in front of what it hangs on to have room to turn.
+    pub(super) room: &'a [f64],
+    /// Per node whether it stays in the plane of what it hangs on.
+    pub(super) is_in_plane: &'a [bool],
 }
 
 /// A group of nodes that keep their distances: a node with those that it wears or that lie on it.
@@ -143,7 +168,7 @@ impl Figure<'_> {
                     of: self.shapes[*later].part,
                 });
                 (base - height, reason)
-            } else if parent.is_none() {
+            } else if parent.is_none() || self.is_in_plane[node] {
                 (base, Reason::Plane)
             } else {
                 self.nearest(node, base, &near[node], &constraints, &depths, &units)
@@ -289,18 +314,25 @@ impl Figure<'_> {
             {
                 (low, over) = (depth + distance, Some(other));
             }
+            // A neck that stays in the plane pushes no leg behind it: its surface is lifted over that.
+            let gives_way = self.is_in_plane[other] && self.nodes.parent[node] != Some(other);
             if let Some(distance) = constraints.get(&[node, other])
                 && depth - distance < high
+                && !gives_way
             {
                 (high, under) = (depth - distance, Some(other));
             }
+        }
+        let room = self.room[node];
+        if room > 0.0 && base + room > low {
+            (low, over) = (base + room, self.nodes.parent[node]);
         }
         let wanted = if low > high {
             low.midpoint(high)
         } else {
             base.max(low).min(high)
         };
-        let farthest = FARTHEST * self.height(&units[node]);
+        let farthest = room.max(FARTHEST * self.height(&units[node]));
         let by = self.spread[node] * (wanted - base).clamp(-farthest, farthest);
         let part = |other: Option<usize>| other.map(|other| self.nodes.main[other]);
         let reason = match (by > 0.0, by < 0.0, part(over), part(under)) {
@@ -437,7 +469,8 @@ impl Figure<'_> {
     }
 }
 
-fn quantile(mut values: Vec<f64>) -> f64 {
+/// The value that nine tenths of these do not exceed.
+pub(super) fn quantile(mut values: Vec<f64>) -> f64 {
     if values.is_empty() {
         return f64::NEG_INFINITY;
     }

@@ -134,6 +134,18 @@ impl Nodes {
         roots
     }
 
+    /// The width of the figure that one of these roots carries.
+    pub(super) fn width(&self, shapes: &[Shape], roots: &[usize], root: usize) -> f64 {
+        let own = shapes.iter().zip(&self.of_shape);
+        let own = own.filter(|(_, node)| roots[**node] == root);
+        let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+        for (shape, _) in own {
+            let (low, high) = shape.bounds;
+            ends = [ends[0].min(low.x), ends[1].max(high.x)];
+        }
+        ends[1] - ends[0]
+    }
+
     /// The nodes in groups whose shapes overlap, directly or through others.
     fn connected(&self, overlaps: &[Vec<Overlap>]) -> Vec<Vec<usize>> {
         let mut near: Vec<Vec<usize>> = vec![Vec::new(); self.len()];

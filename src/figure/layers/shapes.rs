@@ -9,7 +9,7 @@ use super::super::FigureContext;
 use crate::bind::{PartId, PartKind, Side, VehiclePart};
 use crate::geometry::{EdgeRanges, Outline, area};
 use crate::index::par_keys;
-use crate::solid::{Profile, Solid, SolidHeights};
+use crate::solid::{Girth, Profile, Solid, SolidHeights};
 use crate::threads::GRAIN;
 
 /// Lines that are narrower are too thin to be seen as outlines, in deviations that nobody sees.
@@ -53,6 +53,8 @@ pub(super) struct Shape {
     pub(super) faces: [Option<f64>; 2],
     /// The heights of a soft shape that lies over others or under them.
     pub(super) natural: Option<SolidHeights>,
+    /// How it is round about what wears it.
+    pub(super) girth: Option<Arc<Girth>>,
     /// What its heights are multiplied by; see [`Shape::flatten`].
     pub(super) flattened: f64,
 }
@@ -68,17 +70,20 @@ impl Shape {
 
     /// How far it reaches to the front over a point, drawing units.
     pub(super) fn front(&self, point: DVec2) -> f64 {
-        match &self.natural {
+        let own = match &self.natural {
             Some(natural) => self.flattened * natural.front(point),
             None => self.plate[1],
-        }
+        };
+        let girth = self.girth.as_ref();
+        girth.map_or(own, |girth| girth.reach(point, [own; 2])[0])
     }
 
     /// How far it reaches from its plane at most, drawing units. That of a soft shape takes long when it is first asked for.
     pub(super) fn height(&self) -> f64 {
-        match &self.natural {
-            Some(natural) => self.flattened * natural.highest(),
-            None => self.plate[0].midpoint(self.plate[1]).max(0.0),
+        match (&self.girth, &self.natural) {
+            (Some(girth), _) => girth.highest(),
+            (_, Some(natural)) => self.flattened * natural.highest(),
+            _ => self.plate[0].midpoint(self.plate[1]).max(0.0),
         }
     }
 
@@ -157,6 +162,7 @@ fn shape(context: &FigureContext<'_>, index: PartId) -> Option<Shape> {
         plate,
         faces,
         natural: None,
+        girth: None,
         flattened: 1.0,
         profile,
     })

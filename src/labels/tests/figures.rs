@@ -449,3 +449,33 @@ fn a_dog_with_one_hind_leg_hidden() {
         &["right leg", "right leg 1", "body", "head", "left leg 1"],
     );
 }
+
+#[test]
+fn an_octopus_walks_on_its_arms() {
+    let classes = |word: &str, count: usize, extra: &[Row<'_>]| -> Vec<Class> {
+        let names: Vec<String> = (1..=count).map(|i| format!("{word} {i}")).collect();
+        let body = ("Body", "", [0.0, 40.0], [0.0, 90.0], 35.0);
+        let limb = |(i, name)| {
+            let x = 8.0 * (i as f64 - (count - 1) as f64 / 2.0);
+            (name, "Body", [x, 40.0], [1.5 * x, 0.0], 2.0)
+        };
+        let limbs = names.iter().map(String::as_str).enumerate().map(limb);
+        let rows: Vec<Row<'_>> = std::iter::once(body)
+            .chain(limbs)
+            .chain(extra.iter().copied())
+            .collect();
+        let labels = label_figure(&figure(&rows)).raw;
+        let limbs = labels.iter().skip(1).take(count);
+        limbs.map(|label| label.as_ref().unwrap().class).collect()
+    };
+    for word in ["Tentacle", "Arm", "触手"] {
+        assert_eq!(classes(word, 8, &[]), [Class::Leg; 8], "{word}");
+        // A jellyfish may have two beside its body, and what has legs stands on these.
+        assert_eq!(classes(word, 2, &[]), [Class::Arm; 2], "{word}");
+        let legs = [
+            ("Left leg", "Body", [-4.0, 40.0], [-4.0, 0.0], 2.0),
+            ("Right leg", "Body", [4.0, 40.0], [4.0, 0.0], 2.0),
+        ];
+        assert_eq!(classes(word, 8, &legs), [Class::Arm; 8], "{word}");
+    }
+}

@@ -254,12 +254,19 @@ impl Target<'_> {
     pub(super) fn reach(&self, point: DVec2) -> Option<[f64; 2]> {
         match &self.own {
             Own::Line => Some([0.0; 2]),
-            Own::Body(own) => Some(self.with_toes(point, own.reach(point))),
+            Own::Body(own) => Some(self.formed(point, own.reach(point))),
             Own::Field(..) => None,
         }
     }
 
-    fn with_toes(&self, point: DVec2, reach: [f64; 2]) -> [f64; 2] {
+    /// How far it reaches by its form, where by its heights it reaches this far.
+    fn formed(&self, point: DVec2, mut reach: [f64; 2]) -> [f64; 2] {
+        if let Some((girth, to_drawing)) = &self.lay.girth {
+            let scale = to_drawing.matrix2.determinant().abs().sqrt();
+            let own = reach.map(|reach| reach * scale);
+            let around = girth.reach(to_drawing.transform_point2(point), own);
+            reach = around.map(|reach| reach / scale);
+        }
         match &self.lay.toes {
             Some(toes) => toes.reach(point, reach),
             None => reach,
@@ -272,9 +279,8 @@ impl Target<'_> {
             && let Some(heights) = solid.heights_over(mesh)
         {
             let points = mesh.points.iter().zip(heights);
-            let reach = |(point, height): (&[f32; 2], f64)| {
-                self.with_toes(flat(point), [height * factor; 2])
-            };
+            let reach =
+                |(point, height): (&[f32; 2], f64)| self.formed(flat(point), [height * factor; 2]);
             return points.map(reach).collect();
         }
         let reach = |point: &[f32; 2]| self.reach(flat(point)).unwrap_or_default();
@@ -333,6 +339,7 @@ impl Target<'_> {
             || points.is_empty()
             || self.lay.clips
             || self.lay.toes.is_some()
+            || self.lay.girth.is_some()
             || !wraps.is_empty()
             || !behind.is_empty()
             || points.iter().any(|point| self.lifts(*point))
@@ -353,7 +360,7 @@ impl Target<'_> {
         let (below, lifted) = self.lifted(point, rim, reach).unzip();
         let natural = [self.depth + reach, self.depth - back];
         let [front, back] = match (form, lifted, below.map(|below| below.front)) {
-            (LayForm::Volume, lifted, _) => {
+            (LayForm::Volume, lifted, below) => {
                 let front = natural[0].max(lifted.unwrap_or(rim));
                 // A line climbs onto what it begins on, where a shape would reach down to its plane like a wall.
                 let is_climbing = self.lay.is_line && front > natural[0];
@@ -362,7 +369,11 @@ impl Target<'_> {
                 } else {
                     f64::INFINITY
                 };
-                [front, natural[1].max(front - thickness)]
+                let back = natural[1].max(front - thickness);
+                // An arm in front of a trunk is fixed to it at its joint.
+                let is_root = |root: f64| point.length_squared() < root * root;
+                let fixed = self.lay.root.filter(|root| is_root(*root)).and(below);
+                [front, fixed.map_or(back, |below| back.min(below - step))]
             }
             (LayForm::Sheet, lifted, _) => [lifted.unwrap_or(natural[0]); 2],
             (LayForm::DeepSkin, Some(lifted), Some(below)) => [lifted, below - step - back],

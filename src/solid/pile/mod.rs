@@ -25,10 +25,12 @@ use ground::{BodyInFrame, Ground, Own, Target};
 use hidden::Hider;
 use rim::Rim;
 
+pub(crate) use girth::{Girth, Section};
 pub(crate) use recent::{RecentHeights, SolidHeights};
 
 mod cover;
 mod field;
+mod girth;
 mod ground;
 mod hidden;
 mod recent;
@@ -110,6 +112,10 @@ pub(crate) struct Lay {
     pub form: LayForm,
     /// Where it reaches out more than its heights say.
     pub toes: Option<Toes>,
+    /// How it is round about what wears it, and from the frame of its node to the drawing.
+    pub girth: Option<(Arc<Girth>, DAffine2)>,
+    /// How far around the origin of its node it reaches back to what it lies on, however far in front of that it is.
+    pub root: Option<f64>,
     /// Whether it is the stroke of a line.
     pub is_line: bool,
     /// Whether a volume that is lifted reaches as far to the back as to the front.
@@ -316,6 +322,8 @@ impl Pile {
                 segments,
                 form,
                 toes,
+                girth,
+                root,
                 is_line,
                 is_symmetric,
             } = lay;
@@ -342,6 +350,12 @@ impl Pile {
                 numbers.for_each(|number| hasher.write_u64(number.to_bits()));
                 hasher.write_u8((*away).into());
             }
+            hasher.write_u8(girth.is_some().into());
+            if let Some((girth, to_drawing)) = girth {
+                let numbers = girth.numbers().chain(to_drawing.to_cols_array());
+                numbers.for_each(|number| hasher.write_u64(number.to_bits()));
+            }
+            hasher.write_u64(root.unwrap_or(f64::NAN).to_bits());
             for list in [below, wraps] {
                 hasher.write_usize(list.len());
                 for other in list {

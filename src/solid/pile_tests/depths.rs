@@ -237,6 +237,8 @@ proptest! {
                 segments: None,
                 form: LayForm::Skin,
                 toes: None,
+                girth: None,
+                root: None,
                 is_line: false,
                 is_symmetric: false,
             }),
