@@ -56,7 +56,7 @@ struct Moved {
 enum Form {
     /// Its faces are moved outwards by these distances, back and front.
     Raised([f64; 2]),
-    Laid(Lay),
+    Laid(Box<Lay>),
 }
 
 impl Lifting<'_> {
@@ -86,9 +86,9 @@ impl Lifting<'_> {
                 Form::Raised(by) => (by, None),
                 // The backs of plates are plane, whatever lifts their fronts.
                 Form::Laid(lay) if lay.form == LayForm::Volume && !shape.is_soft => {
-                    ([self.raise(index, &moved)[0], 0.0], Some(lay))
+                    ([self.raise(index, &moved)[0], 0.0], Some(*lay))
                 }
-                Form::Laid(lay) => ([0.0; 2], Some(lay)),
+                Form::Laid(lay) => ([0.0; 2], Some(*lay)),
             };
             raised[shape.part] = by;
             let [back, front] = self.faces(index);
@@ -180,7 +180,7 @@ impl Lifting<'_> {
         let is_low = form != LayForm::Volume && bulge > 0.0;
         let context = self.arrangement.context;
         let flattened = || context.flattened_segments(shape.part, &shape.profile, bulge);
-        Form::Laid(Lay {
+        Form::Laid(Box::new(Lay {
             below,
             wraps: cover.wraps.clone(),
             behind: cover.behind.clone(),
@@ -198,7 +198,7 @@ impl Lifting<'_> {
             girth,
             root: self.root(index),
             is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,
-        })
+        }))
     }
 
     /// How the toes of a foot come out of it.
