@@ -156,7 +156,6 @@ fn arms_over_a_trunk_have_room_to_turn() {
     }
     let [mean, flat] = [0, 1].map(|i| shares[i].iter().sum::<f64>() / shares[i].len() as f64);
     let worst = shares[0].iter().copied().fold(0.0, f64::max);
-    eprintln!("swallowed: {flat:.3} in one plane, {mean:.3} with room, {worst:.3} at most");
     assert!(
         mean < 0.08 && worst < 0.45 && flat > 0.2,
         "{mean} {worst} {flat}"

@@ -62,7 +62,7 @@ struct Moved {
 enum Form {
     /// Its faces are moved outwards by these distances, back and front.
     Raised([f64; 2]),
-    Laid(Lay),
+    Laid(Box<Lay>),
 }
 
 /// A pile while it is made.
@@ -106,9 +106,9 @@ impl Lifting<'_> {
                 Form::Laid(lay)
                     if lay.form == LayForm::Volume && !shape.is_soft && !lay.is_symmetric =>
                 {
-                    ([self.raise(index, &moved)[0], 0.0], Some(lay))
+                    ([self.raise(index, &moved)[0], 0.0], Some(*lay))
                 }
-                Form::Laid(lay) => ([0.0; 2], Some(lay)),
+                Form::Laid(lay) => ([0.0; 2], Some(*lay)),
             };
             raised[shape.part] = by;
             let [back, front] = self.faces(index);
@@ -214,7 +214,7 @@ impl Lifting<'_> {
         let is_low = form != LayForm::Volume && bulge > 0.0;
         let context = self.arrangement.context;
         let flattened = || context.flattened_segments(shape.part, &shape.profile, bulge);
-        Form::Laid(Lay {
+        Form::Laid(Box::new(Lay {
             below,
             wraps: cover.wraps.clone(),
             behind: cover.behind.clone(),
@@ -233,7 +233,7 @@ impl Lifting<'_> {
             root: self.root(index),
             is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,
             is_symmetric: self.is_symmetric(index),
-        })
+        }))
     }
 
     /// Whether a shape is one of a vehicle that is no wheel and lies on none, so that it reaches as far to the back as to the front.
