@@ -3,7 +3,6 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use proptest::prelude::*;
 
-use super::laws::config;
 use super::pile_tests::{body, drawn, moved, solid, stack};
 use super::tests::{circle, profile, rectangle};
 use super::{Body, LaidSolid, Lay, LayForm, Pile, Sides};
@@ -55,8 +54,9 @@ fn grid(reach: f64, side: i32) -> impl Iterator<Item = DVec2> {
 
 #[test]
 fn from_the_front_one_layer_is_seen() {
+    // Each of these looks at every triangle for every point.
     // Hardly any outline is empty.
-    law::check(config(), 80, drawn(), |layers| {
+    law::check(law::config(16), 80, drawn(), |layers| {
         let Some(bodies) = stack(&layers, 1.0, false) else {
             return Ok(false);
         };

@@ -70,7 +70,7 @@ fn transparency_groups_are_translucent_as_a_whole() {
         <rect x="5" y="35" width="5" height="5" fill="#000000"/>
         <rect x="30" y="50" width="30" height="20" fill="#f0d020" stroke="#804000" stroke-width="4"/>"##;
     let behind = r##"<rect x="-15" y="40" width="90" height="10" fill="#c04040"/>"##;
-    for strings in ["", "%Shape default", "%Shape round"] {
+    for strings in ["", "%Shape default Strokes all", "%Shape round Strokes all"] {
         assert_same_picture(&page(&format!(
             r#"{behind}<g opacity="0.5">{shapes}</g><text x="0" y="89" font-size="5">{strings}</text>"#
         )));
