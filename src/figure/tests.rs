@@ -220,8 +220,9 @@ fn outlines_of_soft_volumes_are_cords_as_deep_as_they_are_wide() {
         let [plain] = sides("")[..] else {
             panic!("{shape}")
         };
-        for width in [3.0, 6.0, 10.0] {
-            let stroke = format!(r##"stroke="#123" stroke-width="{width}""##);
+        // What is translucent as a whole is built like what is opaque.
+        for (width, opacity) in [(3.0, "1"), (6.0, "1"), (10.0, "1"), (6.0, ".5")] {
+            let stroke = format!(r##"opacity="{opacity}" stroke="#123" stroke-width="{width}""##);
             let [fill, cord] = sides(&stroke)[..] else {
                 panic!("{shape}")
             };
@@ -241,7 +242,8 @@ fn outlines_of_soft_volumes_are_cords_as_deep_as_they_are_wide() {
         // Where gaps or what lies below would show, the volume is whole.
         for stroke in [
             r##"stroke="#123" stroke-width="6" stroke-dasharray="4""##,
-            r##"opacity=".5" stroke="#123" stroke-width="6""##,
+            r##"fill-opacity=".5" stroke="#123" stroke-width="6""##,
+            r##"opacity=".5" stroke-opacity=".5" stroke="#123" stroke-width="6""##,
         ] {
             let [fill, ..] = sides(stroke)[..] else {
                 panic!("{shape}")

@@ -5,7 +5,9 @@
 //! and of its back and its walls what is not inside others. What is left of all of them together is closed.
 
 use glam::{DVec2, DVec3, Vec3};
+use rustc_hash::FxHashMap;
 
+use super::Pile;
 use super::ground::BodyInFrame;
 use super::region::{Division, Region};
 use crate::geometry::Outline;
@@ -82,6 +84,25 @@ impl Level {
             corner: self.corner.lerp(to.corner, share),
             inside,
         }
+    }
+}
+
+impl Pile {
+    /// The bodies that hide parts of another one.
+    pub(super) fn hiders(&self, index: usize) -> Vec<Hider> {
+        let body = &self.bodies[index];
+        let mut known = FxHashMap::default();
+        let hider = |other: &usize| {
+            self.place(*other, &mut known);
+            let heights = known[other].clone();
+            let hider = self.in_frame(*other, heights, body);
+            let back = hider.to.inverse();
+            let outline = self.outline(&self.bodies[*other]);
+            let outline =
+                outline.map_rings(|ring| ring.iter().map(|p| back.transform_point2(*p)).collect());
+            Hider::new(hider, outline, *other > index)
+        };
+        body.hidden_by.iter().filter_map(hider).collect()
     }
 }
 

@@ -22,7 +22,6 @@ use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 use field::Field;
 use ground::{BodyInFrame, Ground, Own, Target};
-use hidden::Hider;
 use rim::Rim;
 
 pub(crate) use girth::{Girth, Section};
@@ -457,23 +456,6 @@ impl Pile {
             is_given: other.is_given || is_seen_from_behind,
             is_detail: other.is_detail,
         }
-    }
-
-    /// The bodies that hide parts of another one.
-    fn hiders(&self, index: usize) -> Vec<Hider> {
-        let body = &self.bodies[index];
-        let mut known = FxHashMap::default();
-        let hider = |other: &usize| {
-            self.place(*other, &mut known);
-            let heights = known[other].clone();
-            let hider = self.in_frame(*other, heights, body);
-            let back = hider.to.inverse();
-            let outline = self.outline(&self.bodies[*other]);
-            let outline =
-                outline.map_rings(|ring| ring.iter().map(|p| back.transform_point2(*p)).collect());
-            Hider::new(hider, outline, *other > index)
-        };
-        body.hidden_by.iter().filter_map(hider).collect()
     }
 
     /// The outline of a body in the frame of its node.
