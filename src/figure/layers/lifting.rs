@@ -3,6 +3,7 @@
 //! Plates and sheets that lie on plates and sheets alone stay exact: their faces are moved outwards. All others that lie over
 //! something are laid on a pile.
 
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
@@ -11,6 +12,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::backs::Back;
 use super::feet;
+use super::shapes::Shape;
 use super::{Arrangement, BackSkin, Behind, Layers, NodeDepth};
 use crate::bind::{PartId, VehiclePart};
 use crate::figure::PartFrames;
@@ -28,8 +30,9 @@ const MAX_RAISE: f64 = 2.0;
 const MAX_STEPS: f64 = 8.0;
 /// Layers per half turn of a skin on a back, whose mesh follows that of the volume where it has to.
 const SKIN_SEGMENTS: u32 = 8;
-/// Layers per half turn of a cord, which is thin.
+/// Layers per half turn of a cord at least, and how far its surface may be from round, in deviations that nobody sees: it is thin.
 const CORD_SEGMENTS: u32 = 4;
+const CORD_DEVIATION: f64 = 20.0;
 /// Planes that are less than this share of a step apart coincide.
 const SAME: f64 = 0.01;
 
@@ -223,7 +226,7 @@ impl Lifting<'_> {
             invisible: self.arrangement.context.invisible * self.world.scale,
             bulge,
             segments: if shape.is_cord {
-                Some(CORD_SEGMENTS)
+                Some(self.cord_segments(shape))
             } else {
                 is_low.then(flattened).flatten()
             },
@@ -254,6 +257,17 @@ impl Lifting<'_> {
         shape.of_vehicle.is_some()
             && self.mirrored[index]
             && (is_skin || shape.is_wheel() || self.on_wheels[index])
+    }
+
+    /// The layers per half turn of a cord: more for a wide one.
+    fn cord_segments(&self, shape: &Shape) -> u32 {
+        let context = self.arrangement.context;
+        let part = &context.bindings.parts[shape.part];
+        let stroke = context.drawing.shapes[part.shape].stroke.as_ref();
+        let radius = stroke.map_or(0.0, |stroke| stroke.width() / 2.0);
+        let deviation = CORD_DEVIATION * context.invisible / radius;
+        let step = 2.0 * (1.0 - deviation.clamp(1e-3, 1.0)).acos();
+        ((PI / step).ceil() as u32).max(CORD_SEGMENTS)
     }
 
     /// How the toes of a foot come out of it.
