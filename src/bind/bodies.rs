@@ -39,9 +39,10 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
     }
     let main = |part: PartId| tree.nodes.main[part];
     let roots = extents::roots(matched.parts.len(), main, |part| tree.parents[part]);
-    // Per root the areas of what is rounded and of all of the body.
+    // Per root the areas of what is rounded and of all of the body below its clothes.
     let mut areas: TiVec<PartId, [f64; 2]> = ti_vec![[0.0; 2]; matched.parts.len()];
-    for index in &of_body {
+    let is_clothes = |part: PartId| is_worn(&anatomy::terms(&tree.names[part].name));
+    for index in of_body.iter().filter(|part| !is_clothes(**part)) {
         let part = &matched.parts[*index];
         let area = area(&part.outline);
         let [rounded, all] = &mut areas[roots[*index]];
@@ -50,10 +51,9 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
             *rounded += area;
         }
     }
-    for part in of_body {
+    for part in of_body.into_iter().filter(|part| is_clothes(*part)) {
         let [rounded, all] = areas[roots[part]];
-        let is_soft = rounded >= MOSTLY * all && is_worn(&anatomy::terms(&tree.names[part].name));
-        matched.parts[part].is_balloon |= is_soft;
+        matched.parts[part].is_balloon |= all > 0.0 && rounded >= MOSTLY * all;
     }
 }
 

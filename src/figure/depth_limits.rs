@@ -10,7 +10,7 @@ use crate::bind::{Bindings, FigureExtent, PartId, Seen};
 
 /// How far a part reaches to either side of its plane at most: a share of its figure's width, which leaves room for a nose or hair on
 /// it, so that the figure is at most .6 of its width deep.
-const OF_WIDTH: f64 = 0.25;
+const OF_WIDTH: f64 = 0.24;
 /// The same for animals in profile as a share of their height, which leaves room for legs on both sides below .5.
 const OF_HEIGHT: f64 = 0.2;
 

@@ -26,7 +26,7 @@ const RATIOS: [f64; 2] = [0.5, 1.4];
 /// How much deeper a garment is than what it is around.
 const ROOM: f64 = 1.06;
 /// How far a section reaches to the front at most, as a share of the figure's width, if what is inside reaches no farther.
-const DEEPEST: f64 = 0.29;
+const DEEPEST: f64 = 0.27;
 /// How quickly sections turn from as round as they would be to the deepest.
 const TURN: f64 = 4.0;
 /// Over how much of the hips' half width trousers change from hips to legs.

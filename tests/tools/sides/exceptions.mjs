@@ -7,6 +7,7 @@ const FACING = 'nothing says that it is a profile: it has no head of its own, an
 
 export const EXCEPTIONS = {
   'noto-girl': { wide: [0.2, 0.82], why: HEAD_ALONE },
+  'noto-cook': { wide: [0.2, 0.63], why: 'its hat goes around a head that is as deep as a figure allows' },
   'noto-badger': { high: [0.2, 0.55], why: LOW },
   'fluent-dragon': { found: 'front', why: FACING },
   'fluent-man-dancing': { off: [0, 0.05], why: 'an arm that is drawn raised is lowered, and its shoulder is part of the sleeve' },
