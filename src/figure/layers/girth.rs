@@ -53,6 +53,7 @@ pub(super) fn find(
     details: &[bool],
 ) -> Vec<Worn> {
     let parts = &context.bindings.parts;
+    let figures = nodes.figures(shapes);
     let of_shape = |index: usize| {
         let shape = &shapes[index];
         let is_free = !shape.is_ink
@@ -98,7 +99,12 @@ pub(super) fn find(
         Some(Worn {
             shape: index,
             garment,
-            inside: (0..shapes.len()).filter(is_inside).collect(),
+            inside: figures
+                .shapes(node)
+                .iter()
+                .copied()
+                .filter(is_inside)
+                .collect(),
         })
     };
     (0..shapes.len()).filter_map(of_shape).collect()
@@ -115,9 +121,9 @@ pub(super) fn lay(
     if worn.is_empty() {
         return;
     }
-    let roots = nodes.roots();
+    let figures = nodes.figures(shapes);
     for own in worn {
-        let width = nodes.width(shapes, &roots, roots[nodes.of_shape[own.shape]]);
+        let width = figures.width(nodes.of_shape[own.shape]);
         let mut girth = sections(&shapes[own.shape]);
         let inside = &own.inside;
         let ratio = ratio(shapes, own.shape, inside, &girth);

@@ -36,6 +36,27 @@ struct Walk {
     order: Vec<usize>,
 }
 
+/// What hangs on the same roots.
+pub(super) struct Figures {
+    /// Per node the one that carries all that it hangs on.
+    root: Vec<usize>,
+    /// Per root the shapes of its figure, and its width, drawing units.
+    shapes: Vec<Vec<usize>>,
+    width: Vec<f64>,
+}
+
+impl Figures {
+    /// The shapes of the figure of a node, in the order of drawing.
+    pub(super) fn shapes(&self, node: usize) -> &[usize] {
+        &self.shapes[self.root[node]]
+    }
+
+    /// The width of the figure of a node, drawing units.
+    pub(super) fn width(&self, node: usize) -> f64 {
+        self.width[self.root[node]]
+    }
+}
+
 impl Nodes {
     pub(super) fn new(context: &FigureContext<'_>, shapes: &[Shape]) -> Self {
         let parts = &context.bindings.parts;
@@ -134,16 +155,22 @@ impl Nodes {
         roots
     }
 
-    /// The width of the figure that one of these roots carries.
-    pub(super) fn width(&self, shapes: &[Shape], roots: &[usize], root: usize) -> f64 {
-        let own = shapes.iter().zip(&self.of_shape);
-        let own = own.filter(|(_, node)| roots[**node] == root);
-        let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
-        for (shape, _) in own {
+    /// The figures of a drawing.
+    pub(super) fn figures(&self, shapes: &[Shape]) -> Figures {
+        let root = self.roots();
+        let mut of_root: Vec<Vec<usize>> = vec![Vec::new(); self.len()];
+        let mut ends = vec![[f64::INFINITY, f64::NEG_INFINITY]; self.len()];
+        for (index, shape) in shapes.iter().enumerate() {
+            let root = root[self.of_shape[index]];
             let (low, high) = shape.bounds;
-            ends = [ends[0].min(low.x), ends[1].max(high.x)];
+            of_root[root].push(index);
+            ends[root] = [ends[root][0].min(low.x), ends[root][1].max(high.x)];
         }
-        ends[1] - ends[0]
+        Figures {
+            root,
+            shapes: of_root,
+            width: ends.into_iter().map(|[low, high]| high - low).collect(),
+        }
     }
 
     /// The nodes in groups whose shapes overlap, directly or through others.

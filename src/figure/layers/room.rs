@@ -27,11 +27,10 @@ pub(super) fn room(
     nodes: &Nodes,
     covers: &[Cover],
 ) -> Vec<f64> {
-    let roots = nodes.roots();
+    let figures = nodes.figures(shapes);
     let of_node = |node: usize| {
-        let limb = limb(context, shapes, nodes, covers, node)?;
-        let width = nodes.width(shapes, &roots, roots[node]);
-        Some(limb.room(DEEPEST * width))
+        let limb = limb(context, shapes, nodes, covers, figures.shapes(node), node)?;
+        Some(limb.room(DEEPEST * figures.width(node)))
     };
     let rooms = (0..nodes.len()).map(of_node);
     rooms.map(Option::unwrap_or_default).collect()
@@ -46,12 +45,13 @@ struct Limb<'a> {
     trunk: Vec<&'a Shape>,
 }
 
-/// The limb of a node.
+/// The limb of a node of a figure with these shapes.
 fn limb<'a>(
     context: &FigureContext<'_>,
     shapes: &'a [Shape],
     nodes: &Nodes,
     covers: &[Cover],
+    figure: &[usize],
     node: usize,
 ) -> Option<Limb<'a>> {
     let parts = &context.bindings.parts;
@@ -78,7 +78,7 @@ fn limb<'a>(
         let other = nodes.of_shape[*index];
         nodes.hangs_on(other, node) && (other == node || part(other).is_piece_of_limb())
     };
-    let volumes = || (0..shapes.len()).filter(is_volume);
+    let volumes = || figure.iter().copied().filter(is_volume);
     let measure = part(node).node_measure();
     Some(Limb {
         joint: part(node).origin,
