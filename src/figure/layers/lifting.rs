@@ -275,8 +275,9 @@ impl Lifting<'_> {
         let shape = &self.arrangement.shapes[index];
         let toes = feet::toes(self.arrangement.context, shape)?;
         let node = &self.frames[shape.main].node;
-        let factor = toes.reach / shape.height();
-        (factor > 1.0).then(|| Toes {
+        let height = shape.height();
+        let factor = toes.reach / height;
+        (height > 0.0 && factor > 1.0).then(|| Toes {
             down: DVec2::from_angle(-node.angle).rotate(-DVec2::Y),
             // Frames have y up.
             between: toes

@@ -223,7 +223,8 @@ impl Layers {
         }
         cords::lay(context, &mut shapes, &details);
         let worn = girth::find(context, &shapes, &nodes, &details);
-        describe(&mut shapes, &overlaps, solid, &recent);
+        let is_foot = |shape: &Shape| feet::toes(context, shape).is_some();
+        describe(&mut shapes, &overlaps, is_foot, solid, &recent);
         let mut covers = covers(&shapes, &nodes, &overlaps, details, is_one);
         girth::lay(&mut shapes, &worn, &nodes, &overlaps, &mut covers);
         let spread: Vec<f64> = nodes
@@ -398,10 +399,11 @@ fn is_in_plane(context: &FigureContext<'_>, nodes: &Nodes) -> Vec<bool> {
     nodes.main.iter().enumerate().map(is_in_plane).collect()
 }
 
-/// Gives the soft shapes that lie over others or under them their heights.
+/// Gives the soft shapes that lie over others or under them their heights, and feet.
 fn describe(
     shapes: &mut [Shape],
     overlaps: &[Vec<Overlap>],
+    is_foot: impl Fn(&Shape) -> bool + Sync,
     solid: impl Fn(&Shape) -> Solid + Sync,
     recent: &Arc<RecentHeights>,
 ) {
@@ -413,7 +415,9 @@ fn describe(
         }
     }
     let soft = shapes.par_iter_mut().zip(takes_part);
-    let soft = soft.filter(|(shape, takes_part)| *takes_part && shape.is_soft && !shape.is_ink);
+    let soft = soft.filter(|(shape, takes_part)| {
+        shape.is_soft && !shape.is_ink && (*takes_part || is_foot(shape))
+    });
     soft.for_each(|(shape, _)| {
         shape.natural = Some(SolidHeights::new(solid(shape), Arc::clone(recent)));
     });
