@@ -5,12 +5,14 @@
 
 use std::sync::Arc;
 
+use typed_index_collections::TiVec;
+
 use super::super::FigureContext;
 use super::nodes::Nodes;
 use super::overlaps::{Overlap, Scratch};
 use super::shapes::Shape;
 use super::{Cover, node_depths::quantile};
-use crate::bind::{Garment, Seen};
+use crate::bind::{Garment, Part, PartId, Seen};
 use crate::geometry::Outline;
 use crate::solid::{Girth, Profile, Section};
 
@@ -53,21 +55,27 @@ pub(super) fn find(
     details: &[bool],
 ) -> Vec<Worn> {
     let parts = &context.bindings.parts;
+    if !context.bindings.is_first_look {
+        return Vec::new();
+    }
+    // Names are read once: many shapes are compared with each garment.
+    let garments: TiVec<PartId, Option<Garment>> = parts.iter().map(Part::garment).collect();
+    if garments.iter().all(Option::is_none) {
+        return Vec::new();
+    }
     let figures = nodes.figures(shapes);
     let of_shape = |index: usize| {
         let shape = &shapes[index];
         let is_free = !shape.is_ink
             && !shape.is_given
             && !details[index]
-            && matches!(shape.profile, Profile::Inflate(_))
-            && context.bindings.is_first_look;
+            && matches!(shape.profile, Profile::Inflate(_));
         if !is_free {
             return None;
         }
-        let own = parts[shape.part].garment();
-        let garment = own.or_else(|| parts[shape.main].garment())?;
+        let garment = garments[shape.part].or(garments[shape.main])?;
         let node = nodes.of_shape[index];
-        let is_in_another = !shape.is_main && parts[shape.main].garment().is_none();
+        let is_in_another = !shape.is_main && garments[shape.main].is_none();
         let carrier = if is_in_another {
             Some(node)
         } else {
@@ -89,12 +97,12 @@ pub(super) fn find(
             let node = nodes.of_shape[*other];
             let is_of_wearer = wearer
                 .is_some_and(|wearer| node == wearer || is_hat && nodes.hangs_on(node, wearer));
-            let garments = [volume.part, volume.main].map(|part| parts[part].garment());
+            let worn = [volume.part, volume.main].map(|part| garments[part]);
             is_of_wearer
                 && volume.is_soft
                 && !volume.is_ink
                 && !details[*other]
-                && garments == [None; 2]
+                && worn == [None; 2]
         };
         Some(Worn {
             shape: index,

@@ -27,9 +27,27 @@ pub(super) fn room(
     nodes: &Nodes,
     covers: &[Cover],
 ) -> Vec<f64> {
+    let parts = &context.bindings.parts;
+    if !context.bindings.is_first_look {
+        return vec![0.0; nodes.len()];
+    }
     let figures = nodes.figures(shapes);
+    // Names are read once: many nodes are compared with each arm.
+    let is_garment = nodes
+        .main
+        .iter()
+        .map(|part| parts[*part].garment().is_some());
+    let is_garment: Vec<bool> = is_garment.collect();
     let of_node = |node: usize| {
-        let limb = limb(context, shapes, nodes, covers, figures.shapes(node), node)?;
+        let limb = limb(
+            context,
+            shapes,
+            nodes,
+            covers,
+            figures.shapes(node),
+            &is_garment,
+            node,
+        )?;
         Some(limb.room(DEEPEST * figures.width(node)))
     };
     let rooms = (0..nodes.len()).map(of_node);
@@ -45,13 +63,14 @@ struct Limb<'a> {
     trunk: Vec<&'a Shape>,
 }
 
-/// The limb of a node of a figure with these shapes.
+/// The limb of a node of a figure with these shapes; `is_garment` is about nodes.
 fn limb<'a>(
     context: &FigureContext<'_>,
     shapes: &'a [Shape],
     nodes: &Nodes,
     covers: &[Cover],
     figure: &[usize],
+    is_garment: &[bool],
     node: usize,
 ) -> Option<Limb<'a>> {
     let parts = &context.bindings.parts;
@@ -59,7 +78,6 @@ fn limb<'a>(
     let [main, parent] = [nodes.shape[node]?, nodes.parent[node]?];
     let own = &shapes[main];
     let is_free = nodes.given[node].is_none()
-        && context.bindings.is_first_look
         // Both arms in one shape do not swing.
         && own.outline.polygons.len() == 1;
     if !is_free || !part(node).is_arm() || part(parent).is_piece_of_limb() {
@@ -71,7 +89,7 @@ fn limb<'a>(
     };
     let is_of_trunk = |index: &usize| {
         let other = nodes.of_shape[*index];
-        let carrier = nodes.parent[other].filter(|_| part(other).garment().is_some());
+        let carrier = nodes.parent[other].filter(|_| is_garment[other]);
         nodes.hangs_on(parent, carrier.unwrap_or(other))
     };
     let is_piece = |index: &usize| {
