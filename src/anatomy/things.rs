@@ -35,12 +35,26 @@ const WORDS: [(Thing, &str); 4] = [
     (Thing::Hub, "hub hubcap rim はぶ りむ"),
 ];
 
-static THINGS: LazyLock<FxHashMap<&'static str, Thing>> = LazyLock::new(|| {
-    let tables = WORDS.iter();
+static THINGS: Table<Thing> = LazyLock::new(|| table(&WORDS));
+
+/// Words with what they mean.
+type Table<T> = LazyLock<FxHashMap<&'static str, T>>;
+
+fn table<T: Copy>(words: &[(T, &'static str)]) -> FxHashMap<&'static str, T> {
+    let tables = words.iter();
     tables
-        .flat_map(|(thing, words)| words.split_whitespace().map(|word| (word, *thing)))
+        .flat_map(|(meaning, words)| words.split_whitespace().map(|word| (word, *meaning)))
         .collect()
-});
+}
+
+/// What the last word of a name means that is in a table, as it is or without its plural.
+fn last_known<T: Copy>(name: &str, table: &Table<T>) -> Option<T> {
+    let means = |word: &String| {
+        let singular = word.strip_suffix('s').and_then(|word| table.get(word));
+        table.get(word.as_str()).or(singular).copied()
+    };
+    name_words::split(name).iter().rev().find_map(means)
+}
 
 /// Whether a name is that of a round disc, such as a wheel or its hub.
 pub(crate) fn is_disc(name: &str) -> bool {
@@ -49,11 +63,7 @@ pub(crate) fn is_disc(name: &str) -> bool {
 
 /// What a name means: what the last of its known words says, so that a `water wheel` is a wheel.
 pub(crate) fn thing(name: &str) -> Option<Thing> {
-    let means = |word: &String| {
-        let singular = word.strip_suffix('s').and_then(|word| THINGS.get(word));
-        THINGS.get(word.as_str()).or(singular).copied()
-    };
-    name_words::split(name).iter().rev().find_map(means)
+    last_known(name, &THINGS)
 }
 
 /// Words for the far and the near side of what is seen from the side.
@@ -140,19 +150,14 @@ const GARMENTS: [(Garment, &str); 4] = [
     ),
 ];
 
+static WORN: Table<Garment> = LazyLock::new(|| table(&GARMENTS));
+
 /// The garment that a name means, by the last of its known words; `None` if it also says a limb, such as `left leg of trousers`.
 pub(crate) fn garment(name: &str) -> Option<Garment> {
     if Role::of(&terms(name)).is_some_and(Role::is_piece_of_limb) {
         return None;
     }
-    let words = name_words::split(name);
-    let known = |word: &String| {
-        let mut garments = GARMENTS.iter();
-        let is_one = |known: &str| known == word || word.strip_suffix('s') == Some(known);
-        let found = garments.find(|(_, words)| words.split_whitespace().any(is_one));
-        found.map(|(garment, _)| *garment)
-    };
-    words.iter().rev().find_map(known)
+    last_known(name, &WORN)
 }
 
 #[cfg(test)]

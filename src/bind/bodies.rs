@@ -39,19 +39,20 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
     }
     let main = |part: PartId| tree.nodes.main[part];
     let roots = extents::roots(matched.parts.len(), main, |part| tree.parents[part]);
+    let is_clothes = |part: &PartId| is_worn(&anatomy::terms(&tree.names[*part].name));
+    let (clothes, below): (Vec<PartId>, Vec<PartId>) = of_body.into_iter().partition(is_clothes);
     // Per root the areas of what is rounded and of all of the body below its clothes.
     let mut areas: TiVec<PartId, [f64; 2]> = ti_vec![[0.0; 2]; matched.parts.len()];
-    let is_clothes = |part: PartId| is_worn(&anatomy::terms(&tree.names[part].name));
-    for index in of_body.iter().filter(|part| !is_clothes(**part)) {
-        let part = &matched.parts[*index];
+    for index in below {
+        let part = &matched.parts[index];
         let area = area(&part.outline);
-        let [rounded, all] = &mut areas[roots[*index]];
+        let [rounded, all] = &mut areas[roots[index]];
         *all += area;
         if part.is_balloon {
             *rounded += area;
         }
     }
-    for part in of_body.into_iter().filter(|part| is_clothes(*part)) {
+    for part in clothes {
         let [rounded, all] = areas[roots[part]];
         matched.parts[part].is_balloon |= all > 0.0 && rounded >= MOSTLY * all;
     }

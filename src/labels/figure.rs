@@ -210,10 +210,8 @@ fn details(tree: &PartTree<'_>, drafts: &mut Drafts) {
 /// What is the only one of its class and called `Legs` or `Arms` is all of them in one shape, which cannot move as one of them does.
 fn merged_limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
     for class in [Class::Arm, Class::Leg] {
-        let mut members = drafts.iter_enumerated();
-        let mut members = members
-            .by_ref()
-            .filter(|(_, draft)| draft.class == Some(class));
+        let all = drafts.iter_enumerated();
+        let mut members = all.filter(|(_, draft)| draft.class == Some(class));
         if let (Some((part, _)), None) = (members.next(), members.next())
             && anatomy::is_several_limbs(tree.name(part))
         {

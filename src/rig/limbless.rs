@@ -47,8 +47,8 @@ pub(super) fn find(
             found.entry(label.class).or_default().push(name);
         }
     }
-    let drawn = matched.figure.parts.iter().map(|part| &part.name);
-    let merged = drawn.clone().find(|name| anatomy::is_several_limbs(name));
+    let mut names = matched.figure.parts.iter().map(|part| &part.name);
+    let merged = names.find(|name| anatomy::is_several_limbs(name));
     let has = |class: Class| found.contains_key(&class);
     let has_limbs = has(Class::Arm) || has(Class::Leg);
     if has(Class::Leg) || has_limbs && !is_gait {
@@ -107,28 +107,22 @@ pub(super) fn report(
         _ => String::new(),
     };
     let message = format!("no {what} are found in {whose}, so {effect}{has}");
-    if let [
-        Limbless {
-            merged: Some(name), ..
-        },
-    ] = figures
-    {
-        let help = format!(
-            "`{name}` is one shape, which moves as one piece: draw each of them as a shape of its own"
-        );
-        diagnostics.push(Diagnostic::new(Code::NoLimbs, span, message).help(help));
-        return;
-    }
     let root = &first.name;
     let (left, right) = (format!("`Lleg@{root}`"), format!("`Rleg@{root}`"));
-    let help = if figures.len() == 1 {
-        format!(
+    let help = match figures {
+        [
+            Limbless {
+                merged: Some(name), ..
+            },
+        ] => format!(
+            "`{name}` is one shape, which moves as one piece: draw each of them as a shape of its own"
+        ),
+        [_] => format!(
             "name what it stands on after what it is, such as {left} and {right}, or say which joints drive a part: `Bone LeftUpLeg LeftFoot`"
-        )
-    } else {
-        format!(
+        ),
+        _ => format!(
             "if they are to stay, write `Motion` in the string of the figure that moves; else name what they stand on, such as {left} and {right}"
-        )
+        ),
     };
     diagnostics.push(Diagnostic::new(Code::NoLimbs, span, message).help(help));
 }

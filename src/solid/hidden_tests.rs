@@ -3,7 +3,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec2, DVec3, Vec3};
 use proptest::prelude::*;
 
-use super::pile_tests::{body, drawn, moved, solid, stack};
+use super::pile_tests::{body, drawn, lay, moved, solid, stack};
 use super::tests::{circle, profile, rectangle};
 use super::{Body, LaidSolid, Lay, LayForm, Pile, Sides};
 use crate::geometry::{Outline, border_distance_squared, bounds};
@@ -96,20 +96,9 @@ fn laid_on_one(form: LayForm, kind: &str, numbers: &[f64], at: DVec2) -> Vec<Bod
     let is_soft = kind != "default";
     let on = |outline| body(solid(outline, profile(kind, numbers)));
     let lay = Lay {
-        below: vec![0],
-        wraps: vec![],
-        behind: vec![],
-        clips: false,
         step: 0.04,
-        invisible: 0.0,
         bulge: if is_soft { 0.3 } else { 0.0 },
-        segments: None,
-        form,
-        toes: None,
-        girth: None,
-        root: None,
-        is_line: false,
-        is_symmetric: false,
+        ..lay(form, 1)
     };
     let outline = if is_soft {
         circle(6.0, 48)

@@ -32,22 +32,31 @@ fn ink(outline: Outline, below: Vec<Solid>, step: f64) -> LaidSolid {
         Profile::new("inflate", &[], 1.0).unwrap(),
         below,
         |_| Lay {
-            below: (0..count).collect(),
-            wraps: vec![],
-            behind: vec![],
-            clips: false,
             step,
-            invisible: 0.0,
-            bulge: 0.0,
-            segments: None,
-            form: LayForm::Ink,
-            toes: None,
-            girth: None,
-            root: None,
             is_line: true,
-            is_symmetric: false,
+            ..lay(LayForm::Ink, count)
         },
     )
+}
+
+/// How a body lies on the first so many of a pile.
+pub(super) fn lay(form: LayForm, below: usize) -> Lay {
+    Lay {
+        below: (0..below).collect(),
+        wraps: Vec::new(),
+        behind: Vec::new(),
+        clips: false,
+        step: 0.0,
+        invisible: 0.0,
+        bulge: 0.0,
+        segments: None,
+        form,
+        toes: None,
+        girth: None,
+        root: None,
+        is_line: false,
+        is_symmetric: false,
+    }
 }
 
 /// A solid in the plane of the drawing, by itself.
@@ -221,23 +230,15 @@ pub(super) fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body
         };
         let is_soft = kind != "default" && form != LayForm::Ink;
         let lay = (index > 0).then(|| Lay {
-            below: (0..index).collect(),
             wraps: (wraps && form == LayForm::Volume)
                 .then_some(index - 1)
                 .into_iter()
                 .collect(),
-            behind: Vec::new(),
             clips: is_soft,
             step: 0.004 * size,
-            invisible: 0.0,
             bulge: if is_soft { 0.3 } else { 0.0 },
-            segments: None,
-            form,
-            toes: None,
-            girth: None,
-            root: None,
             is_line: form == LayForm::Ink,
-            is_symmetric: false,
+            ..lay(form, index)
         });
         bodies.push(Body {
             is_detail: form != LayForm::Volume,
@@ -287,20 +288,9 @@ fn high_piles_grow_linearly() {
             let outline = moved(circle(30.0 - (index % 11) as f64, 64), at);
             Body {
                 lay: (index > 0).then(|| Lay {
-                    below: (0..index).collect(),
-                    wraps: vec![],
-                    behind: vec![],
-                    clips: false,
                     step: 0.01,
-                    invisible: 0.0,
                     bulge: 0.3,
-                    segments: None,
-                    form: LayForm::Skin,
-                    toes: None,
-                    girth: None,
-                    root: None,
-                    is_line: false,
-                    is_symmetric: false,
+                    ..lay(LayForm::Skin, index)
                 }),
                 is_detail: index > 0,
                 ..body(solid(outline, profile("inflate", &[])))
@@ -398,20 +388,9 @@ fn skin_of(
         ..body(solid(outline.clone(), inflate()))
     };
     let lay = Lay {
-        below: vec![0],
-        wraps: vec![],
-        behind: vec![],
-        clips: false,
         step: 0.05,
-        invisible: 0.0,
-        bulge: 0.0,
         segments: Some(8),
-        form: LayForm::BackSkin,
-        toes: None,
-        girth: None,
-        root: None,
-        is_line: false,
-        is_symmetric: false,
+        ..lay(LayForm::BackSkin, 1)
     };
     let skin = Body {
         depth: if is_behind { -depth } else { depth },

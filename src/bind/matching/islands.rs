@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
+use typed_index_collections::TiVec;
 
 use super::areas::Area;
 use super::node_groups::PartSource;
@@ -16,7 +17,7 @@ use crate::geometry::{
     Body, Outline, Polygon, area, bounds, connected, contains, measure, touching,
 };
 use crate::memo::{Memo, Same};
-use crate::svg::{Drawing, Shape};
+use crate::svg::{Drawing, Shape, ShapeId};
 
 /// How far apart islands are at least, as a share of the larger extent of their shape.
 const APART: f64 = 0.02;
@@ -36,18 +37,17 @@ pub(super) fn split(
     drawn: Vec<(PartSource, Area)>,
     memo: &Memo,
 ) -> Vec<(PartSource, Area)> {
-    let shape = |source: &PartSource| &drawing.shapes[source.shape];
+    let shapes = drawing.shapes.iter();
+    let is_pair: TiVec<ShapeId, bool> = shapes.map(names_a_pair).collect();
+    let can_split = |source: &PartSource| is_splittable(&drawing.shapes[source.shape]);
     let drawn = replaced(
         drawn,
-        |source, _| {
-            let shape = shape(source);
-            (is_splittable(shape) && names_a_pair(shape)).then_some(())
-        },
+        |source, _| (is_pair[source.shape] && can_split(source)).then_some(()),
         |keys| memo.get_each(keys, |(outline, ())| islands(&outline.0)),
     );
     let pieces = drawn
         .iter()
-        .filter(|(source, _)| !source.is_stroke && names_a_pair(shape(source)));
+        .filter(|(source, _)| !source.is_stroke && is_pair[source.shape]);
     let pieces: Vec<Arc<Outline>> = pieces.map(|(_, area)| Arc::clone(&area.outline)).collect();
     if pieces.len() < 2 || pieces.len() > MOST_PIECES {
         return drawn;
@@ -55,8 +55,7 @@ pub(super) fn split(
     replaced(
         drawn,
         |source, area| {
-            let shape = shape(source);
-            let may_lie_on_pairs = is_splittable(shape) && !names_a_pair(shape);
+            let may_lie_on_pairs = !is_pair[source.shape] && can_split(source);
             may_lie_on_pairs.then(|| owners(&area.outline, &pieces))
         },
         |keys| memo.get_each(keys, |(outline, owners)| by_owner(&outline.0, owners)),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use typed_index_collections::TiVec;
 
 use super::super::FigureContext;
-use super::nodes::Nodes;
+use super::nodes::{Nodes, RootedShapes};
 use super::overlaps::{Overlap, Scratch};
 use super::shapes::Shape;
 use super::{Cover, node_depths::quantile};
@@ -52,6 +52,7 @@ pub(super) fn find(
     context: &FigureContext<'_>,
     shapes: &[Shape],
     nodes: &Nodes,
+    figures: &RootedShapes,
     details: &[bool],
 ) -> Vec<Worn> {
     let parts = &context.bindings.parts;
@@ -63,7 +64,6 @@ pub(super) fn find(
     if garments.iter().all(Option::is_none) {
         return Vec::new();
     }
-    let figures = nodes.figures(shapes);
     let of_shape = |index: usize| {
         let shape = &shapes[index];
         let is_free = !shape.is_ink
@@ -123,13 +123,10 @@ pub(super) fn lay(
     shapes: &mut [Shape],
     worn: &[Worn],
     nodes: &Nodes,
+    figures: &RootedShapes,
     overlaps: &[Vec<Overlap>],
     covers: &mut [Cover],
 ) {
-    if worn.is_empty() {
-        return;
-    }
-    let figures = nodes.figures(shapes);
     for own in worn {
         let width = figures.width(nodes.of_shape[own.shape]);
         let mut girth = sections(&shapes[own.shape]);

@@ -30,7 +30,7 @@ use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
 
 use buried::Search;
 use node_depths::{Figure, NodeDepths, backdrops};
-use nodes::Nodes;
+use nodes::{Nodes, RootedShapes};
 use overlaps::{Overlap, Scratch, overlaps, ranks};
 use shapes::{Shape, shapes};
 
@@ -222,17 +222,18 @@ impl Layers {
             nodes.hang_on_trunks(&shapes, &overlaps, &details);
         }
         cords::lay(context, &mut shapes, &details);
-        let worn = girth::find(context, &shapes, &nodes, &details);
+        let figures = nodes.figures(&shapes);
+        let worn = girth::find(context, &shapes, &nodes, &figures, &details);
         let is_foot = |shape: &Shape| feet::toes(context, shape).is_some();
         describe(&mut shapes, &overlaps, is_foot, solid, &recent);
         let mut covers = covers(&shapes, &nodes, &overlaps, details, is_one);
-        girth::lay(&mut shapes, &worn, &nodes, &overlaps, &mut covers);
+        girth::lay(&mut shapes, &worn, &nodes, &figures, &overlaps, &mut covers);
         let spread: Vec<f64> = nodes
             .main
             .iter()
             .map(|part| context.bindings.attributes(*part).stack())
             .collect();
-        let room = room::room(context, &shapes, &nodes, &covers);
+        let room = room::room(context, &shapes, &nodes, &figures, &covers);
         let node_depths = if is_flat {
             NodeDepths::in_one_plane(&nodes, &room)
         } else {
@@ -259,7 +260,7 @@ impl Layers {
             }
             .place()
         };
-        let steps = steps(context, &shapes, &nodes, &overlaps, is_one);
+        let steps = steps(context, &shapes, &nodes, &figures, &overlaps, is_one);
         let arrangement = Arrangement {
             context,
             shapes: &shapes,
@@ -541,15 +542,15 @@ fn steps(
     context: &FigureContext<'_>,
     shapes: &[Shape],
     nodes: &Nodes,
+    rooted: &RootedShapes,
     overlaps: &[Vec<Overlap>],
     is_one: bool,
 ) -> Vec<f64> {
-    let root = nodes.roots();
     let figure = |shape: usize| {
         if is_one {
             0
         } else {
-            root[nodes.of_shape[shape]]
+            rooted.root(nodes.of_shape[shape])
         }
     };
     let mut figures: Vec<Option<(glam::DVec2, glam::DVec2)>> = vec![None; nodes.len().max(1)];

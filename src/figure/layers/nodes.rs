@@ -37,7 +37,7 @@ struct Walk {
 }
 
 /// What hangs on the same roots.
-pub(super) struct Figures {
+pub(super) struct RootedShapes {
     /// Per node the one that carries all that it hangs on.
     root: Vec<usize>,
     /// Per root the shapes of its figure, and its width, drawing units.
@@ -45,7 +45,12 @@ pub(super) struct Figures {
     width: Vec<f64>,
 }
 
-impl Figures {
+impl RootedShapes {
+    /// The node that carries all that a node hangs on.
+    pub(super) fn root(&self, node: usize) -> usize {
+        self.root[node]
+    }
+
     /// The shapes of the figure of a node, in the order of drawing.
     pub(super) fn shapes(&self, node: usize) -> &[usize] {
         &self.shapes[self.root[node]]
@@ -156,7 +161,7 @@ impl Nodes {
     }
 
     /// The figures of a drawing.
-    pub(super) fn figures(&self, shapes: &[Shape]) -> Figures {
+    pub(super) fn figures(&self, shapes: &[Shape]) -> RootedShapes {
         let root = self.roots();
         let mut of_root: Vec<Vec<usize>> = vec![Vec::new(); self.len()];
         let mut ends = vec![[f64::INFINITY, f64::NEG_INFINITY]; self.len()];
@@ -166,7 +171,7 @@ impl Nodes {
             of_root[root].push(index);
             ends[root] = [ends[root][0].min(low.x), ends[root][1].max(high.x)];
         }
-        Figures {
+        RootedShapes {
             root,
             shapes: of_root,
             width: ends.into_iter().map(|[low, high]| high - low).collect(),

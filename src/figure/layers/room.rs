@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::super::FigureContext;
-use super::nodes::Nodes;
+use super::nodes::{Nodes, RootedShapes};
 use super::overlaps::Scratch;
 use super::shapes::Shape;
 use super::{Cover, node_depths::quantile};
@@ -25,13 +25,13 @@ pub(super) fn room(
     context: &FigureContext<'_>,
     shapes: &[Shape],
     nodes: &Nodes,
+    figures: &RootedShapes,
     covers: &[Cover],
 ) -> Vec<f64> {
     let parts = &context.bindings.parts;
     if !context.bindings.is_first_look {
         return vec![0.0; nodes.len()];
     }
-    let figures = nodes.figures(shapes);
     // Names are read once: many nodes are compared with each arm.
     let is_garment = nodes
         .main

@@ -11,7 +11,7 @@ use super::super::heights::Heights;
 use super::super::laws::config;
 use super::super::tests::{outline, profile};
 use super::super::{Body, LaidSolid, Lay, LayForm, Pile, Sides};
-use super::{Drawn, body, drawn, moved, solid, stack};
+use super::{Drawn, body, drawn, lay, moved, solid, stack};
 use crate::geometry::{Outline, Ring, bounds};
 use crate::scene::{Surface, SurfaceSource};
 
@@ -227,20 +227,10 @@ proptest! {
         let bodies = all.enumerate().map(|(index, (radii, at, turn))| Body {
             is_detail: index > 0,
             lay: (index > 0).then(|| Lay {
-                below: (0..index).collect(),
-                wraps: vec![],
-                behind: vec![],
                 clips: true,
                 step,
-                invisible: 0.0,
                 bulge: 0.3,
-                segments: None,
-                form: LayForm::Skin,
-                toes: None,
-                girth: None,
-                root: None,
-                is_line: false,
-                is_symmetric: false,
+                ..lay(LayForm::Skin, index)
             }),
             ..body(solid(moved(outline(vec![ellipse(radii, turn)]), at), profile("inflate", &[])))
         });
