@@ -2,7 +2,7 @@ mod depths;
 
 use std::sync::Arc;
 
-use glam::{DAffine2, DVec2, Vec3};
+use glam::{DAffine2, DVec2, DVec3, Vec3};
 use proptest::prelude::*;
 
 use super::heights::Heights;
@@ -412,6 +412,26 @@ fn skin_of(
     Some((surface(0), surface(1)))
 }
 
+/// The share of a skin's triangles whose middles are elsewhere than on a skin that is its mirror image in the plane at `depth`. Their
+/// points may differ in number: how finely a skin follows a solid is decided by heights, which are rounded differently at other depths.
+fn unlike(front: &Surface, behind: &Surface, depth: f64) -> f64 {
+    let heights = Heights::of(front);
+    let behind = behind.mirrored();
+    let corner = |corner: u32| Vec3::from(behind.positions[corner as usize]).as_dvec3();
+    let middles = behind.triangles.iter().map(|triangle| {
+        let [a, b, c] = triangle.map(corner);
+        let is_front = (b - a).cross(c - a).z > 0.0;
+        is_front.then(|| (a + b + c) / 3.0)
+    });
+    let middles: Vec<DVec3> = middles.flatten().collect();
+    let is_on = |middle: &&DVec3| {
+        let height = heights.at(middle.truncate());
+        height.is_some_and(|height| (height - middle.z - 2.0 * depth).abs() < 1e-3)
+    };
+    let alike = middles.iter().filter(is_on).count();
+    1.0 - alike as f64 / middles.len().max(1) as f64
+}
+
 /// A skin behind a solid is the mirror image of one in front of it, and hides what it covers from behind.
 #[test]
 fn skins_behind_mirror_those_in_front() {
@@ -426,12 +446,8 @@ fn skins_behind_mirror_those_in_front() {
         lawful(&behind).map_err(TestCaseError::fail)?;
         let share = swallowed(&behind.mirrored(), &volume.mirrored());
         prop_assert!(share < 0.01, "{share} of the skin is inside");
-        prop_assert_eq!(front.positions.len(), behind.positions.len());
-        for (one, other) in front.positions.iter().zip(&behind.positions) {
-            let depths = f64::from(one[2]) + f64::from(other[2]) - 2.0 * depth;
-            prop_assert!(depths.abs() < 1e-4, "{one:?} in front, {other:?} behind");
-            prop_assert_eq!(one[..2].to_vec(), other[..2].to_vec());
-        }
+        let share = unlike(&front, &behind, depth);
+        prop_assert!(share < 0.01, "{share} of the skin differs");
         Ok(true)
     });
 }
