@@ -92,6 +92,7 @@ mod anatomy;
 mod assemble;
 mod assignment;
 mod billboard;
+mod bend;
 mod bind;
 #[cfg(feature = "cli")]
 mod cli;

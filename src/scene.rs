@@ -25,7 +25,7 @@ pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use camera::{Camera, CameraProjection};
 pub use deferred::SurfaceSource;
 pub use size::Size;
-pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPatch, TooManyJoints};
+pub use skin::{Influence, MAX_JOINTS, RigidTransform, Skin, SkinnedPatch, TooManyJoints};
 pub use turn::{Turn, ViewId, direction, view_axes};
 #[doc(no_inline)]
 pub use typed_index_collections::TiVec;
@@ -124,6 +124,9 @@ pub struct Node {
     pub rotation: DQuat,
     /// Its mesh.
     pub mesh: Option<MeshId>,
+    /// The nodes that bend the mesh together with this one, all below it: what the mesh's [`Influence`]s count from 1. Empty if the
+    /// node alone moves the mesh.
+    pub bones: Vec<NodeId>,
     /// Its camera. Such a node is a root, without mesh and children: a camera is no part of the model.
     pub camera: Option<CameraId>,
     /// How its mesh depends on the viewer.
@@ -248,7 +251,7 @@ impl Primitive {
     }
 }
 
-/// An indexed triangle mesh. All lists of corners have the same length, except that `uvs` and `joints` may be empty.
+/// An indexed triangle mesh. All lists of corners have the same length, except that `uvs` and `influences` may be empty.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Surface {
     /// Positions, in the node's frame, metres.
@@ -257,8 +260,8 @@ pub struct Surface {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates, origin at the image's top left.
     pub uvs: Vec<[f32; 2]>,
-    /// In a skin, the joint that each corner is bound to with its full weight.
-    pub joints: Vec<u16>,
+    /// The joints that move each corner, in a skin or in a node with bones.
+    pub influences: Vec<Influence>,
     /// Morph targets: how far the corners of each are from `positions`, metres. The weights of the mesh say how much of it is
     /// added.
     pub targets: Vec<Vec<[f32; 3]>>,
@@ -280,7 +283,7 @@ impl Surface {
         if !self.uvs.is_empty() {
             self.uvs.resize(self.positions.len(), [0.0; 2]);
         }
-        self.joints.extend_from_slice(&other.joints);
+        self.influences.extend_from_slice(&other.influences);
         let targets = self.targets.len().max(other.targets.len());
         self.targets.resize_with(targets, Vec::new);
         for (index, target) in self.targets.iter_mut().enumerate() {
@@ -304,7 +307,7 @@ impl Surface {
             positions: across(&self.positions),
             normals: across(&self.normals),
             uvs: self.uvs.clone(),
-            joints: self.joints.clone(),
+            influences: self.influences.clone(),
             targets: self.targets.iter().map(|target| across(target)).collect(),
             triangles: self
                 .triangles

@@ -11,7 +11,7 @@ mod vocabulary;
 pub(crate) use clothes::dress;
 pub(crate) use role::{Role, sides};
 pub(crate) use things::{
-    Garment, Thing, end_of_vehicle, garment, is_bike, is_disc, is_light, is_sheet,
+    Garment, Thing, end_of_vehicle, garment, is_bike, is_disc, is_light, is_sheet, is_supple,
     says_far_or_near, thing,
 };
 pub(crate) use vocabulary::{Term, is_several_limbs, terms};

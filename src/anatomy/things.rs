@@ -105,6 +105,15 @@ pub(crate) fn is_light(name: &str) -> bool {
     has_word(name, LIGHTS)
 }
 
+/// Words for what bends all along its length, like a rope; katakana words are written in hiragana here.
+const SUPPLE: &str = "tail tentacle snake serpent worm antenna antennae feeler braid ponytail rope hose 尾 尻尾 しっぽ 触手 触角 蛇 へび \
+     三つ編み みつあみ";
+
+/// Whether a name is that of something that bends all along its length, like a rope.
+pub(crate) fn is_supple(name: &str) -> bool {
+    has_word(name, SUPPLE)
+}
+
 /// Words for what is thin and limp; katakana words are written in hiragana here.
 const SHEETS: &str = "cape cloak wing leaf petal flag banner paper veil curtain sail kite page cloth towel blanket マント まんと 翼 つばさ \
      羽 はね 羽根 旗 はた 葉 葉っぱ 花びら 紙 べーる かーてん 帆 布 ぬの";

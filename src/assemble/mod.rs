@@ -7,9 +7,12 @@ mod materials;
 mod textures;
 mod world;
 
+use std::sync::Arc;
+
 use typed_index_collections::{TiVec, ti_vec};
 
 use crate::billboard::{self, Character, RegionMaterials};
+use crate::bend::Bend;
 use crate::bind::{Bindings, PartId};
 use crate::diagnostic::Diagnostic;
 use crate::figure::{Behind, FigureNodes, Figures, FormInFigure, LinkedModels, NodeDepth};
@@ -78,6 +81,7 @@ pub(crate) fn assemble(
         world,
         figures,
         facings,
+        bends,
         of_part,
         ..
     } = build(
@@ -91,6 +95,7 @@ pub(crate) fn assemble(
     );
     let nodes = figures.nodes.iter().map(|node| RestNode {
         part: node.part,
+        bone: node.bone,
         is_rooted: node.parent.is_none(),
         is_mirrored: node.is_mirrored,
         depth: node.depth,
@@ -102,6 +107,7 @@ pub(crate) fn assemble(
         world: &world,
         frames: &figures.frames,
         parts_of_node: &figures.parts_of_node,
+        bends: &bends,
         thicknesses: &figures.thicknesses,
     };
     let mut materials = RegionMaterials::new(&of_part, false);
@@ -183,6 +189,8 @@ struct Built {
     world: WorldTransform,
     figures: FigureNodes,
     facings: Vec<FigureFacing>,
+    /// Per main part how it bends.
+    bends: TiVec<PartId, Option<Arc<Bend>>>,
     /// Per part its material.
     of_part: TiVec<PartId, PartMaterial>,
     of_looks: LookMaterials,
@@ -202,12 +210,15 @@ fn build(
     let world = world::world_transform(bindings, &layers);
     let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
     let mut found = Vec::new();
-    let ((figures, facings), materials) = rayon::join(
+    let ((figures, facings, bends), materials) = rayon::join(
         || {
             let facings = rig::facings(drawing, bindings);
             let seen = rig::seen(bindings, &facings);
-            let figures = Figures::lay_out(drawing, bindings, seen, &world, memo, &mut found);
-            (figures, facings)
+            let bends = rig::bends(drawing, bindings, &facings);
+            let bent = bends.clone();
+            let figures =
+                Figures::lay_out(drawing, bindings, seen, bent, &world, memo, &mut found);
+            (figures, facings, bends)
         },
         || {
             Materials::collect(
@@ -247,6 +258,7 @@ fn build(
         world,
         figures,
         facings,
+        bends,
         of_part,
         of_looks,
     }

@@ -42,6 +42,9 @@ fn check_nodes(scene: &Scene) -> io::Result<()> {
             .mesh
             .is_some_and(|mesh| mesh >= scene.meshes.next_key());
         refuse(is_beyond, || wrong("a mesh out of range"))?;
+        refuse(!node.bones.iter().all(in_order), || {
+            wrong("a bone that is not below it")
+        })?;
     }
     let mut roots = scene.roots.iter();
     refuse(
@@ -170,8 +173,8 @@ fn check_animation(animation: &Animation, nodes: &TiSlice<NodeId, Node>) -> io::
 /// Refuses an invalid surface with triangles, and returns the bounding box of a valid one. `joints` is the number of joints.
 pub(super) fn surface(surface: &Surface, joints: usize) -> io::Result<[[f32; 3]; 2]> {
     let vertices = surface.positions.len();
-    let (normals, uvs, own_joints) = (&surface.normals, &surface.uvs, &surface.joints);
-    let lengths = [normals.len(), uvs.len(), own_joints.len()];
+    let (normals, uvs, influences) = (&surface.normals, &surface.uvs, &surface.influences);
+    let lengths = [normals.len(), uvs.len(), influences.len()];
     let mut targets = surface.targets.iter();
     let is_whole = targets.all(|target| target.len() == vertices)
         && lengths.iter().all(|length| [0, vertices].contains(length));
@@ -183,7 +186,8 @@ pub(super) fn surface(surface: &Surface, joints: usize) -> io::Result<[[f32; 3];
     let is_beyond =
         greatest.is_none_or(|at| at as usize >= vertices) || vertices > u32::MAX as usize;
     refuse(is_beyond, || "a surface with a vertex out of range")?;
-    let is_beyond = own_joints.iter().any(|joint| usize::from(*joint) >= joints);
+    let beyond = |joint: &u16| usize::from(*joint) >= joints;
+    let is_beyond = influences.iter().any(|own| own.joints.iter().any(beyond));
     refuse(is_beyond, || "a surface with a joint out of range")?;
     // Without an early end, so that many numbers are tested at once.
     let is_finite = |rows: &[f32]| rows.iter().fold(true, |all, row| all & row.is_finite());

@@ -201,7 +201,7 @@ mod tests {
             positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.5, 0.0]],
             normals: vec![[0.0, 0.0, 1.0]; 3],
             uvs,
-            joints: vec![],
+            influences: vec![],
             targets: Vec::new(),
             triangles: vec![[0, 1, 2]],
         };

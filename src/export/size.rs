@@ -75,18 +75,23 @@ impl Extent {
 pub(super) struct Placed<'a> {
     pub(super) primitives: Vec<(&'a Primitive, MeshId)>,
     poses: TiVec<MeshId, Vec<RigidTransform>>,
+    /// Per mesh how many joints can move its corners.
+    joints: TiVec<MeshId, usize>,
 }
 
 impl<'a> Placed<'a> {
     pub(super) fn of(scene: &'a Scene) -> Self {
         let mut poses: TiVec<MeshId, Vec<RigidTransform>> = ti_vec![vec![]; scene.meshes.len()];
+        let mut joints: TiVec<MeshId, usize> = ti_vec![0; scene.meshes.len()];
         for (node, pose) in scene.nodes.iter().zip(scene.rest()) {
             if let Some(mesh) = node.mesh {
                 poses[mesh].push(pose);
+                joints[mesh] = 1 + node.bones.len();
             }
         }
         if let Some(skin) = &scene.skin {
             poses[skin.mesh].push(RigidTransform::IDENTITY);
+            joints[skin.mesh] = skin.joints.len();
         }
         let meshes = scene.meshes.iter_enumerated();
         let primitives = meshes
@@ -94,7 +99,13 @@ impl<'a> Placed<'a> {
         Self {
             primitives: primitives.collect(),
             poses,
+            joints,
         }
+    }
+
+    /// How many joints can move the corners of a mesh.
+    pub(super) fn joints(&self, mesh: MeshId) -> usize {
+        self.joints[mesh]
     }
 
     /// Where a mesh is.
@@ -106,12 +117,11 @@ impl<'a> Placed<'a> {
 /// The size of a scene; its surfaces are made, and not kept.
 pub(super) fn measured(scene: &Scene) -> std::io::Result<Option<Size>> {
     let placed = Placed::of(scene);
-    let joints = scene.skin.as_ref().map_or(0, |skin| skin.joints.len());
     let of_primitive = |(primitive, mesh): &(&Primitive, MeshId)| -> std::io::Result<Extent> {
         let surface = primitive.surface();
         let mut extent = Extent::default();
         if !surface.triangles.is_empty() {
-            let bounds = check::surface(&surface, joints)?;
+            let bounds = check::surface(&surface, placed.joints(*mesh))?;
             for pose in placed.poses(*mesh) {
                 extent.add(&surface.positions, bounds, pose);
             }

@@ -21,9 +21,10 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
+use crate::bend::{Bend, BentSurface, Bones};
 use crate::bind::{Bindings, PartId, Seen, SetBy, VehiclePart};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Frame, Thickness};
+use crate::geometry::{Frame, Thickness, y_up};
 use crate::index::par_keys;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
@@ -88,6 +89,8 @@ pub(crate) struct Figures<'a> {
 /// A deviation that nobody sees, as a share of the larger extent of all parts: a twentieth of a pixel in a picture a thousand
 /// pixels wide.
 const INVISIBLE: f64 = 5e-5;
+/// What is smaller than this share of the width of a part that bends does not bend with it.
+const RIGID: f64 = 0.5;
 /// How far ink comes out at most, as a share of its stroke's width.
 const MAX_INK_STEP: f64 = 0.5;
 
@@ -112,16 +115,17 @@ pub(crate) struct FigureNodes {
 }
 
 impl<'a> Figures<'a> {
-    /// Lays out the figures of a drawing. Per main part, `seen` says from where it is drawn.
+    /// Lays out the figures of a drawing. Per main part, `seen` says from where it is drawn, and `bends` how it bends, if it does.
     pub(crate) fn lay_out(
         drawing: &'a Drawing,
         bindings: &'a Bindings,
         seen: TiVec<PartId, Seen>,
+        bends: TiVec<PartId, Option<Arc<Bend>>>,
         world: &WorldTransform,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let context = FigureContext::new(drawing, bindings, seen);
+        let context = FigureContext::new(drawing, bindings, seen, bends);
         let parts = bindings.parts.raw.par_iter().with_min_len(GRAIN);
         let frames = parts.map(|part| {
             let solid = Frame::new(&part.measure, part.origin);
@@ -200,6 +204,7 @@ impl<'a> Figures<'a> {
         backs: &FxHashMap<PartId, Vec<LaidSolid>>,
         world: &WorldTransform,
     ) -> Option<Mesh> {
+        let bones = self.bones(main, world);
         let mut primitives: Vec<Primitive> = Vec::new();
         let mut add = |material: MaterialId, patch: SurfacePatch| {
             let mut same = primitives.iter_mut().filter(|p| p.material == material);
@@ -225,13 +230,49 @@ impl<'a> Figures<'a> {
             } else if let Some((material, texture)) = materials[part]
                 && let Some(patch) = self.patch(main, part, texture, world)
             {
-                add(material, patch);
+                let bend = |patch| self.bent(main, part, bones.as_ref(), patch);
+                add(material, bend(patch));
                 for skin in backs.get(&part).into_iter().flatten() {
-                    add(material, SurfacePatch::Deferred(Arc::new(skin.clone())));
+                    let skin = SurfacePatch::Deferred(Arc::new(skin.clone()));
+                    add(material, bend(skin));
                 }
             }
         }
         (!primitives.is_empty()).then_some(Mesh { primitives })
+    }
+
+    /// The bones of a main part, in its node's frame; `None` if it does not bend.
+    fn bones(&self, main: PartId, world: &WorldTransform) -> Option<Arc<Bones>> {
+        let bend = self.context.bends[main].as_deref()?;
+        let frame = self.frames[main].node;
+        let place = |point: DVec2| frame.to_local(point) * world.scale;
+        Some(Arc::new(Bones::new(bend, place, world.scale)))
+    }
+
+    /// A surface of a part in the frame of its node, bound to the node's bones. What is smaller than half the width of what bends, such
+    /// as a button, follows one of them.
+    fn bent(
+        &self,
+        main: PartId,
+        part: PartId,
+        bones: Option<&Arc<Bones>>,
+        patch: SurfacePatch,
+    ) -> SurfacePatch {
+        let (Some(bones), SurfacePatch::Deferred(solid)) = (bones, &patch) else {
+            return patch;
+        };
+        let Some(bend) = self.context.bends[main].as_deref() else {
+            return patch;
+        };
+        let small = RIGID * bend.width();
+        let measure = &self.context.bindings.parts[part].measure;
+        let is_small = part != main && (measure.bounds.1 - measure.bounds.0).max_element() < small;
+        let rigid = is_small.then(|| bend.node_at(y_up(measure.center)) as u16);
+        SurfacePatch::Deferred(Arc::new(BentSurface {
+            solid: Arc::clone(solid),
+            bones: Arc::clone(bones),
+            rigid,
+        }))
     }
 
     /// The solid of a part in the frame of its node.
@@ -273,6 +314,8 @@ struct FigureContext<'a> {
     bindings: &'a Bindings,
     /// Per main part from where it is drawn.
     seen: TiVec<PartId, Seen>,
+    /// Per main part how it bends; `None` for one that is rigid.
+    bends: TiVec<PartId, Option<Arc<Bend>>>,
     /// Per part how far it reaches to either side of its plane at most where no string says its `Shape`, drawing units.
     reaches: TiVec<PartId, Option<f64>>,
     /// Per part what it is of a vehicle.
@@ -282,7 +325,12 @@ struct FigureContext<'a> {
 }
 
 impl<'a> FigureContext<'a> {
-    fn new(drawing: &'a Drawing, bindings: &'a Bindings, seen: TiVec<PartId, Seen>) -> Self {
+    fn new(
+        drawing: &'a Drawing,
+        bindings: &'a Bindings,
+        seen: TiVec<PartId, Seen>,
+        bends: TiVec<PartId, Option<Arc<Bend>>>,
+    ) -> Self {
         let bounds = bindings.parts.iter().map(|part| part.measure.bounds);
         let bounds = bounds.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
         let extent = bounds.map_or(0.0, |(low, high)| (high - low).max_element());
@@ -292,6 +340,7 @@ impl<'a> FigureContext<'a> {
             reaches: depth_limits::reaches(bindings, &seen),
             of_vehicle: bindings.vehicle_parts(&seen),
             seen,
+            bends,
             invisible: INVISIBLE * extent,
         }
     }

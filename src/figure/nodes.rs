@@ -17,6 +17,8 @@ use crate::threads::GRAIN;
 pub(crate) struct PartNode {
     /// The part.
     pub part: PartId,
+    /// Which node of the part it is: 0 is its own one, others bend it.
+    pub bone: usize,
     /// The parent node; `None` for a root.
     pub parent: Option<NodeId>,
     /// Whether the node is mirrored in the drawing plane.
@@ -38,11 +40,13 @@ pub(super) fn add(
         let above = node.parent.map_or(0.0, |parent| nodes[parent].depth);
         nodes.push(PartNode {
             part: node.part,
+            bone: node.bone,
             parent: node.parent,
             is_mirrored: node.is_mirrored,
             depth: above + node.position.z,
         });
     }
+    let bones: TiVec<NodeId, usize> = tree.iter().map(|node| node.bone).collect();
     let to_scene = |node: FigureNode| {
         let rotation = DQuat::from_rotation_z(node.angle);
         let (translation, rotation) = match node.parent {
@@ -57,7 +61,8 @@ pub(super) fn add(
             name: node.name,
             translation,
             rotation,
-            provenance: Some(Provenance {
+            // Bones belong to the part that their first node shows.
+            provenance: (node.bone == 0).then(|| Provenance {
                 element: context.drawing.shapes[part.shape].element.id.clone(),
                 string: string.map(|text| text.as_str().to_owned()),
             }),
@@ -77,7 +82,12 @@ pub(super) fn add(
             Some(parent) => scene.nodes[parent].children.push(id),
             None => scene.roots.push(id),
         }
-        scene.nodes[id].mesh = meshes.place(node.part, node.is_mirrored, &mut scene.meshes);
+        if bones[id] == 0 {
+            scene.nodes[id].mesh = meshes.place(node.part, node.is_mirrored, &mut scene.meshes);
+            let after = (usize::from(id) + 1..).map(NodeId::from);
+            let own = after.take_while(|next| bones.get(*next).is_some_and(|bone| *bone > 0));
+            scene.nodes[id].bones = own.collect();
+        }
     }
     (nodes, node_of_part)
 }

@@ -6,6 +6,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::layers::Layers;
 use super::{FigureContext, PartFrames};
+use crate::geometry::Frame;
 use crate::bind::{PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::NodeId;
@@ -19,6 +20,8 @@ pub(super) struct FigureNode {
     pub(super) name: String,
     /// The part that it shows.
     pub(super) part: PartId,
+    /// Which node of the part it is: 0 is its own one, others bend it.
+    pub(super) bone: usize,
     /// The parent node, which comes before it.
     pub(super) parent: Option<NodeId>,
     /// Its position in the parent's frame, drawing units, y up.
@@ -33,8 +36,8 @@ pub(super) struct FigureNode {
 #[derive(Clone, Copy)]
 struct Pending {
     part: PartId,
-    /// The parent node.
-    parent: Option<NodeId>,
+    /// The parent node, and its frame.
+    parent: Option<(NodeId, Frame)>,
     is_mirrored: bool,
     /// How many of the part and its ancestors are the copies that `-d` makes.
     copies: usize,
@@ -61,8 +64,9 @@ pub(super) fn nodes(
     let mut mains = parts
         .keys()
         .filter(|part| parts[*part].kind == PartKind::Main);
-    let has_copies = mains.any(is_doubled);
-    let taken = parts.iter().filter(|_| has_copies);
+    // Copies and bones are named after their parts.
+    let has_more = mains.any(is_doubled) || context.bends.iter().any(Option::is_some);
+    let taken = parts.iter().filter(|_| has_more);
     let mut names: FxHashMap<String, usize> = taken.map(|part| (part.name.clone(), 1)).collect();
     let mut nodes: TiVec<NodeId, FigureNode> = TiVec::with_capacity(parts.len());
     // A stack: the copy of a part is pushed first, so that it comes after the original and all below it.
@@ -101,10 +105,13 @@ pub(super) fn nodes(
             node.name = free_name(node.name, &mut names);
         }
         let id = nodes.push_and_get_key(node);
+        let chain = bones(context, frames, pending, id, &mut names, &mut nodes);
         for child in children[pending.part].iter().rev() {
+            let bend = context.bends[pending.part].as_deref();
+            let bone = bend.map_or(0, |bend| bend.node_at(frames[*child].node.origin));
             let child = Pending {
                 part: *child,
-                parent: Some(id),
+                parent: Some(chain[bone]),
                 ..pending
             };
             push(&mut stack, child);
@@ -131,6 +138,42 @@ fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
     }
 }
 
+/// Adds the nodes that bend a part, each the child of the one before. Returns all nodes of the part with their frames, its own one first.
+fn bones(
+    context: &FigureContext<'_>,
+    frames: &TiSlice<PartId, PartFrames>,
+    pending: Pending,
+    own: NodeId,
+    names: &mut FxHashMap<String, usize>,
+    nodes: &mut TiVec<NodeId, FigureNode>,
+) -> Vec<(NodeId, Frame)> {
+    let mut chain = vec![(own, frames[pending.part].node)];
+    let Some(bend) = context.bends[pending.part].as_deref() else {
+        return chain;
+    };
+    let suffix = ".back".repeat(pending.copies);
+    let called = bend.names(&context.bindings.parts[pending.part].name);
+    for (number, (bone, name)) in bend.nodes.iter().zip(called).enumerate() {
+        let (parent, above) = chain[number];
+        let frame = Frame {
+            origin: bone.position,
+            center: bone.position,
+            angle: bone.angle,
+        };
+        let id = nodes.push_and_get_key(FigureNode {
+            name: free_name(format!("{name}{suffix}"), names),
+            part: pending.part,
+            bone: number + 1,
+            parent: Some(parent),
+            position: above.to_local(frame.origin).extend(0.0),
+            angle: frame.angle - above.angle,
+            is_mirrored: pending.is_mirrored,
+        });
+        chain.push((id, frame));
+    }
+    chain
+}
+
 fn node(
     context: &FigureContext<'_>,
     frames: &TiSlice<PartId, PartFrames>,
@@ -141,17 +184,15 @@ fn node(
     let own = &frames[pending.part].node;
     let offset = layers.node_step(pending.part, part.parent);
     let depth = if pending.is_mirrored { -offset } else { offset };
-    let (position, angle) = match part.parent {
-        Some(parent) if pending.parent.is_some() => (
-            frames[parent].node.to_local(own.origin),
-            own.angle - frames[parent].node.angle,
-        ),
-        _ => (own.origin, own.angle),
+    let (position, angle) = match &pending.parent {
+        Some((_, above)) => (above.to_local(own.origin), own.angle - above.angle),
+        None => (own.origin, own.angle),
     };
     FigureNode {
         name: format!("{}{}", part.name, ".back".repeat(pending.copies)),
         part: pending.part,
-        parent: pending.parent,
+        bone: 0,
+        parent: pending.parent.map(|(parent, _)| parent),
         position: position.extend(depth),
         angle,
         is_mirrored: pending.is_mirrored,

@@ -47,6 +47,8 @@ pub struct FigurePart {
     pub drawing_order: usize,
     /// The joints that its string names with `Bone`; empty if it names none.
     pub bones: Vec<String>,
+    /// How many bones it has inside: 1 if it is rigid; 0 means the same.
+    pub bends: usize,
     /// What its string says with `Carry`, if it is a limb; `None` if it says nothing.
     pub carry: Option<Carry>,
 }

@@ -58,6 +58,7 @@ keywords! {
     Depth = views::DEPTH;
     Bone = motion::BONE;
     Carry = motion::CARRY;
+    Bend = motion::BEND;
     Swing = motion::SWING;
     Facing = motion::FACING;
     Mark = motion::MARK;

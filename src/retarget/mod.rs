@@ -83,6 +83,19 @@ pub struct RigPart {
     pub is_leg: bool,
     /// Whether it swings, and how stiff it is: 1 is like hair, 4 returns twice as fast.
     pub swing: Option<f64>,
+    /// For a bone inside another part, that part, which comes before it.
+    pub inside: Option<FigurePartId>,
+    /// For a bone that makes a share of the turn of a joint, whose it is.
+    pub shared: Option<SharedTurn>,
+}
+
+/// The turn of a joint that several bones share.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SharedTurn {
+    /// The bones before the joint and after it.
+    pub between: [FigurePartId; 2],
+    /// The share that is made up to here, 0 to 1.
+    pub share: f64,
 }
 
 /// A clip retargeted to a rig, frame by frame.

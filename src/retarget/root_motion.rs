@@ -251,7 +251,8 @@ fn leg_length(rig: &Rig, landmarks: &Landmarks, end: FigurePartId) -> f64 {
     let above = |part: &FigurePartId| {
         let parent = rig.parts[*part].parent?;
         let above = &rig.parts[parent];
-        (above.is_leg && above.drive.is_some()).then_some(parent)
+        let is_moving = above.drive.is_some() || above.shared.is_some();
+        (above.is_leg && is_moving).then_some(parent)
     };
     std::iter::successors(Some(end), above)
         // Parents that form a cycle have no top.

@@ -5,7 +5,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::axes::Axes;
 use super::rest_pose::RestPose;
-use super::{Rig, RigPart, Source};
+use super::{Rig, RigPart, SharedTurn, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
 use crate::mocap::turns::{continuous, damp};
@@ -41,6 +41,33 @@ impl Rotations {
     ) {
         self.own[part] = Some(turns);
         self.carry(rig, order);
+    }
+
+    /// Shares the turns of joints among the bones that bend a part there.
+    pub(super) fn share(&mut self, rig: &Rig, order: &[FigurePartId]) {
+        let mut is_shared = false;
+        for part in order {
+            let Some(SharedTurn { between, share }) = rig.parts[*part].shared else {
+                continue;
+            };
+            let [before, after] = between;
+            let Some(frames) = self.own[after].as_ref().map(Vec::len) else {
+                continue;
+            };
+            let [from_rest, to_rest, rest] =
+                [before, after, *part].map(|part| rig.parts[part].node.rotation);
+            let turns = (0..frames).map(|frame| {
+                let from = self.at(before, frame) * from_rest.inverse();
+                let to = self.at(after, frame) * to_rest.inverse();
+                (from.slerp(to, share) * rest).normalize()
+            });
+            let turns = turns.collect();
+            self.own[*part] = Some(turns);
+            is_shared = true;
+        }
+        if is_shared {
+            self.carry(rig, order);
+        }
     }
 
     fn carry(&mut self, rig: &Rig, order: &[FigurePartId]) {
@@ -82,7 +109,7 @@ impl Rotations {
     ) {
         let ratio = |part: FigurePartId| {
             ratios
-                .get(part)
+                .get(rig.parts[part].inside.unwrap_or(part))
                 .copied()
                 .flatten()
                 .filter(|ratio| *ratio != 1.0)
@@ -166,6 +193,7 @@ pub(super) fn rotations(
         carrier: ti_vec![(None, DQuat::IDENTITY); count],
     };
     rotations.carry(source.rig, order);
+    rotations.share(source.rig, order);
     rotations
 }
 

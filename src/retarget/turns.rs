@@ -116,6 +116,7 @@ impl<'a> Turns<'a> {
             self.frame_time,
             &mut rotations,
         );
+        rotations.share(self.rig, &self.order);
         RetargetedClip {
             rotations: self.node_rotations(&rotations),
             translations: self.node_translations(&rotations, &root_motion.path),

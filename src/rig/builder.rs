@@ -7,6 +7,7 @@ use glam::DVec3;
 use typed_index_collections::TiVec;
 
 use super::Context;
+use super::bones;
 use super::diagnostics::{self, MatchProblems};
 use super::figure_clip::{self, FigureClip};
 use super::figures::FigureGroup;
@@ -247,7 +248,7 @@ impl<'a> ClipBuilder<'a> {
                 plan: found.plan,
             }),
             filmed: filmed.unwrap_or_default(),
-            order: group.parts.clone(),
+            order: bones::nodes(group, &rig),
             retargeted,
             measured,
             animated: Arc::clone(&self.animated),
@@ -288,7 +289,7 @@ impl<'a> ClipBuilder<'a> {
         rig: &Arc<Rig>,
         performance: Option<&FoundPerformance<'_>>,
     ) -> Arc<RetargetedClip> {
-        let ratios = performance.map(|found| found.channels.ratios(&found.plan, matched, rig));
+        let ratios = performance.map(|found| found.channels.ratios(&found.plan, matched));
         let ratios = ratios.unwrap_or_default();
         let plan = performance.map(|found| &found.plan);
         let key = RetargetKey {

@@ -20,6 +20,8 @@ pub(crate) struct FigureFacing {
     pub root: PartId,
     /// All its parts that are in the hierarchy.
     pub parts: Vec<PartId>,
+    /// What those of them are that have a label.
+    pub labels: Vec<(PartId, Label)>,
     /// Those of them that are limbs.
     pub limbs: Vec<PartId>,
     /// Those of them that belong to a face that shows both eyes, which its figure has only once.
@@ -58,7 +60,7 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
     let groups = figures::find(bindings);
     let groups = groups.into_iter().filter(|group| group.parts.len() > 1);
     let found = groups.filter_map(|group| {
-        let figure = rigging::figure(drawing, bindings, &parts_of_node, &group);
+        let figure = rigging::figure(drawing, bindings, &parts_of_node, &group, |_| 1);
         let labeled = label_drawn(&figure);
         let labels = group.parts.iter().zip(&labeled.labels);
         let is_limb = |label: &Label| label.class.is_limb();
@@ -74,6 +76,7 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
         let is_figure = has_limbs || found.by_string || found.is_vehicle || shows_face;
         is_figure.then(|| FigureFacing {
             root: group.root,
+            labels: labels_of(&group.parts, &labeled),
             limbs,
             face: face(&figure, &labeled, &group.parts),
             has_names: labeled.has_names || labeled.facing.is_vehicle,
@@ -82,6 +85,16 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
         })
     });
     found.collect()
+}
+
+fn labels_of(
+    parts: &TiSlice<FigurePartId, PartId>,
+    labeled: &LabeledFigure,
+) -> Vec<(PartId, Label)> {
+    let labels = parts.iter().zip(&labeled.labels);
+    labels
+        .filter_map(|(part, label)| Some((*part, label.clone()?)))
+        .collect()
 }
 
 /// The parts of a face that shows both eyes, unless a string says that its figure is in profile.

@@ -42,8 +42,8 @@ pub struct FigureClip {
     pub performed: Option<Performed>,
     /// How the performance is filmed.
     pub filmed: Filmed,
-    /// The parts in the order of `retargeted`.
-    pub(super) order: TiVec<FigurePartId, PartId>,
+    /// The parts in the order of `retargeted`, each with the number of its node: 0 is its own one, others bend it.
+    pub(super) order: TiVec<FigurePartId, (PartId, usize)>,
     pub(super) retargeted: Arc<RetargetedClip>,
     pub(super) measured: Arc<Measured>,
     pub(super) animated: Arc<AnimatedNodes>,

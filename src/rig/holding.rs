@@ -43,7 +43,7 @@ pub(super) fn loose(
         return Vec::new();
     }
     let allowed = MAX_GROWTH * height;
-    let pairs = rig.parts.keys();
+    let pairs = group.parts.keys();
     let pairs = pairs.filter_map(|part| Pair::of(context, group, rig, part));
     let pairs: Vec<Pair<'_>> = pairs
         .filter(|pair| pair.may_grow_by() > allowed)
@@ -112,11 +112,12 @@ impl<'a> Pair<'a> {
     ) -> Option<Self> {
         let own = &rig.parts[part];
         let parent = own.parent?;
-        let [shapes, below] = [part, parent].map(|part| outlines(context, group.parts[part]));
+        let drawn = |part: FigurePartId| group.parts[rig.parts[part].inside.unwrap_or(part)];
+        let [shapes, below] = [part, parent].map(|part| outlines(context, drawn(part)));
         let joint = own.joint.truncate();
         let [from_part, from_parent] = [&shapes, &below].map(|shapes| distance(shapes, joint));
         let apart = (own.joint.z - rig.parts[parent].node.position.z).abs();
-        let thick = [part, parent].map(|part| half_thickness(context, group.parts[part]));
+        let thick = [part, parent].map(|part| half_thickness(context, drawn(part)));
         let depth = apart + thick[0] + thick[1];
         let edges: usize = below.iter().map(|outline| points(outline).count()).sum();
         let most = (MAX_PAIRS / (TIMES * edges.max(1))).clamp(4, MAX_POINTS);

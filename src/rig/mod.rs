@@ -3,6 +3,8 @@
 //! A figure is a group of parts that are connected, by strings or because they touch. Each clip becomes an animation of the nodes
 //! of a figure's parts; figures that play clips of the same name share one animation.
 
+mod bends;
+mod bones;
 mod builder;
 mod diagnostics;
 mod effects;
@@ -28,6 +30,7 @@ use typed_index_collections::{TiSlice, TiVec};
 pub(crate) use crate::labels::FigurePartId;
 pub(crate) use crate::mocap::JointId;
 
+use crate::bend::Bend;
 use crate::bind::{Bindings, MotionSource, PartId};
 use crate::clips::BuiltIn;
 use crate::diagnostic::Diagnostic;
@@ -38,6 +41,7 @@ use crate::resolver::Resolver;
 use crate::scene::{NodeId, Scene, WorldTransform};
 use crate::svg::Drawing;
 
+pub(crate) use bends::bends;
 use builder::{ClipBuilder, Requested};
 use diagnostics::MatchProblems;
 pub(crate) use effects::{Performance, PerformedMark};
@@ -71,6 +75,8 @@ pub(crate) struct Context<'a> {
     pub frames: &'a TiSlice<PartId, Frame>,
     /// Per main part the parts whose solids are in its node.
     pub parts_of_node: &'a TiSlice<PartId, Vec<PartId>>,
+    /// Per main part how it bends; `None` for one that is rigid.
+    pub bends: &'a TiSlice<PartId, Option<Arc<Bend>>>,
     /// Per part the thickness of its solid, `None` without one.
     pub thicknesses: &'a TiSlice<PartId, Option<Thickness>>,
 }

@@ -20,7 +20,7 @@ use crate::performance::{
 };
 use crate::prepare::PreparedClip;
 use crate::retarget::{Drive, MatchedPart, joints_named};
-use crate::retarget::{RetargetedClip, Rig, to_drawing};
+use crate::retarget::{RetargetedClip, to_drawing};
 use crate::source::Span;
 
 /// A mark whose hue differs by more than this from that of a part's `Mark` is another one, degrees.
@@ -211,17 +211,17 @@ impl Channels {
         })
     }
 
-    /// Per part of a rig the ratio of its turns that is left.
+    /// Per part of a figure the ratio of its turns that is left.
     pub(super) fn ratios(
         &self,
         plan: &Plan,
         matched: &MatchedFigure,
-        rig: &Rig,
     ) -> TiVec<FigurePartId, Option<f64>> {
         let Some(emphasized) = plan.emphasized.filter(|_| plan.is_damping) else {
             return TiVec::new();
         };
-        let parents: TiVec<_, _> = rig.parts.iter().map(|part| part.parent).collect();
+        let parents = matched.figure.parts.iter();
+        let parents: TiVec<_, _> = parents.map(|part| part.parent).collect();
         let class = |part: &MatchedPart| part.label.as_ref().map(|label| label.class);
         let classes: TiVec<_, _> = matched.matching.parts.iter().map(class).collect();
         let limbs = Limbs {

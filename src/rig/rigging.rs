@@ -4,6 +4,7 @@ use glam::{DQuat, DVec2, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::Context;
+use super::bones;
 use super::builder::of_figure;
 use super::figures::FigureGroup;
 use super::surface;
@@ -13,7 +14,7 @@ use crate::labels::{Carry, Class, Detail, Facing, Figure, FigurePart, FigurePart
 use crate::memo::exact;
 use crate::mocap::Transform;
 use crate::retarget::{Drive, Matching};
-use crate::retarget::{Rig, RigPart};
+use crate::retarget::{Rig, RigPart, SharedTurn};
 use crate::svg::Drawing;
 
 /// A figure as it is drawn, its parts in the order of the group; drawing units, y up.
@@ -23,15 +24,17 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
         context.bindings,
         context.parts_of_node,
         group,
+        |part| bones::count(context.bends[part].as_deref()),
     )
 }
 
-/// A figure as it is drawn, given per main part the shapes of its node.
+/// A figure as it is drawn, given per main part the shapes of its node, and how many bones it has inside.
 pub(super) fn figure(
     drawing: &Drawing,
     bindings: &Bindings,
     parts_of_node: &TiSlice<PartId, Vec<PartId>>,
     group: &FigureGroup,
+    bends_of: impl Fn(PartId) -> usize,
 ) -> Figure {
     let middle = |part: PartId| y_up(bindings.parts[part].node_measure().center);
     let box_of = |part: PartId| {
@@ -110,6 +113,7 @@ pub(super) fn figure(
             details: details.collect(),
             drawing_order: part.shape.into(),
             bones,
+            bends: bends_of(index),
             carry: bindings.attributes(index).carry().map(carry),
         }
     };
@@ -207,10 +211,14 @@ pub(super) fn rig(
             drive: matching.parts[index].drive,
             is_leg: is_leg(index),
             swing: context.bindings.attributes(group.parts[index]).swing(),
+            inside: None,
+            shared: None,
         }
     };
+    let mut parts: TiVec<_, _> = figure.parts.iter_enumerated().map(part).collect();
+    bones::add(context, figure, group, matching, &mut parts);
     Rig {
-        parts: figure.parts.iter_enumerated().map(part).collect(),
+        parts,
         facing: matching.facing.facing,
     }
 }
@@ -220,6 +228,8 @@ pub(super) fn rig(
 pub(crate) struct RestNode {
     /// The part.
     pub part: PartId,
+    /// Which node of the part it is: 0 is its own one, others bend it.
+    pub bone: usize,
     /// Whether it is a child of the model's root.
     pub is_rooted: bool,
     /// Whether it is mirrored in the drawing plane.
@@ -236,7 +246,7 @@ impl RestNodes {
     /// The nodes of a scene, given the rest frames of parts.
     pub(super) fn new(frames: &TiSlice<PartId, Frame>, nodes: &[RestNode]) -> Self {
         let mut rest = ti_vec![None; frames.len()];
-        for node in nodes {
+        for node in nodes.iter().filter(|node| node.bone == 0) {
             let frame = &frames[node.part];
             // The original precedes its copies.
             rest[node.part].get_or_insert((
@@ -262,7 +272,8 @@ impl RestNodes {
 
 exact! {
     Rig { parts, facing }
-    RigPart { parent, is_rooted, node, joint, tip, surface, stands, drive, is_leg, swing }
+    RigPart { parent, is_rooted, node, joint, tip, surface, stands, drive, is_leg, swing, inside, shared }
+    SharedTurn { between, share }
     Transform { rotation, position }
 }
 exact!(Facing, Drive, FigurePartId);

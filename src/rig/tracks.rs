@@ -33,20 +33,21 @@ pub(super) struct AnimatedNodes {
 }
 
 impl AnimatedNodes {
-    /// The animation of a figure. `parts` are its parts in the order of `clip`.
+    /// The animation of a figure. `parts` are its parts in the order of `clip`, each with the number of the node that moves: 0 is the
+    /// part's own one.
     pub(super) fn animation(
         &self,
         name: &str,
-        parts: &TiSlice<FigurePartId, PartId>,
+        parts: &TiSlice<FigurePartId, (PartId, usize)>,
         clip: &RetargetedClip,
         keys: &KeyTimes,
         shifts: Option<&Shifts<'_>>,
     ) -> Animation {
         let index = parts.iter_enumerated().map(|(index, part)| (*part, index));
-        let index: BTreeMap<PartId, FigurePartId> = index.collect();
+        let index: BTreeMap<(PartId, usize), FigurePartId> = index.collect();
         let mut tracks = Vec::new();
         for (node, rest) in self.nodes.iter_enumerated() {
-            let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames.is_empty()) else {
+            let Some(&index) = index.get(&(rest.part, rest.bone)).filter(|_| !keys.frames.is_empty()) else {
                 continue;
             };
             let mut add = |timing, values| {

@@ -1,5 +1,7 @@
 //! One skinned mesh instead of a mesh for each node, for engines that need that.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3, Vec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -7,6 +9,33 @@ use super::{MaterialId, Mesh, MeshId, Node, NodeId, Primitive, Scene, Surface, S
 
 /// The largest number of joints of a skin: corners refer to them by 16 bits.
 pub const MAX_JOINTS: usize = 1 << 16;
+
+/// The joints that move a corner of a surface, at most two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Influence {
+    /// Indices of the joints: of a skin, or of a node with bones, where 0 is the node itself and others are its bones, from 1.
+    pub joints: [u16; 2],
+    /// The weight of the first one, 0 to 1; the second one has the rest.
+    pub first: f32,
+}
+
+impl Influence {
+    /// That of one joint with its full weight.
+    pub fn whole(joint: u16) -> Self {
+        Self {
+            joints: [joint, 0],
+            first: 1.0,
+        }
+    }
+
+    /// The weights as bytes whose sum is 255; a joint without weight has number 0, as glTF wants it.
+    pub(crate) fn quantized(&self) -> [(u16, u8); 2] {
+        let first = (self.first.clamp(0.0, 1.0) * 255.0).round() as u8;
+        let [one, other] = self.joints;
+        let used = |joint: u16, weight: u8| (if weight == 0 { 0 } else { joint }, weight);
+        [used(one, first), used(other, 255 - first)]
+    }
+}
 
 /// A mesh that is bound to the nodes: every node of the scene is a joint, except those of cameras.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +77,7 @@ impl RigidTransform {
     }
 
     /// The composition: `inner` first.
-    fn after(&self, inner: &Self) -> Self {
+    pub(crate) fn after(&self, inner: &Self) -> Self {
         Self {
             rotation: (self.rotation * inner.rotation).normalize(),
             translation: self.place(inner.translation),
@@ -66,15 +95,15 @@ impl RigidTransform {
     }
 }
 
-/// A patch in the world's frame that is bound to a joint with its full weight.
+/// A patch in the world's frame that is bound to the joints of a node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SkinnedPatch {
-    /// The patch in the joint's frame.
+    /// The patch in the node's frame.
     pub patch: SurfacePatch,
-    /// From the joint's frame to the world in the rest pose.
+    /// From the node's frame to the world in the rest pose.
     pub pose: RigidTransform,
-    /// Index of the joint in the skin.
-    pub joint: u16,
+    /// Indices in the skin of the node and of its bones.
+    pub joints: Arc<[u16]>,
 }
 
 impl SkinnedPatch {
@@ -89,7 +118,15 @@ impl SkinnedPatch {
         for normal in &mut surface.normals {
             *normal = (turn * Vec3::from(*normal)).normalize_or_zero().to_array();
         }
-        surface.joints = vec![self.joint; surface.positions.len()];
+        let joint = |joint: u16| self.joints.get(usize::from(joint)).copied();
+        if surface.influences.is_empty() {
+            let own = Influence::whole(joint(0).unwrap_or_default());
+            surface.influences = vec![own; surface.positions.len()];
+        } else {
+            for influence in &mut surface.influences {
+                influence.joints = influence.joints.map(|own| joint(own).unwrap_or_default());
+            }
+        }
         surface
     }
 }
@@ -129,6 +166,10 @@ impl Scene {
         let kept = below_view_dependent(&self.nodes);
         let mut by_material: TiVec<MaterialId, Vec<SurfacePatch>> =
             ti_vec![Vec::new(); self.materials.len()];
+        let mut numbers: TiVec<NodeId, u16> = ti_vec![0; self.nodes.len()];
+        for (joint, node) in joints.iter().enumerate() {
+            numbers[*node] = joint as u16;
+        }
         for (joint, node) in joints.iter().enumerate() {
             if kept[*node] {
                 continue;
@@ -136,12 +177,15 @@ impl Scene {
             let Some(mesh) = self.nodes[*node].mesh.take() else {
                 continue;
             };
+            let bones = std::mem::take(&mut self.nodes[*node].bones);
+            let of_node = std::iter::once(*node).chain(bones);
+            let of_node: Arc<[u16]> = of_node.map(|bone| numbers[bone]).collect();
             for primitive in &self.meshes[mesh].primitives {
                 let skinned = primitive.patches.iter().map(|patch| {
                     SurfacePatch::Skinned(Box::new(SkinnedPatch {
                         patch: patch.clone(),
                         pose: rest[joint],
-                        joint: joint as u16,
+                        joints: Arc::clone(&of_node),
                     }))
                 });
                 by_material[primitive.material].extend(skinned);

@@ -193,6 +193,12 @@ impl<'a> Attributes<'a> {
         }
     }
 
+    /// `Bend`, if it is set: how many joints a part has inside.
+    pub fn bend(&self) -> Option<usize> {
+        let joints = self.number(Keyword::Bend)?;
+        Some(joints.value as usize)
+    }
+
     /// `Swing`: how stiff a part is that swings, `None` for one that does not.
     pub fn swing(&self) -> Option<f64> {
         let stiffness = self.get(Keyword::Swing, |value| match value {

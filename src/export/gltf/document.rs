@@ -20,15 +20,14 @@ use typed_index_collections::{TiVec, ti_vec};
 
 use super::buffer::Kind;
 use super::json::Json;
-use super::primitives::Packed;
+use super::primitives::{Packed, PackedSkin};
 use super::{ROOT, SKINNED, VIEW_DEPENDENT, animations, cameras, materials};
 use crate::scene::{self, CameraId, MaterialId, MeshId, NodeId, Scene, Turn, ViewDependent};
 
 /// The JSON up to the buffers, without the closing brace.
 pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
     let root_node = scene.nodes.len();
-    let root_id = scene.nodes.next_key();
-    let skin = packed.bind_matrices.and(scene.skin.as_ref());
+    let skins = &packed.skins;
     let mut root = Root {
         asset: Asset {
             generator: Some(concat!("okoshi ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -38,9 +37,7 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
         scene: Some(Index::new(0)),
         // A skinned mesh follows its joints alone, so it has no parent.
         scenes: vec![JsonScene {
-            nodes: (root_node..=root_node + usize::from(skin.is_some()))
-                .map(index)
-                .collect(),
+            nodes: (root_node..=root_node + skins.len()).map(index).collect(),
             extensions: None,
             extras: None,
             name: None,
@@ -48,16 +45,15 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
         ..Root::default()
     };
     materials::add_textures(scene, packed, &mut root);
-    let joints = skin.map_or(&[][..], |skin| &skin.joints);
-    root.skins
-        .extend(packed.bind_matrices.map(|matrices| JsonSkin {
-            inverse_bind_matrices: Some(index(matrices)),
-            joints: joints.iter().copied().map(index).collect(),
-            skeleton: Some(index(root_node)),
-            extensions: None,
-            extras: None,
-            name: None,
-        }));
+    root.skins.extend(skins.iter().map(|skin| JsonSkin {
+        inverse_bind_matrices: Some(index(skin.bind_matrices)),
+        joints: skin.joints.iter().copied().map(index).collect(),
+        // All skins have the same, so that programs with one skeleton for a figure make one.
+        skeleton: Some(index(root_node)),
+        extensions: None,
+        extras: None,
+        name: None,
+    }));
     let mut json = Json::new(&root)?;
 
     let first_primitives: TiVec<MeshId, usize> =
@@ -70,23 +66,26 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
     let meshes: TiVec<MeshId, usize> =
         starts(scene.meshes.keys().map(|mesh| usize::from(written(mesh))));
     let mesh_index = |mesh: MeshId| written(mesh).then(|| index(meshes[mesh]));
-    let nodes = root_node + 1 + usize::from(skin.is_some());
-    json.list("nodes", nodes, |id: NodeId| {
-        Some(match (scene.nodes.get(id), skin) {
-            (Some(node), _) => JsonNode {
-                mesh: node.mesh.and_then(mesh_index),
+    json.list("nodes", root_node + 1 + skins.len(), |id: NodeId| {
+        Some(match scene.nodes.get(id) {
+            Some(node) => JsonNode {
+                mesh: node
+                    .mesh
+                    .filter(|_| node.bones.is_empty())
+                    .and_then(mesh_index),
                 ..json_node(node)
             },
-            (None, Some(skin)) if id > root_id => JsonNode {
-                name: name(SKINNED),
-                mesh: mesh_index(skin.mesh),
-                skin: Some(Index::new(0)),
-                ..JsonNode::default()
-            },
-            (None, _) => JsonNode {
-                name: name(ROOT),
-                children: children(&scene.roots),
-                ..JsonNode::default()
+            None => match usize::from(id).checked_sub(root_node + 1) {
+                Some(number) => JsonNode {
+                    mesh: mesh_index(skins[number].mesh),
+                    skin: Some(index(number)),
+                    ..skinned_node(scene, &skins[number])
+                },
+                None => JsonNode {
+                    name: name(ROOT),
+                    children: children(&scene.roots),
+                    ..JsonNode::default()
+                },
             },
         })
     })?;
@@ -217,9 +216,31 @@ fn json_node(node: &scene::Node) -> JsonNode {
     }
 }
 
+/// The node that shows the mesh of a skin, without mesh and skin.
+fn skinned_node(scene: &Scene, skin: &PackedSkin) -> JsonNode {
+    let Some(part) = skin.node.map(|node| &scene.nodes[node]) else {
+        return JsonNode {
+            name: name(SKINNED),
+            ..JsonNode::default()
+        };
+    };
+    let okoshi = OfNode { mesh_of: &part.name };
+    JsonNode {
+        name: name(&format!("{}.mesh", part.name)),
+        extras: to_raw_value(&Extras { okoshi }).ok(),
+        ..JsonNode::default()
+    }
+}
+
 #[derive(Serialize)]
-struct Extras<'a> {
-    okoshi: Provenance<'a>,
+struct Extras<T> {
+    okoshi: T,
+}
+
+/// The part whose mesh a node shows, because a mesh with bones follows them alone.
+#[derive(Serialize)]
+struct OfNode<'a> {
+    mesh_of: &'a str,
 }
 
 /// The names of a mesh's morph targets, where many programs look for them.

@@ -20,7 +20,8 @@ use crate::export::size::{Extent, Placed};
 use crate::export::surfaces::with_surface;
 use crate::memo::Memo;
 use crate::scene::{
-    Image, ImageId, MediaType, Mesh, MeshId, Primitive, RigidTransform, Scene, Surface,
+    Image, ImageId, Influence, MediaType, MeshId, NodeId, Primitive, RigidTransform, Scene,
+    Skin, Surface,
 };
 
 /// Primitives in a window.
@@ -45,8 +46,8 @@ pub(super) struct Packed {
     pub(super) primitives: Vec<Range<usize>>,
     /// The box that holds all of them in the rest pose.
     extent: Extent,
-    /// The accessor of the skin's inverse bind matrices.
-    pub(super) bind_matrices: Option<usize>,
+    /// The skins with their accessors of inverse bind matrices: those of nodes with bones, and that of the whole model.
+    pub(super) skins: Vec<PackedSkin>,
     /// Per track, in the order of the animations, the accessors of its times and of its values.
     pub(super) tracks: Vec<[usize; 2]>,
     /// The images, equal ones once.
@@ -74,12 +75,12 @@ impl Packed {
     pub(super) fn new<'a>(scene: &Scene, memo: &Memo, out: &'a mut Sink<'a>) -> io::Result<Self> {
         let mut out = BufferWriter::new(out);
         let (primitives, extent) = write_primitives(scene, memo, &mut out)?;
-        let bind_matrices = write_bind_matrices(scene, &primitives, &mut out)?;
+        let skins = write_skins(scene, &primitives, &mut out)?;
         let tracks = animations::write_keys(scene, &mut out)?;
         let mut packed = Self {
             primitives,
             extent,
-            bind_matrices,
+            skins,
             tracks,
             ..Self::default()
         };
@@ -203,30 +204,82 @@ fn write_window(
     Ok(())
 }
 
-/// Writes the skin's inverse bind matrices, one a joint, column by column, and returns their accessor.
-fn write_bind_matrices(
+/// A skin, and the mesh that it moves.
+#[derive(Debug)]
+pub(super) struct PackedSkin {
+    pub(super) joints: Vec<NodeId>,
+    pub(super) mesh: MeshId,
+    /// The node whose mesh it is; `None` for that of the whole model.
+    pub(super) node: Option<NodeId>,
+    /// The accessor of the inverse bind matrices.
+    pub(super) bind_matrices: usize,
+}
+
+/// Writes the inverse bind matrices of all skins whose meshes have triangles, one a joint, column by column. The corners of a mesh are
+/// in the frame of the node that has it.
+fn write_skins(
     scene: &Scene,
     primitives: &[Range<usize>],
     out: &mut BufferWriter<'_>,
-) -> io::Result<Option<usize>> {
-    let Some(skin) = &scene.skin else {
-        return Ok(None);
-    };
-    let count = |mesh: &Mesh| mesh.primitives.len();
-    let first: usize = scene.meshes[..skin.mesh].iter().map(count).sum();
-    let of_skin = &primitives[first..][..count(&scene.meshes[skin.mesh])];
-    if of_skin.iter().all(Range::is_empty) {
-        return Ok(None);
+) -> io::Result<Vec<PackedSkin>> {
+    let mut starts: TiVec<MeshId, usize> = TiVec::with_capacity(scene.meshes.len());
+    let mut next = 0;
+    for mesh in &scene.meshes {
+        starts.push(next);
+        next += mesh.primitives.len();
     }
-    let matrix = |pose: &RigidTransform| {
-        let back = pose.inverse();
-        let matrix = DMat4::from_rotation_translation(back.rotation, back.translation);
-        matrix.as_mat4().to_cols_array()
+    let is_empty = |mesh: MeshId| {
+        let of_mesh = &primitives[starts[mesh]..][..scene.meshes[mesh].primitives.len()];
+        of_mesh.iter().all(Range::is_empty)
     };
-    let matrices: Vec<[f32; 16]> = skin.rest.iter().map(matrix).collect();
+    let bent = scene.nodes.iter_enumerated().filter_map(|(id, node)| {
+        let mesh = node.mesh.filter(|_| !node.bones.is_empty())?;
+        Some((id, mesh, &node.bones))
+    });
+    let bent: Vec<_> = bent.filter(|(_, mesh, _)| !is_empty(*mesh)).collect();
+    let to_world = if bent.is_empty() {
+        TiVec::new()
+    } else {
+        scene.rest()
+    };
+    let mut skins = Vec::new();
+    for (id, mesh, bones) in bent {
+        let joints: Vec<NodeId> = std::iter::once(id).chain(bones.iter().copied()).collect();
+        let own = to_world[id];
+        let matrices: Vec<[f32; 16]> = joints
+            .iter()
+            .map(|joint| matrix(&to_world[*joint].inverse().after(&own)))
+            .collect();
+        skins.push(PackedSkin {
+            joints,
+            mesh,
+            node: Some(id),
+            bind_matrices: write_matrices(&matrices, out)?,
+        });
+    }
+    if let Some(Skin { mesh, joints, rest }) = scene.skin.as_ref().filter(|skin| !is_empty(skin.mesh))
+    {
+        let matrices: Vec<[f32; 16]> = rest.iter().map(|pose| matrix(&pose.inverse())).collect();
+        skins.push(PackedSkin {
+            joints: joints.clone(),
+            mesh: *mesh,
+            node: None,
+            bind_matrices: write_matrices(&matrices, out)?,
+        });
+    }
+    Ok(skins)
+}
+
+fn matrix(transform: &RigidTransform) -> [f32; 16] {
+    let matrix = DMat4::from_rotation_translation(transform.rotation, transform.translation);
+    matrix.as_mat4().to_cols_array()
+}
+
+/// Writes matrices, and returns their accessor.
+fn write_matrices(matrices: &[[f32; 16]], out: &mut BufferWriter<'_>) -> io::Result<usize> {
     let accessor = out.accessor(Kind::InverseBindMatrices, matrices.len(), None);
-    out.write_floats(&matrices)?;
-    Ok(Some(accessor))
+    out.write_floats(matrices)?;
+    Ok(accessor)
 }
 
 impl Batch {
@@ -241,7 +294,6 @@ impl Batch {
         self.accessors.clear();
         self.primitives.clear();
         self.extent = Extent::default();
-        let joints = scene.skin.as_ref().map_or(0, |skin| skin.joints.len());
         for (primitive, mesh) in primitives {
             let Some(material) = scene.materials.get(primitive.material) else {
                 return Err(invalid("a primitive with a material out of range"));
@@ -255,7 +307,7 @@ impl Batch {
                 if surface.triangles.is_empty() {
                     Ok(())
                 } else {
-                    self.push(surface, placed.poses(*mesh), joints)
+                    self.push(surface, placed.poses(*mesh), placed.joints(*mesh))
                 }
             })?;
             self.primitives.push(first..self.accessors.len());
@@ -263,7 +315,7 @@ impl Batch {
         Ok(())
     }
 
-    /// Packs a surface with triangles, which is at `poses`; `joints` is the number of joints of the skin.
+    /// Packs a surface with triangles, which is at `poses`; `joints` is the number of joints that can move it.
     fn push(
         &mut self,
         surface: &Surface,
@@ -306,21 +358,22 @@ impl Batch {
                 append(out, indices, u32::to_le_bytes);
             }
         }
-        if !surface.joints.is_empty() {
-            // Every vertex follows one joint with all its weight.
-            let numbers = surface.joints.iter();
+        if !surface.influences.is_empty() {
+            let influences = surface.influences.iter().map(Influence::quantized);
             if joints <= 0x100 {
                 let out = self.accessor(Kind::JointsU8, vertices, None);
-                out.extend(numbers.flat_map(|joint| [*joint as u8, 0, 0, 0]));
+                let numbers = influences.clone();
+                out.extend(numbers.flat_map(|[(a, _), (b, _)]| [a as u8, b as u8, 0, 0]));
             } else {
                 let out = self.accessor(Kind::JointsU16, vertices, None);
-                out.extend(numbers.flat_map(|joint| {
-                    let [low, high] = joint.to_le_bytes();
-                    [low, high, 0, 0, 0, 0, 0, 0]
+                let numbers = influences.clone();
+                out.extend(numbers.flat_map(|own| {
+                    let [[a, b], [c, d]] = own.map(|(joint, _)| joint.to_le_bytes());
+                    [a, b, c, d, 0, 0, 0, 0]
                 }));
             }
             let weights = self.accessor(Kind::Weights, vertices, None);
-            weights.extend(std::iter::repeat_n([u8::MAX, 0, 0, 0], vertices).flatten());
+            weights.extend(influences.flat_map(|[(_, a), (_, b)]| [a, b, 0, 0]));
         }
         Ok(())
     }

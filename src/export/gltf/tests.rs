@@ -99,7 +99,7 @@ fn strip(corners: u32) -> Surface {
             .collect(),
         normals: vec![[0.0, 0.0, 1.0]; corners as usize],
         uvs: vec![],
-        joints: vec![],
+        influences: vec![],
         targets: Vec::new(),
         triangles: (2..corners).map(|i| [i - 2, i - 1, i]).collect(),
     }
@@ -406,6 +406,7 @@ fn long_numbers_and_names_are_written_without_gaps() {
             longest.into(),
         ),
         mesh: Some(part.into()),
+        bones: vec![],
         camera: None,
         view_dependent: Some(ViewDependent::Bend),
         provenance: Some(Provenance {

@@ -63,6 +63,23 @@ pub(super) static BONE: Row = Row {
     ..Row::ROW
 };
 
+pub(super) static BEND: Row = Row {
+    forms: &[Form::one(&number(
+        "joints",
+        Bounds::new(0., 16., Restriction::Integer),
+        "how many joints the shape has inside; 0 is a rigid one",
+    ))],
+    default: "as the part needs",
+    summary: "joints inside one shape: an arm with an elbow, a tail that curls",
+    long: "An arm or a leg that is drawn as one shape has an elbow or a knee in its middle, or where it \
+           is drawn bent; a neck has one joint too, and a tail four. The surface bends about them \
+           like skin. With `Bend` a part has as many joints as you say, at equal distances along \
+           its middle line, and with `Bend 0` none: a wooden leg. The model has a node for each \
+           piece, `Arm`, `Arm.2` and so on.",
+    example: "Tentacle@Body$Bend 6",
+    ..Row::ROW
+};
+
 pub(super) static SWING: Row = Row {
     forms: &[Form::new(
         &[number(

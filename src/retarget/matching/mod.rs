@@ -37,8 +37,10 @@ pub(crate) struct MatchedPart {
     /// Whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where there are
     /// three pairs or more, or a foot that is attached to the trunk.
     pub splayed: bool,
-    /// What drives it; a part without a drive follows its parent.
+    /// What drives it; a part without a drive follows its parent. If it bends, this is what drives its first bone.
     pub drive: Option<Drive>,
+    /// What drives its further bones, if it bends; one without a drive follows the one before.
+    pub bones: Vec<Option<Drive>>,
     /// Why that drive, or why none, for people to read.
     pub why: String,
 }
@@ -169,7 +171,7 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
     let names = Names::new(skeleton);
     let mut parts = TiVec::with_capacity(labels.len());
     let mut lacking = Vec::new();
-    let matcher = Matcher::new(skeleton, anatomy, &labels);
+    let matcher = Matcher::new(skeleton, anatomy, figure, &labels);
     for ((part, label), splayed) in labels.into_iter_enumerated().zip(splayed) {
         let bones = &figure.parts[part].bones;
         let class = label.as_ref().map(|label| label.class);
@@ -196,10 +198,24 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
             }
             Err(why) => (None, why),
         };
+        let bones = match &label {
+            Some(label) if !is_bone && drive.is_some() => matcher.bones(part, label),
+            _ => Vec::new(),
+        };
+        let carry = figure.parts[part].carry;
+        let bones: Vec<Option<Drive>> = bones
+            .into_iter()
+            .map(|drive| Some(carried(drive?, carry, splayed).0))
+            .collect();
+        let why = match bones.iter().flatten().next() {
+            Some(drive) => why + &matcher.way(drive).replacen("; it", "; beyond its joint it", 1),
+            None => why,
+        };
         parts.push(MatchedPart {
             label,
             splayed,
             drive,
+            bones,
             why,
         });
     }
@@ -246,16 +262,20 @@ struct Matcher<'a> {
     anatomy: &'a Anatomy,
     /// How many segments the figure's trunk, neck and tail have.
     segments: [usize; 3],
-    /// The limbs of one segment: class, side and pair.
+    /// The limbs of one rigid segment: class, side and pair.
     whole: BTreeSet<(Class, Option<Side>, usize)>,
+    /// Per part how many bones it has inside.
+    bends: TiVec<FigurePartId, usize>,
 }
 
 impl<'a> Matcher<'a> {
     fn new(
         skeleton: &'a Skeleton,
         anatomy: &'a Anatomy,
+        figure: &Figure,
         labels: &TiSlice<FigurePartId, Option<Label>>,
     ) -> Self {
+        let bends: TiVec<_, _> = figure.parts.iter().map(|part| part.bends.max(1)).collect();
         let count = |class| {
             labels
                 .iter()
@@ -269,10 +289,13 @@ impl<'a> Matcher<'a> {
             segments: [Class::Body, Class::Neck, Class::Tail].map(count),
             whole: labels
                 .iter()
-                .flatten()
+                .zip(&bends)
+                .filter(|(_, bones)| **bones == 1)
+                .filter_map(|(label, _)| label.as_ref())
                 .filter(|label| label.class.is_limb() && label.segment == LimbSegment::Whole)
                 .map(|label| (label.class, label.side, label.pair))
                 .collect(),
+            bends,
         }
     }
 
@@ -287,8 +310,8 @@ impl<'a> Matcher<'a> {
         let joint = match label.class {
             Class::Arm | Class::Leg => return self.limb(part, label, lacking),
             Class::Head => anatomy.head.or(anatomy.neck.last().copied()),
-            Class::Neck => spread(&anatomy.neck, label.pair, neck),
-            Class::Tail => spread(&anatomy.tail, label.pair, tail),
+            Class::Neck => self.spread(&anatomy.neck, part, label.pair, neck, 0),
+            Class::Tail => self.spread(&anatomy.tail, part, label.pair, tail, 0),
             Class::Hips => anatomy.hips,
             Class::Body => spread(&anatomy.spine, label.pair, body).or(anatomy.hips),
         };
@@ -304,6 +327,47 @@ impl<'a> Matcher<'a> {
             follow,
         };
         Ok((drive, label.why.clone()))
+    }
+
+    /// The joint of a chain that drives a bone of one of several segments.
+    fn spread(
+        &self,
+        chain: &[JointId],
+        part: FigurePartId,
+        segment: usize,
+        segments: usize,
+        bone: usize,
+    ) -> Option<JointId> {
+        let bones = self.bends[part];
+        spread(chain, segment * bones + bone, segments * bones)
+    }
+
+    /// What drives the bones of a part that bends, but the first.
+    fn bones(&self, part: FigurePartId, label: &Label) -> Vec<Option<Drive>> {
+        let [_, neck, tail] = self.segments;
+        let count = self.bends[part];
+        let bone = |bone: usize| {
+            let chain = match label.class {
+                Class::Arm | Class::Leg => {
+                    let segment = half(label, bone, count);
+                    let label = Label {
+                        segment,
+                        ..label.clone()
+                    };
+                    let found = self.limb(part, &label, &mut Vec::new());
+                    return found.ok().map(|(drive, _)| drive);
+                }
+                Class::Neck => self.spread(&self.anatomy.neck, part, label.pair, neck, bone),
+                Class::Tail => self.spread(&self.anatomy.tail, part, label.pair, tail, bone),
+                Class::Head | Class::Body | Class::Hips => None,
+            };
+            Some(Drive {
+                joint: chain?,
+                tip: None,
+                follow: Follow::Change,
+            })
+        };
+        (1..count).map(bone).collect()
     }
 
     fn shoulders(&self) -> Option<[JointId; 2]> {
@@ -338,7 +402,13 @@ impl<'a> Matcher<'a> {
                 label.class.name()
             ));
         };
-        let (joint, tip) = bone(limb, label.segment).ok_or_else(|| {
+        let segment = half(label, 0, self.bends[part]);
+        let segment = if label.segment == LimbSegment::Whole {
+            segment
+        } else {
+            label.segment
+        };
+        let (joint, tip) = bone(limb, segment).ok_or_else(|| {
             format!(
                 "{why}; the motion has no {}",
                 label.segment.name(label.class)
@@ -387,6 +457,15 @@ impl<'a> Matcher<'a> {
             Tip::Joint(joint) => format!("`{}`", self.name(joint)),
             Tip::End { joint, .. } => format!("the end of `{}`", self.name(joint)),
         }
+    }
+}
+
+/// Which half of a limb a bone of it is in, if the limb is one part and bends.
+fn half(label: &Label, bone: usize, bones: usize) -> LimbSegment {
+    match label.segment {
+        LimbSegment::Whole if bones > 1 && 2 * bone < bones => LimbSegment::Upper,
+        LimbSegment::Whole if bones > 1 => LimbSegment::Lower,
+        segment => segment,
     }
 }
 

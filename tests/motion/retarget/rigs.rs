@@ -61,6 +61,8 @@ pub(crate) fn part(
         drive: None,
         is_leg: false,
         swing: None,
+        inside: None,
+        shared: None,
     }
 }
 

@@ -1,0 +1,207 @@
+//! The line through the middle of an outline, from one end to the other.
+
+use glam::DVec2;
+
+use super::grid::Grid;
+use crate::geometry::{Outline, y_up};
+
+/// The distance of the line's points, in widths.
+const SPACING: f64 = 0.25;
+/// How often each point is drawn towards its neighbours: steps of the grid disappear.
+const PASSES: usize = 8;
+/// A line that is as near to a straight one as this, in widths, is straight.
+const STRAIGHT: f64 = 0.15;
+/// The line ends within the outline by this many widths, because the middle way turns into a corner there.
+const CLIP: f64 = 0.5;
+/// How far it is extended beyond its ends, in widths.
+const BEYOND: f64 = 3.0;
+/// Distances along the line are means over the points of it that are near: by this power of the inverse of their distance.
+const NEARNESS: i32 = 3;
+
+/// The line through the middle of an outline.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Centerline {
+    /// Its points at equal distances, y up, extended straight beyond both ends.
+    points: Vec<DVec2>,
+    /// How far along the line the first point is: negative, for 0 is at the joint.
+    first: f64,
+    /// The distance of the points.
+    spacing: f64,
+    /// From the joint to the far end.
+    length: f64,
+    /// The mean width of the outline across it.
+    width: f64,
+}
+
+impl Centerline {
+    /// The centreline of an outline, y down, from the end at which its joint is to the other one. The joint is a point of the drawing,
+    /// y up. `None` if the outline has no area, or is no longer than it is wide.
+    pub(crate) fn new(outline: &Outline, joint: DVec2) -> Option<Self> {
+        let grid = Grid::new(outline)?;
+        let tip = grid.farthest(grid.nearest(y_up(joint))?);
+        let start = grid.farthest(tip);
+        let way = grid.middle_way(start, tip);
+        let way: Vec<DVec2> = way.iter().map(|cell| y_up(grid.place(*cell))).collect();
+        Self::through(&way, grid.area(), joint)
+    }
+
+    fn through(way: &[DVec2], area: f64, joint: DVec2) -> Option<Self> {
+        let whole = length(way);
+        let width = area / whole;
+        let clip = CLIP * width;
+        if !(whole > 2.0 * clip + SPACING * width) {
+            return None;
+        }
+        let inner = whole - 2.0 * clip;
+        let count = (inner / (SPACING * width)).ceil().max(2.0) as usize;
+        let mut line = resampled(way, clip, inner, count);
+        for _ in 0..PASSES {
+            smooth(&mut line);
+        }
+        let [from, to] = [line[0], line[count]];
+        let is_near = |point: &DVec2| off(from, to, *point) < STRAIGHT * width;
+        if line.iter().all(is_near) {
+            let place = |number: usize| from.lerp(to, number as f64 / count as f64);
+            line = (0..=count).map(place).collect();
+        }
+        // Smoothing made it shorter here and there.
+        let inner = length(&line);
+        let line = resampled(&line, 0.0, inner, count);
+        // Without the ways into corners.
+        let width = area / (inner + 2.0 * clip);
+        let spacing = inner / count as f64;
+        let beyond = (BEYOND * width / spacing).ceil() as usize;
+        let extended = |end: DVec2, way: DVec2| {
+            let way = way.normalize_or_zero() * spacing;
+            (1..=beyond).map(move |number| end + way * number as f64)
+        };
+        // A few points back, so that a crooked end does not count.
+        let back = (count / 4).clamp(1, 4);
+        let before = extended(line[0], line[0] - line[back]);
+        let mut points: Vec<DVec2> = before.collect();
+        points.reverse();
+        points.extend(&line);
+        points.extend(extended(line[count], line[count] - line[count - back]));
+        let mut centerline = Self {
+            points,
+            first: -(beyond as f64) * spacing,
+            spacing,
+            length: inner + clip,
+            width,
+        };
+        let joint = centerline.along(joint).clamp(-clip, inner / 2.0);
+        centerline.first -= joint;
+        centerline.length -= joint;
+        Some(centerline)
+    }
+
+    /// From the joint to the far end.
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The mean width of the outline.
+    pub(crate) fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// The point at a distance along the line.
+    pub(super) fn at(&self, distance: f64) -> DVec2 {
+        let place = (distance - self.first) / self.spacing;
+        let last = self.points.len() - 2;
+        let segment = (place.floor().max(0.0) as usize).min(last);
+        self.points[segment].lerp(self.points[segment + 1], place - segment as f64)
+    }
+
+    /// How far along the line a point is. It changes smoothly from point to point, also where several points of the line are equally
+    /// near.
+    pub(super) fn along(&self, point: DVec2) -> f64 {
+        let near = self.spacing * self.spacing;
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (number, own) in self.points.iter().enumerate() {
+            let weight = (own.distance_squared(point) + near).powi(-NEARNESS);
+            sum += weight * number as f64;
+            total += weight;
+        }
+        self.first + self.spacing * sum / total
+    }
+
+    /// Where the line bends most, between two distances along it, if it bends by more than this angle, degrees.
+    pub(super) fn sharpest(&self, [from, to]: [f64; 2], least: f64) -> Option<f64> {
+        let reach = self.length * 0.25;
+        let bend = |at: f64| {
+            let [before, here, after] = [at - reach, at, at + reach].map(|at| self.at(at));
+            (here - before).angle_to(after - here).abs()
+        };
+        let count = ((to - from) / self.spacing).ceil().max(1.0) as usize;
+        let places = (0..=count).map(|step| from + (to - from) * step as f64 / count as f64);
+        let sharpest = places.max_by(|a, b| bend(*a).total_cmp(&bend(*b)))?;
+        (bend(sharpest) > least.to_radians()).then_some(sharpest)
+    }
+
+    /// The line in another frame: its points mapped, its lengths scaled.
+    pub(super) fn mapped(&self, map: impl Fn(DVec2) -> DVec2, scale: f64) -> Self {
+        Self {
+            points: self.points.iter().map(|point| map(*point)).collect(),
+            first: self.first * scale,
+            spacing: self.spacing * scale,
+            length: self.length * scale,
+            width: self.width * scale,
+        }
+    }
+
+    /// The numbers that it consists of.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let own = [self.first, self.spacing, self.length, self.width];
+        let points = self.points.iter().flat_map(|point| point.to_array());
+        own.into_iter().chain(points)
+    }
+}
+
+fn length(way: &[DVec2]) -> f64 {
+    way.windows(2).map(|ends| ends[0].distance(ends[1])).sum()
+}
+
+/// `count` + 1 points at equal distances along a way, from a distance on.
+fn resampled(way: &[DVec2], from: f64, length: f64, count: usize) -> Vec<DVec2> {
+    let mut points = Vec::with_capacity(count + 1);
+    let mut passed = 0.0;
+    let mut segments = way.windows(2).map(|ends| [ends[0], ends[1]]).peekable();
+    let last = way.last().copied().unwrap_or_default();
+    for number in 0..=count {
+        let wanted = from + length * number as f64 / count as f64;
+        while let Some([a, b]) = segments.peek() {
+            let own = a.distance(*b);
+            if passed + own >= wanted {
+                break;
+            }
+            passed += own;
+            segments.next();
+        }
+        points.push(match segments.peek() {
+            Some([a, b]) => {
+                let own = a.distance(*b);
+                let share = if own > 0.0 { (wanted - passed) / own } else { 0.0 };
+                a.lerp(*b, share)
+            }
+            None => last,
+        });
+    }
+    points
+}
+
+/// Draws each point but the ends half way to the mean of its neighbours.
+fn smooth(line: &mut [DVec2]) {
+    let mut before = line[0];
+    for at in 1..line.len() - 1 {
+        let own = line[at];
+        line[at] = own.lerp(before.midpoint(line[at + 1]), 0.5);
+        before = own;
+    }
+}
+
+/// The distance of a point from the line through two others.
+fn off(from: DVec2, to: DVec2, point: DVec2) -> f64 {
+    let way = (to - from).normalize_or_zero();
+    (point - from).perp_dot(way).abs()
+}

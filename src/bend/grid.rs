@@ -1,0 +1,261 @@
+//! The inside of an outline on a grid: how far its cells are from the border, and ways through them.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::DVec2;
+
+use crate::geometry::{Outline, bounds};
+
+/// About as many cells cover an outline's bounding box.
+const CELLS: f64 = 9000.0;
+/// The most cells along one side.
+const MAX_SIDE: f64 = 600.0;
+/// How strongly the way prefers the middle: the cost of a step is divided by this power of the distance from the border.
+const MIDDLE: i32 = 3;
+
+/// The cells inside an outline.
+pub(super) struct Grid {
+    low: DVec2,
+    /// The side of a cell.
+    pub(super) cell: f64,
+    columns: usize,
+    rows: usize,
+    /// Per cell how far its middle is from the nearest cell outside, in cells; 0 outside.
+    depths: Vec<f64>,
+}
+
+impl Grid {
+    /// The largest piece of an outline; `None` if it has no area.
+    pub(super) fn new(outline: &Outline) -> Option<Self> {
+        let (low, high) = bounds(outline)?;
+        let size = high - low;
+        let cell = (size.x * size.y / CELLS).sqrt();
+        let cell = cell.max(size.max_element() / MAX_SIDE);
+        if !(cell > 0.0 && cell.is_finite()) {
+            return None;
+        }
+        // A border of cells outside.
+        let [columns, rows] = (size / cell).to_array().map(|cells| cells as usize + 3);
+        let mut grid = Self {
+            low: low - DVec2::splat(cell),
+            cell,
+            columns,
+            rows,
+            depths: Vec::new(),
+        };
+        let mut inside = grid.inside(outline);
+        grid.keep_largest(&mut inside);
+        if !inside.contains(&true) {
+            return None;
+        }
+        grid.depths = grid.distances(&inside);
+        Some(grid)
+    }
+
+    /// The middle of a cell.
+    pub(super) fn place(&self, cell: usize) -> DVec2 {
+        let at = DVec2::new(
+            (cell % self.columns) as f64 + 0.5,
+            (cell / self.columns) as f64 + 0.5,
+        );
+        self.low + at * self.cell
+    }
+
+    /// The area of all cells inside.
+    pub(super) fn area(&self) -> f64 {
+        let inside = self.depths.iter().filter(|depth| **depth > 0.0);
+        inside.count() as f64 * self.cell * self.cell
+    }
+
+    /// The cell inside that is nearest to a point.
+    pub(super) fn nearest(&self, point: DVec2) -> Option<usize> {
+        let inside = (0..self.depths.len()).filter(|cell| self.depths[*cell] > 0.0);
+        let distance = |cell: &usize| self.place(*cell).distance_squared(point);
+        inside.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+
+    /// The cell that is farthest from another one on the way inside.
+    pub(super) fn farthest(&self, from: usize) -> usize {
+        let (costs, _) = self.ways(from, |_| 1.0);
+        let reached = (0..costs.len()).filter(|cell| costs[*cell].is_finite());
+        let farthest = reached.max_by(|a, b| costs[*a].total_cmp(&costs[*b]));
+        farthest.unwrap_or(from)
+    }
+
+    /// The way from one cell to another that keeps to the middle.
+    pub(super) fn middle_way(&self, from: usize, to: usize) -> Vec<usize> {
+        let (_, before) = self.ways(to, |cell| self.depths[cell].powi(-MIDDLE));
+        let step = |cell: &usize| before[*cell];
+        std::iter::successors(Some(from), step).collect()
+    }
+
+    /// Per cell the least cost of a way from `start`, where a step costs its length times the mean of its ends' `cost`, and the next
+    /// cell on the way back.
+    fn ways(&self, start: usize, cost: impl Fn(usize) -> f64) -> (Vec<f64>, Vec<Option<usize>>) {
+        /// A cost, ordered.
+        #[derive(PartialEq)]
+        struct Cost(f64);
+        impl Eq for Cost {}
+        impl PartialOrd for Cost {
+            fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+                Some(self.cmp(other))
+            }
+        }
+        impl Ord for Cost {
+            fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+                self.0.total_cmp(&other.0)
+            }
+        }
+
+        let mut costs = vec![f64::INFINITY; self.depths.len()];
+        let mut before = vec![None; self.depths.len()];
+        let mut queue = BinaryHeap::from([Reverse((Cost(0.0), start))]);
+        costs[start] = 0.0;
+        while let Some(Reverse((Cost(spent), cell))) = queue.pop() {
+            if spent > costs[cell] {
+                continue;
+            }
+            for (next, length) in self.neighbors(cell) {
+                if self.depths[next] <= 0.0 {
+                    continue;
+                }
+                let total = spent + length * f64::midpoint(cost(cell), cost(next));
+                if total < costs[next] {
+                    costs[next] = total;
+                    before[next] = Some(cell);
+                    queue.push(Reverse((Cost(total), next)));
+                }
+            }
+        }
+        (costs, before)
+    }
+
+    /// The eight cells around one that is not at the border of the grid, with their distances in cells.
+    fn neighbors(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let columns = self.columns;
+        let around = [-1_isize, 0, 1]
+            .into_iter()
+            .flat_map(|y| [-1_isize, 0, 1].map(|x| (x, y)));
+        let around = around.filter(|at| *at != (0, 0));
+        around.filter_map(move |(x, y)| {
+            let next = cell.checked_add_signed(y * columns as isize + x)?;
+            let is_across = x != 0 && y != 0;
+            let length = if is_across {
+                std::f64::consts::SQRT_2
+            } else {
+                1.0
+            };
+            Some((next, length))
+        })
+    }
+
+    /// Per cell whether its middle is inside.
+    fn inside(&self, outline: &Outline) -> Vec<bool> {
+        let mut inside = vec![false; self.columns * self.rows];
+        let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+        let mut crossings = Vec::new();
+        for row in 0..self.rows {
+            let y = self.low.y + (row as f64 + 0.5) * self.cell;
+            crossings.clear();
+            for ring in rings() {
+                let ends = ring.iter().zip(ring.iter().cycle().skip(1));
+                let crossed = ends.filter(|(a, b)| (a.y <= y) != (b.y <= y));
+                crossings.extend(crossed.map(|(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)));
+            }
+            crossings.sort_by(f64::total_cmp);
+            let column = |x: f64| ((x - self.low.x) / self.cell - 0.5).ceil().max(0.0) as usize;
+            for span in crossings.chunks_exact(2) {
+                let [from, to] = [span[0], span[1]].map(|x| column(x).min(self.columns));
+                inside[row * self.columns..][from..to.max(from)].fill(true);
+            }
+        }
+        inside
+    }
+
+    /// Leaves the largest connected piece.
+    fn keep_largest(&self, inside: &mut [bool]) {
+        let mut piece = vec![0_u32; inside.len()];
+        let mut sizes = vec![0];
+        for first in 0..inside.len() {
+            if !inside[first] || piece[first] != 0 {
+                continue;
+            }
+            let number = sizes.len() as u32;
+            let mut open = vec![first];
+            let mut size = 0;
+            piece[first] = number;
+            while let Some(cell) = open.pop() {
+                size += 1;
+                for (next, _) in self.neighbors(cell) {
+                    if inside[next] && piece[next] == 0 {
+                        piece[next] = number;
+                        open.push(next);
+                    }
+                }
+            }
+            sizes.push(size);
+        }
+        let largest = (1..sizes.len()).rev().max_by_key(|number| sizes[*number]);
+        for (inside, piece) in inside.iter_mut().zip(piece) {
+            *inside = *inside && Some(piece as usize) == largest;
+        }
+    }
+
+    /// Per cell its distance from the nearest cell outside.
+    ///
+    /// Source: Felzenszwalb & Huttenlocher, *Distance transforms of sampled functions* (2012).
+    fn distances(&self, inside: &[bool]) -> Vec<f64> {
+        let (columns, rows) = (self.columns, self.rows);
+        let far = (columns + rows).pow(2) as f64;
+        let square = inside.iter().map(|inside| if *inside { far } else { 0.0 });
+        let mut squares: Vec<f64> = square.collect();
+        let mut transform = Transform::default();
+        for column in 0..columns {
+            transform.apply(&mut squares[column..], columns, rows);
+        }
+        for row in squares.chunks_exact_mut(columns) {
+            transform.apply(row, 1, columns);
+        }
+        squares.into_iter().map(f64::sqrt).collect()
+    }
+}
+
+/// The distance transform of a row, with its memory.
+#[derive(Default)]
+struct Transform {
+    values: Vec<f64>,
+    /// The parabolas of the lower envelope: their places, and where each begins to be the lowest.
+    envelope: Vec<(usize, f64)>,
+}
+
+impl Transform {
+    /// Replaces f(p) by the least (p − q)² + f(q), for `count` values that are `stride` apart.
+    fn apply(&mut self, row: &mut [f64], stride: usize, count: usize) {
+        let Self { values, envelope } = self;
+        values.clear();
+        values.extend(row.iter().step_by(stride).take(count));
+        envelope.clear();
+        let height = |at: usize| values[at] + (at * at) as f64;
+        for at in 0..count {
+            let mut from = f64::NEG_INFINITY;
+            while let Some(&(last, begin)) = envelope.last() {
+                from = (height(at) - height(last)) / (2 * (at - last)) as f64;
+                if from > begin {
+                    break;
+                }
+                envelope.pop();
+                from = f64::NEG_INFINITY;
+            }
+            envelope.push((at, from));
+        }
+        let mut lowest = 0;
+        for (at, value) in row.iter_mut().step_by(stride).take(count).enumerate() {
+            while envelope.get(lowest + 1).is_some_and(|(_, from)| *from < at as f64) {
+                lowest += 1;
+            }
+            let (place, _) = envelope[lowest];
+            *value = (at as f64 - place as f64).powi(2) + values[place];
+        }
+    }
+}

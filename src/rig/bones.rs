@@ -1,0 +1,157 @@
+//! The bones inside the parts of a rig that bend.
+
+use glam::{DQuat, DVec3};
+use typed_index_collections::{TiSlice, TiVec};
+
+use super::Context;
+use super::figures::FigureGroup;
+use crate::bend::Bend;
+use crate::bind::PartId;
+use crate::labels::{Figure, FigurePartId};
+use crate::mocap::Transform;
+use crate::retarget::{Matching, Rig, RigPart, SharedTurn};
+
+/// How many bones a part has inside: 1 if it is rigid.
+pub(super) fn count(bend: Option<&Bend>) -> usize {
+    let nodes = bend.iter().flat_map(|bend| &bend.nodes);
+    1 + nodes.filter(|node| node.is_bone()).count()
+}
+
+/// Adds the bones of parts that bend to the parts of a rig, which are in the order of the figure's.
+pub(super) fn add(
+    context: &Context<'_>,
+    figure: &Figure,
+    group: &FigureGroup,
+    matching: &Matching,
+    parts: &mut TiVec<FigurePartId, RigPart>,
+) {
+    let children = children(figure);
+    for index in group.parts.keys() {
+        let Some(bend) = context.bends[group.parts[index]].as_deref() else {
+            continue;
+        };
+        let chain = add_chain(bend, index, &matching.parts[index].bones, parts);
+        for child in &children[index] {
+            let joint = figure.parts[*child].joint;
+            parts[*child].parent = Some(chain[bend.node_at(joint)]);
+        }
+        // What is near the ground moves with the bone that it is on.
+        let surface = std::mem::take(&mut parts[index].surface);
+        for point in surface {
+            let bone = chain[bend.node_at(point.truncate())];
+            parts[bone].surface.push(point);
+        }
+        if let Some(last) = chain.last()
+            && std::mem::take(&mut parts[index].stands)
+        {
+            parts[*last].stands = true;
+        }
+    }
+}
+
+fn children(figure: &Figure) -> TiVec<FigurePartId, Vec<FigurePartId>> {
+    let mut children: TiVec<FigurePartId, Vec<FigurePartId>> =
+        figure.parts.iter().map(|_| Vec::new()).collect();
+    for (index, part) in figure.parts.iter_enumerated() {
+        if let Some(parent) = part.parent {
+            children[parent].push(index);
+        }
+    }
+    children
+}
+
+/// Adds the bones of a part, given what drives all but the first. Returns them all, the part itself first.
+fn add_chain(
+    bend: &Bend,
+    index: FigurePartId,
+    drives: &[Option<crate::retarget::Drive>],
+    parts: &mut TiVec<FigurePartId, RigPart>,
+) -> Vec<FigurePartId> {
+    let base = parts[index].clone();
+    let depth = base.node.position.z;
+    let mut chain = vec![index];
+    // The bone before the joint whose turn is shared, and the first of the nodes that share it.
+    let (mut before, mut first) = (index, 1);
+    for node in &bend.nodes {
+        let own = parts.next_key();
+        let rotation = DQuat::from_rotation_z(node.angle);
+        let position = node.position.extend(depth);
+        let is_bone = node.is_bone();
+        parts.push(RigPart {
+            parent: chain.last().copied(),
+            is_rooted: false,
+            node: Transform { rotation, position },
+            joint: position,
+            tip: position,
+            surface: Vec::new(),
+            stands: false,
+            drive: drives.get(node.joint).copied().flatten().filter(|_| is_bone),
+            is_leg: base.is_leg,
+            swing: base.swing.filter(|_| is_bone),
+            inside: Some(index),
+            shared: None,
+        });
+        chain.push(own);
+        if is_bone {
+            let places = first..chain.len() - 1;
+            let sharing = chain[places.clone()].iter().zip(&bend.nodes[first - 1..]);
+            for (part, node) in sharing {
+                parts[*part].shared = Some(SharedTurn {
+                    between: [before, own],
+                    share: node.share,
+                });
+            }
+            before = own;
+            first = chain.len();
+        }
+    }
+    set_tips(bend, &chain, parts);
+    chain
+}
+
+/// Sets the far ends of the bones of a part: a bone before a joint ends in the joint's middle.
+fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartId, RigPart>) {
+    let tip = bend.tip();
+    for (number, part) in chain.iter().enumerate() {
+        let own = number.checked_sub(1).map(|number| bend.nodes[number]);
+        let joint = parts[*part].joint;
+        let is_bone = own.is_none_or(|node| node.is_bone());
+        let next = bend.nodes[number..].iter();
+        let end = match own {
+            // The nodes that share a turn lead to each other.
+            Some(node) if !is_bone => {
+                let after = bend.nodes[number..].first();
+                let is_late = node.share > 0.5;
+                after.filter(|_| is_late).map_or(node.position, |after| after.position)
+            }
+            _ => {
+                let joint = own.map_or(0, |node| node.joint + 1);
+                let mut nodes = next.filter(|node| node.joint == joint);
+                let middle = nodes.find(|node| node.share > 0.5);
+                middle.map_or(tip, |node| node.position)
+            }
+        };
+        let end = end.extend(joint.z);
+        parts[*part].tip = match own {
+            // Its node points along the bone.
+            Some(node) if is_bone => {
+                let axis = DQuat::from_rotation_z(node.angle) * DVec3::Y;
+                joint + axis * (end - joint).dot(axis).max(0.0)
+            }
+            _ => end,
+        };
+    }
+}
+
+/// The parts of a rig, each with the number of its node: 0 is the part's own one.
+pub(super) fn nodes(group: &FigureGroup, rig: &Rig) -> TiVec<FigurePartId, (PartId, usize)> {
+    let mut inside: TiVec<FigurePartId, usize> = group.parts.iter().map(|_| 0).collect();
+    let nodes = rig.parts.iter_enumerated().map(|(index, part)| {
+        let Some(of) = part.inside else {
+            return (group.parts[index], 0);
+        };
+        inside[of] += 1;
+        (group.parts[of], inside[of])
+    });
+    nodes.collect()
+}
