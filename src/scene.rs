@@ -127,6 +127,9 @@ pub struct Node {
     /// The nodes that bend the mesh together with this one, all below it: what the mesh's [`Influence`]s count from 1. Empty if the
     /// node alone moves the mesh.
     pub bones: Vec<NodeId>,
+    /// For one of such bones, how many nodes make the turn of its joint together, each an equal share: the node and those above it. 0
+    /// for those above it themselves, and for nodes that are no bones.
+    pub shares: usize,
     /// Its camera. Such a node is a root, without mesh and children: a camera is no part of the model.
     pub camera: Option<CameraId>,
     /// How its mesh depends on the viewer.

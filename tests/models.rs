@@ -32,7 +32,7 @@ fn pillar() -> Vec<u8> {
         } else {
             vec![]
         },
-        joints: vec![],
+        influences: vec![],
         targets: vec![],
         triangles: if z > 0.0 {
             vec![[0, 1, 2], [0, 2, 3]]

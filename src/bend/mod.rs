@@ -124,6 +124,11 @@ impl Bend {
         self.line.width()
     }
 
+    /// How many nodes share the turn of a joint.
+    pub(crate) fn shares(&self) -> usize {
+        self.nodes.iter().filter(|node| node.joint == 0).count()
+    }
+
     /// The end of the centreline.
     pub(crate) fn tip(&self) -> DVec2 {
         self.line.at(self.line.length())

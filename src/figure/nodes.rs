@@ -61,6 +61,7 @@ pub(super) fn add(
             name: node.name,
             translation,
             rotation,
+            shares: node.shares,
             // Bones belong to the part that their first node shows.
             provenance: (node.bone == 0).then(|| Provenance {
                 element: context.drawing.shapes[part.shape].element.id.clone(),

@@ -22,6 +22,8 @@ pub(super) struct FigureNode {
     pub(super) part: PartId,
     /// Which node of the part it is: 0 is its own one, others bend it.
     pub(super) bone: usize,
+    /// See [`Node::shares`](crate::scene::Node::shares).
+    pub(super) shares: usize,
     /// The parent node, which comes before it.
     pub(super) parent: Option<NodeId>,
     /// Its position in the parent's frame, drawing units, y up.
@@ -164,6 +166,11 @@ fn bones(
             name: free_name(format!("{name}{suffix}"), names),
             part: pending.part,
             bone: number + 1,
+            shares: if bone.is_bone() {
+                bend.shares()
+            } else {
+                0
+            },
             parent: Some(parent),
             position: above.to_local(frame.origin).extend(0.0),
             angle: frame.angle - above.angle,
@@ -192,6 +199,7 @@ fn node(
         name: format!("{}{}", part.name, ".back".repeat(pending.copies)),
         part: pending.part,
         bone: 0,
+        shares: 0,
         parent: pending.parent.map(|(parent, _)| parent),
         position: position.extend(depth),
         angle,

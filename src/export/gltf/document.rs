@@ -66,6 +66,12 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
     let meshes: TiVec<MeshId, usize> =
         starts(scene.meshes.keys().map(|mesh| usize::from(written(mesh))));
     let mesh_index = |mesh: MeshId| written(mesh).then(|| index(meshes[mesh]));
+    let mut owners: TiVec<NodeId, Option<NodeId>> = ti_vec![None; scene.nodes.len()];
+    for skin in skins {
+        for bone in skin.joints.iter().filter(|_| skin.node.is_some()) {
+            owners[*bone] = skin.node.filter(|node| node != bone);
+        }
+    }
     json.list("nodes", root_node + 1 + skins.len(), |id: NodeId| {
         Some(match scene.nodes.get(id) {
             Some(node) => JsonNode {
@@ -73,6 +79,10 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
                     .mesh
                     .filter(|_| node.bones.is_empty())
                     .and_then(mesh_index),
+                extras: match owners[id] {
+                    Some(owner) => bone_extras(node, &scene.nodes[owner]),
+                    None => part_extras(node),
+                },
                 ..json_node(node)
             },
             None => match usize::from(id).checked_sub(root_node + 1) {
@@ -169,7 +179,7 @@ fn starts<List: FromIterator<usize>>(counts: impl Iterator<Item = usize>) -> Lis
     counts.scan(0, start).collect()
 }
 
-/// A node without its mesh.
+/// A node without its mesh and extras.
 fn json_node(node: &scene::Node) -> JsonNode {
     let translation = node.translation.as_vec3().to_array();
     let rotation = node.rotation.as_quat().to_array();
@@ -204,16 +214,28 @@ fn json_node(node: &scene::Node) -> JsonNode {
                     .collect(),
             }
         }),
-        extras: node.provenance.as_ref().and_then(|provenance| {
-            let okoshi = Provenance {
-                element: provenance.element.as_deref(),
-                string: provenance.string.as_deref(),
-            };
-            let known = okoshi.element.is_some() || okoshi.string.is_some();
-            known.then(|| to_raw_value(&Extras { okoshi }).ok())?
-        }),
         ..JsonNode::default()
     }
+}
+
+/// What a part's node says about the drawing.
+fn part_extras(node: &scene::Node) -> ::gltf::json::Extras {
+    let provenance = node.provenance.as_ref()?;
+    let okoshi = Provenance {
+        element: provenance.element.as_deref(),
+        string: provenance.string.as_deref(),
+    };
+    let known = okoshi.element.is_some() || okoshi.string.is_some();
+    known.then(|| to_raw_value(&Extras { okoshi }).ok())?
+}
+
+/// What a bone says about the part inside which it is.
+fn bone_extras(bone: &scene::Node, part: &scene::Node) -> ::gltf::json::Extras {
+    let okoshi = OfBone {
+        bone_of: &part.name,
+        shares: Some(bone.shares).filter(|shares| *shares > 0),
+    };
+    to_raw_value(&Extras { okoshi }).ok()
 }
 
 /// The node that shows the mesh of a skin, without mesh and skin.
@@ -235,6 +257,14 @@ fn skinned_node(scene: &Scene, skin: &PackedSkin) -> JsonNode {
 #[derive(Serialize)]
 struct Extras<T> {
     okoshi: T,
+}
+
+/// The part that a bone is inside of, and how many nodes make the turn of its joint together: it and those above it.
+#[derive(Serialize)]
+struct OfBone<'a> {
+    bone_of: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    shares: Option<usize>,
 }
 
 /// The part whose mesh a node shows, because a mesh with bones follows them alone.

@@ -407,6 +407,7 @@ fn long_numbers_and_names_are_written_without_gaps() {
         ),
         mesh: Some(part.into()),
         bones: vec![],
+        shares: 0,
         camera: None,
         view_dependent: Some(ViewDependent::Bend),
         provenance: Some(Provenance {

@@ -9,7 +9,7 @@ use serde_json::value::RawValue;
 use super::Fields;
 
 /// Fields of the file that are compared by what they hold, not by their text.
-const COMPARED: [&str; 7] = [
+const COMPARED: [&str; 8] = [
     "accessors",
     "animations",
     "bufferViews",
@@ -17,9 +17,10 @@ const COMPARED: [&str; 7] = [
     "materials",
     "meshes",
     "nodes",
+    "skins",
 ];
 /// Fields of files in which the look of a node depends on more than its mesh, its materials and its transform.
-const DEPENDENT: [&str; 3] = ["images", "skins", "textures"];
+const DEPENDENT: [&str; 2] = ["images", "textures"];
 
 /// A model, read as far as it is compared.
 pub(super) struct File<'a> {
@@ -30,6 +31,7 @@ pub(super) struct File<'a> {
     accessors: Vec<&'a RawValue>,
     views: Vec<View>,
     animations: Vec<Fields<'a>>,
+    skins: Vec<Fields<'a>>,
     data: &'a [u8],
 }
 
@@ -94,6 +96,7 @@ impl<'a> File<'a> {
             accessors: list(&fields, "accessors")?,
             views: list(&fields, "bufferViews")?,
             animations: list(&fields, "animations")?,
+            skins: list(&fields, "skins")?,
             data: glb.bin.as_deref().unwrap_or_default(),
             fields,
         })
@@ -112,9 +115,18 @@ impl<'a> File<'a> {
         let same = same_fields(&self.fields, &other.fields, |name| {
             !COMPARED.contains(&name)
         }) && self.nodes.len() == other.nodes.len()
-            && self.animations.len() == other.animations.len();
+            && self.animations.len() == other.animations.len()
+            && self.skins.len() == other.skins.len();
         if !(same && is_plain(self) && is_plain(other)) {
             return Some(false);
+        }
+        const MATRICES: &str = "inverseBindMatrices";
+        for (old, new) in self.skins.iter().zip(&other.skins) {
+            let [one, two] = [number(old, MATRICES)?, number(new, MATRICES)?];
+            let same_joints = same_fields(old, new, |name| name != MATRICES);
+            if !same_joints || !self.numbers(one)?.is_same(&other.numbers(two)?) {
+                return Some(false);
+            }
         }
         for (old, new) in self.animations.iter().zip(&other.animations) {
             if !same_fields(old, new, |name| name != "samplers") {

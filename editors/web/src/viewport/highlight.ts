@@ -105,10 +105,16 @@ class MarkMaterials {
       stencilFunc: NotEqualStencilFunc,
       uniforms: { color: { value: new Color() }, step: { value: new Vector2() } },
       vertexShader: `
+        #include <skinning_pars_vertex>
         uniform vec2 step;
         void main() {
-          gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-          vec2 outward = (projectionMatrix * vec4(normalMatrix * normal, 0.0)).xy / step;
+          #include <beginnormal_vertex>
+          #include <skinbase_vertex>
+          #include <skinnormal_vertex>
+          #include <begin_vertex>
+          #include <skinning_vertex>
+          gl_Position = projectionMatrix * modelViewMatrix * vec4(transformed, 1.0);
+          vec2 outward = (projectionMatrix * vec4(normalMatrix * objectNormal, 0.0)).xy / step;
           float far = length(outward);
           if (far > 0.0) gl_Position.xy += outward / far * step * gl_Position.w;
         }`,
@@ -127,6 +133,7 @@ function joined(geometry: BufferGeometry): BufferGeometry {
   const bare = new BufferGeometry();
   bare.setAttribute("position", geometry.getAttribute("position"));
   bare.setIndex(geometry.index);
+  for (const name of ["skinIndex", "skinWeight"]) if (geometry.hasAttribute(name)) bare.setAttribute(name, geometry.getAttribute(name));
   if (bare.getAttribute("position").count > MAX_CORNERS) {
     if (geometry.hasAttribute("normal")) bare.setAttribute("normal", geometry.getAttribute("normal"));
     return bare;

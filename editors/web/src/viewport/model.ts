@@ -11,6 +11,8 @@ export type Shading = "smooth" | "flat" | "wire" | "edges";
 export class Model {
   /** Nodes by their names in the file. */
   private readonly nodes = new Map<string, Object3D>();
+  /** The meshes of nodes that bend: they follow their bones alone, so that they are not below their nodes. */
+  private readonly bent = new Map<Object3D, Mesh[]>();
   /** Nodes by the element that they were made from: a part and its copies. */
   private readonly made = new Map<string, Object3D[]>();
   private readonly materials = new Map<Material, { readonly flat: boolean }>();
@@ -99,7 +101,10 @@ export class Model {
   private measure(): void {
     this.nodes.clear();
     this.made.clear();
+    this.bent.clear();
     this.root.traverse((object) => {
+      const owner = bonesOf(object)?.[0];
+      if (owner) this.bent.set(owner, [...(this.bent.get(owner) ?? []), object as Mesh]);
       const name = nodeName(object);
       if (name && !this.nodes.has(name)) this.nodes.set(name, object);
       const element = elementOf(object);
@@ -166,7 +171,7 @@ export class Model {
       for (const child of object.children) if (elementOf(child) === null) collect(child);
     };
     collect(node);
-    return meshes;
+    return [...meshes, ...(this.bent.get(node) ?? [])];
   }
 
   shade(shading: Shading): void {
@@ -250,9 +255,42 @@ function setFields(node: Object3D, { matrix, translation = [0, 0, 0], rotation =
   node.userData = { ...(name === undefined ? {} : { name }), ...extras };
 }
 
+/** What okoshi says about a node. */
+function about(object: Object3D, field: "bone_of" | "mesh_of" | "shares"): unknown {
+  const okoshi = object.userData["okoshi"] as Readonly<Record<string, unknown>> | undefined;
+  return okoshi?.[field];
+}
+
+/** The bones of a mesh that bends, beginning with the node of its part; undefined for other meshes. */
+function bonesOf(object: Object3D): readonly Object3D[] | undefined {
+  if (!(object instanceof SkinnedMesh) || isOverlay(object)) return undefined;
+  // A mesh with several materials is a group of meshes.
+  const isBent = about(object, "mesh_of") ?? (object.parent && about(object.parent, "mesh_of"));
+  return isBent === undefined || isBent === null ? undefined : object.skeleton.bones;
+}
+
+/** How many nodes make the turn of a node's joint together: the node and those above it. */
+export const sharesOf = (node: Object3D): number => {
+  const shares = about(node, "shares");
+  return typeof shares === "number" && shares > 1 ? shares : 1;
+};
+
+/** The node that turns what is at a corner of a mesh: that of its part, or a bone of it. */
+export function limbAt(object: Object3D, corner: number): Object3D | null {
+  const bones = bonesOf(object);
+  if (!bones) return partNode(object);
+  const { geometry } = object as SkinnedMesh;
+  const [numbers, weights] = [geometry.getAttribute("skinIndex"), geometry.getAttribute("skinWeight")];
+  const first = weights.getX(corner) >= weights.getY(corner);
+  let at = first ? numbers.getX(corner) : numbers.getY(corner);
+  // The nodes above a bone that make its turn with it cannot be turned by themselves.
+  while (at > 0 && at < bones.length - 1 && about(bones[at]!, "shares") === undefined) at++;
+  return bones[at] ?? null;
+}
+
 /** The part node that an object belongs to. */
 export function partNode(object: Object3D): Object3D | null {
-  for (let at: Object3D | null = object; at; at = at.parent) if (elementOf(at) !== null) return at;
+  for (let at: Object3D | null = bonesOf(object)?.[0] ?? object; at; at = at.parent) if (elementOf(at) !== null) return at;
   return null;
 }
 

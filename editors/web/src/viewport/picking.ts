@@ -2,12 +2,14 @@
 
 import { Raycaster, Vector2, type Mesh, type Object3D, type Vector3 } from "three";
 import { LAYERS } from "./batches";
-import { partNode } from "./model";
+import { limbAt, partNode } from "./model";
 import type { View } from "./view";
 
 export interface Hit {
   /** The node of the part. */
   readonly node: Object3D;
+  /** The node that turns what was hit: that of the part, or a bone of it. */
+  readonly limb: Object3D;
   readonly point: Vector3;
 }
 
@@ -17,9 +19,9 @@ export function pick(meshes: readonly Mesh[], view: View, canvas: HTMLElement, x
   caster.layers.mask = LAYERS.alone | LAYERS.batched;
   caster.setFromCamera(place(canvas, x, y), view.camera);
   // Both sides of a surface are hit.
-  for (const { object, point } of caster.intersectObjects([...meshes], false)) {
+  for (const { object, point, face } of caster.intersectObjects([...meshes], false)) {
     const node = partNode(object);
-    if (node) return { node, point };
+    if (node) return { node, limb: (face && limbAt(object, face.a)) ?? node, point };
   }
   return null;
 }

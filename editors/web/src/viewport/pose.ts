@@ -1,7 +1,7 @@
 // Limbs turned by hand. Turns are stored by node name, apart from the model, so that they carry over to the next model.
 
 import { Quaternion, Vector3, type Object3D } from "three";
-import { nodeName, type Model } from "./model";
+import { nodeName, sharesOf, type Model } from "./model";
 
 /** The axis of a limb: away from its joint. */
 export const LIMB_AXIS = new Vector3(0, 1, 0);
@@ -34,8 +34,13 @@ export class Pose {
     for (const [name, turn] of this.turns) {
       const node = this.model()?.node(name);
       if (!node) continue;
-      this.bases.set(node, node.quaternion.clone());
-      node.quaternion.multiply(turn);
+      const shares = sharesOf(node);
+      const share = shares > 1 ? new Quaternion().slerp(turn, 1 / shares) : turn;
+      let at: Object3D | null = node;
+      for (let number = 0; number < shares && at; number++, at = at.parent) {
+        this.bases.set(at, at.quaternion.clone());
+        at.quaternion.multiply(share);
+      }
     }
   }
 
@@ -44,12 +49,14 @@ export class Pose {
     node.parent?.updateWorldMatrix(true, false);
     const parent = node.parent?.getWorldQuaternion(new Quaternion()) ?? new Quaternion();
     const turn = new Quaternion().setFromAxisAngle(axis, angle);
-    this.set(node, parent.clone().invert().multiply(turn).multiply(parent).multiply(node.quaternion));
+    this.turnFurther(node, parent.clone().invert().multiply(turn).multiply(parent));
   }
 
   /** Turns a node by radians about the limb's own axis. */
   turnAboutLimb(node: Object3D, angle: number): void {
-    this.set(node, node.quaternion.clone().multiply(new Quaternion().setFromAxisAngle(LIMB_AXIS, angle)));
+    const own = node.quaternion;
+    const turn = new Quaternion().setFromAxisAngle(LIMB_AXIS, angle);
+    this.turnFurther(node, own.clone().multiply(turn).multiply(own.clone().invert()));
   }
 
   /** The turn of a node, to be restored later. */
@@ -74,9 +81,13 @@ export class Pose {
     return turn ? (turn.angleTo(new Quaternion()) * 180) / Math.PI : 0;
   }
 
-  private set(node: Object3D, rotation: Quaternion): void {
-    const base = this.bases.get(node) ?? node.quaternion;
-    this.turns.set(nodeName(node), base.clone().invert().multiply(rotation).normalize());
+  /** Turns a node further, in its parent's frame. */
+  private turnFurther(node: Object3D, further: Quaternion): void {
+    const name = nodeName(node);
+    const own = node.quaternion;
+    // Where several nodes share a turn, the last one's rotation is about that of the joint.
+    const turn = own.clone().invert().multiply(further).multiply(own);
+    this.turns.set(name, (this.turns.get(name) ?? new Quaternion()).clone().multiply(turn).normalize());
     this.apply();
   }
 }

@@ -36,7 +36,7 @@ export class Posing {
     return this.drag !== null;
   }
 
-  begin({ node }: Hit, x: number, y: number): void {
+  begin({ limb: node }: Hit, x: number, y: number): void {
     const name = nodeName(node);
     this.drag = { node, name, before: this.pose.get(name), x, y, turned: 0 };
     this.onTurn(name, 0);
