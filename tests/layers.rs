@@ -16,6 +16,7 @@ const USES: &[(&str, &[&str])] = &[
     (
         "assemble",
         &[
+            "bend",
             "billboard",
             "bind",
             "diagnostic",
@@ -32,6 +33,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("assignment", &[]),
+    ("bend", &["geometry", "scene"]),
     (
         "billboard",
         &[
@@ -126,6 +128,7 @@ const USES: &[(&str, &[&str])] = &[
     (
         "figure",
         &[
+            "bend",
             "bind",
             "diagnostic",
             "geometry",
@@ -288,6 +291,7 @@ const USES: &[(&str, &[&str])] = &[
         "rig",
         &[
             "anatomy",
+            "bend",
             "bind",
             "clips",
             "diagnostic",

@@ -1,8 +1,10 @@
 //! The line through the middle of an outline, from one end to the other.
 
-use glam::DVec2;
+use std::sync::Arc;
 
-use super::grid::Grid;
+use glam::{DAffine2, DVec2};
+
+use super::grid::{Cells, Grid};
 use crate::geometry::{Outline, y_up};
 
 /// The distance of the line's points, in widths.
@@ -12,9 +14,14 @@ const PASSES: usize = 8;
 /// A line that is as near to a straight one as this, in widths, is straight.
 const STRAIGHT: f64 = 0.15;
 /// The line ends within the outline by this many widths, because the middle way turns into a corner there.
-const CLIP: f64 = 0.5;
+const CLIP: f64 = 0.75;
 /// How far it is extended beyond its ends, in widths.
-const BEYOND: f64 = 3.0;
+const BEYOND: f64 = 1.5;
+/// Points of the line that are farther apart than the first along it, and nearer than the second to each other, both in widths, belong to
+/// a curl, in which what is near may be far along the line.
+const CURL: [f64; 2] = [3.0, 2.5];
+/// In a curl, only points of the line count that are this near along it, in widths, to where a point is by the way inside.
+const WINDOW: f64 = 2.0;
 /// Distances along the line are means over the points of it that are near: by this power of the inverse of their distance.
 const NEARNESS: i32 = 3;
 
@@ -31,6 +38,27 @@ pub(crate) struct Centerline {
     length: f64,
     /// The mean width of the outline across it.
     width: f64,
+    /// For a line that curls, about how far along it the places in and near the outline are.
+    ways: Option<Ways>,
+}
+
+/// About how far along a line places are, by the way inside the outline.
+#[derive(Debug, Clone, PartialEq)]
+struct Ways {
+    /// Per cell of the grid.
+    along: Arc<[f32]>,
+    grid: Arc<Cells>,
+    /// From the line's frame to the outline's.
+    to_outline: DAffine2,
+    /// The lengths of the line's frame, as multiples of the outline's.
+    scale: f64,
+}
+
+impl Ways {
+    fn at(&self, point: DVec2) -> f64 {
+        let cell = self.grid.cell_at(self.to_outline.transform_point2(point));
+        f64::from(self.along[cell]) * self.scale
+    }
 }
 
 impl Centerline {
@@ -42,7 +70,31 @@ impl Centerline {
         let start = grid.farthest(tip);
         let way = grid.middle_way(start, tip);
         let way: Vec<DVec2> = way.iter().map(|cell| y_up(grid.place(*cell))).collect();
-        Self::through(&way, grid.area(), joint)
+        let mut line = Self::through(&way, grid.area(), joint)?;
+        if line.curls() {
+            let count = (line.length / line.spacing) as usize;
+            let places = (0..=count).map(|number| number as f64 * line.spacing);
+            let places: Vec<(DVec2, f64)> =
+                places.map(|along| (y_up(line.at(along)), along)).collect();
+            line.ways = Some(Ways {
+                along: grid.labeled(&places).into(),
+                grid: Arc::new(grid.cells),
+                to_outline: DAffine2::from_scale(DVec2::new(1.0, -1.0)),
+                scale: 1.0,
+            });
+        }
+        Some(line)
+    }
+
+    /// Whether parts of the line that are far from each other along it are near to each other.
+    fn curls(&self) -> bool {
+        let apart = (CURL[0] * self.width / self.spacing) as usize;
+        let near = (CURL[1] * self.width).powi(2);
+        let points = self.points.iter().enumerate();
+        points.into_iter().any(|(number, point)| {
+            let far = self.points.iter().skip(number + apart.max(1));
+            far.into_iter().any(|other| point.distance_squared(*other) < near)
+        })
     }
 
     fn through(way: &[DVec2], area: f64, joint: DVec2) -> Option<Self> {
@@ -88,6 +140,7 @@ impl Centerline {
             spacing,
             length: inner + clip,
             width,
+            ways: None,
         };
         let joint = centerline.along(joint).clamp(-clip, inner / 2.0);
         centerline.first -= joint;
@@ -118,7 +171,18 @@ impl Centerline {
     pub(super) fn along(&self, point: DVec2) -> f64 {
         let near = self.spacing * self.spacing;
         let (mut sum, mut total) = (0.0, 0.0);
-        for (number, own) in self.points.iter().enumerate() {
+        let range = match &self.ways {
+            None => 0..self.points.len(),
+            Some(ways) => {
+                let about = ways.at(point) - self.first;
+                let place = |along: f64| (along / self.spacing).max(0.0) as usize;
+                let reach = WINDOW * self.width;
+                let last = self.points.len() - 1;
+                place(about - reach).min(last)..(place(about + reach) + 1).min(last + 1)
+            }
+        };
+        for number in range {
+            let own = self.points[number];
             let weight = (own.distance_squared(point) + near).powi(-NEARNESS);
             sum += weight * number as f64;
             total += weight;
@@ -140,13 +204,18 @@ impl Centerline {
     }
 
     /// The line in another frame: its points mapped, its lengths scaled.
-    pub(super) fn mapped(&self, map: impl Fn(DVec2) -> DVec2, scale: f64) -> Self {
-        Self {
-            points: self.points.iter().map(|point| map(*point)).collect(),
+    pub(super) fn mapped(&self, map: DAffine2, scale: f64) -> Self {
+                Self {
+            points: self.points.iter().map(|point| map.transform_point2(*point)).collect(),
             first: self.first * scale,
             spacing: self.spacing * scale,
             length: self.length * scale,
             width: self.width * scale,
+            ways: self.ways.as_ref().map(|ways| Ways {
+                to_outline: ways.to_outline * map.inverse(),
+                scale: ways.scale * scale,
+                ..ways.clone()
+            }),
         }
     }
 
@@ -154,7 +223,11 @@ impl Centerline {
     pub(super) fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
         let own = [self.first, self.spacing, self.length, self.width];
         let points = self.points.iter().flat_map(|point| point.to_array());
-        own.into_iter().chain(points)
+        let ways = self.ways.iter().flat_map(|ways| {
+            let along = ways.along.iter().map(|along| f64::from(*along));
+            along.chain(ways.to_outline.to_cols_array())
+        });
+        own.into_iter().chain(points).chain(ways)
     }
 }
 

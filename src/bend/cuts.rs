@@ -11,11 +11,13 @@ const STEPS: usize = 6;
 /// A cut is at least this share of an edge away from its ends.
 const LEAST: f64 = 1e-3;
 
-/// Cuts the triangles of a surface where a value crosses these levels, which are ascending. `value` gives that of a point. Edges that
+/// Cuts the edges of a surface where a value crosses these levels, which are ascending, if it changes by more than `least` along the
+/// edge: what is short enough need not be cut. `value` gives that of a point. Edges that
 /// triangles share stay shared, and the surface stays what it is. Returns the values of all corners.
 pub(super) fn cut(
     surface: &mut Surface,
     value: impl Fn([f32; 3]) -> f64,
+    least: f64,
     levels: impl Iterator<Item = f64>,
 ) -> Vec<f64> {
     let values = surface.positions.iter().map(|at| value(*at)).collect();
@@ -23,6 +25,7 @@ pub(super) fn cut(
         surface,
         value,
         values,
+        least,
         cuts: FxHashMap::default(),
     };
     for level in levels {
@@ -36,6 +39,7 @@ struct Cutter<'a, Value> {
     value: Value,
     /// Per corner its value.
     values: Vec<f64>,
+    least: f64,
     /// The corners on the level by the edges that they cut, whose ends are ascending.
     cuts: FxHashMap<[u32; 2], u32>,
 }
@@ -48,7 +52,7 @@ impl<Value: Fn([f32; 3]) -> f64> Cutter<'_, Value> {
         for triangle in triangles {
             let is_crossed = |corners: [u32; 2]| {
                 let [a, b] = corners.map(|corner| self.values[corner as usize]);
-                (a < level && b > level) || (a > level && b < level)
+                (a - b).abs() > self.least && ((a < level && b > level) || (a > level && b < level))
             };
             let [a, b, c] = triangle;
             let edges = [[a, b], [b, c], [c, a]];

@@ -14,13 +14,36 @@ const MAX_SIDE: f64 = 600.0;
 /// How strongly the way prefers the middle: the cost of a step is divided by this power of the distance from the border.
 const MIDDLE: i32 = 3;
 
-/// The cells inside an outline.
-pub(super) struct Grid {
+/// Squares in rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cells {
     low: DVec2,
-    /// The side of a cell.
-    pub(super) cell: f64,
+    side: f64,
     columns: usize,
     rows: usize,
+}
+
+impl Cells {
+    /// The middle of a cell.
+    fn middle(&self, cell: usize) -> DVec2 {
+        let at = DVec2::new(
+            (cell % self.columns) as f64 + 0.5,
+            (cell / self.columns) as f64 + 0.5,
+        );
+        self.low + at * self.side
+    }
+
+    /// The cell at a point, or the nearest one.
+    pub(super) fn cell_at(&self, point: DVec2) -> usize {
+        let [column, row] = ((point - self.low) / self.side).to_array();
+        let within = |at: f64, count: usize| (at.max(0.0) as usize).min(count - 1);
+        within(row, self.rows) * self.columns + within(column, self.columns)
+    }
+}
+
+/// The cells inside an outline.
+pub(super) struct Grid {
+    pub(super) cells: Cells,
     /// Per cell how far its middle is from the nearest cell outside, in cells; 0 outside.
     depths: Vec<f64>,
 }
@@ -38,10 +61,12 @@ impl Grid {
         // A border of cells outside.
         let [columns, rows] = (size / cell).to_array().map(|cells| cells as usize + 3);
         let mut grid = Self {
-            low: low - DVec2::splat(cell),
-            cell,
-            columns,
-            rows,
+            cells: Cells {
+                low: low - DVec2::splat(cell),
+                side: cell,
+                columns,
+                rows,
+            },
             depths: Vec::new(),
         };
         let mut inside = grid.inside(outline);
@@ -55,17 +80,13 @@ impl Grid {
 
     /// The middle of a cell.
     pub(super) fn place(&self, cell: usize) -> DVec2 {
-        let at = DVec2::new(
-            (cell % self.columns) as f64 + 0.5,
-            (cell / self.columns) as f64 + 0.5,
-        );
-        self.low + at * self.cell
+        self.cells.middle(cell)
     }
 
     /// The area of all cells inside.
     pub(super) fn area(&self) -> f64 {
         let inside = self.depths.iter().filter(|depth| **depth > 0.0);
-        inside.count() as f64 * self.cell * self.cell
+        inside.count() as f64 * self.cells.side.powi(2)
     }
 
     /// The cell inside that is nearest to a point.
@@ -90,24 +111,38 @@ impl Grid {
         std::iter::successors(Some(from), step).collect()
     }
 
+    /// Per cell the value of that of some places, each with its value, which is nearest on the way inside; for cells outside, what the
+    /// nearest cell inside has.
+    pub(super) fn labeled(&self, places: &[(DVec2, f64)]) -> Vec<f32> {
+        /// A step outside costs more than any way inside.
+        const OUTSIDE: f64 = 1e6;
+
+        let mut found = vec![(f64::INFINITY, 0.0_f32); self.depths.len()];
+        let mut queue = BinaryHeap::new();
+        for (place, value) in places {
+            let cell = self.cells.cell_at(*place);
+            found[cell] = (0.0, *value as f32);
+            queue.push(Reverse((Cost(0.0), cell)));
+        }
+        while let Some(Reverse((Cost(spent), cell))) = queue.pop() {
+            if spent > found[cell].0 {
+                continue;
+            }
+            for (next, length) in self.neighbors(cell) {
+                let factor = if self.depths[next] > 0.0 { 1.0 } else { OUTSIDE };
+                let total = spent + factor * length;
+                if total < found[next].0 {
+                    found[next] = (total, found[cell].1);
+                    queue.push(Reverse((Cost(total), next)));
+                }
+            }
+        }
+        found.into_iter().map(|(_, value)| value).collect()
+    }
+
     /// Per cell the least cost of a way from `start`, where a step costs its length times the mean of its ends' `cost`, and the next
     /// cell on the way back.
     fn ways(&self, start: usize, cost: impl Fn(usize) -> f64) -> (Vec<f64>, Vec<Option<usize>>) {
-        /// A cost, ordered.
-        #[derive(PartialEq)]
-        struct Cost(f64);
-        impl Eq for Cost {}
-        impl PartialOrd for Cost {
-            fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-                Some(self.cmp(other))
-            }
-        }
-        impl Ord for Cost {
-            fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-                self.0.total_cmp(&other.0)
-            }
-        }
-
         let mut costs = vec![f64::INFINITY; self.depths.len()];
         let mut before = vec![None; self.depths.len()];
         let mut queue = BinaryHeap::from([Reverse((Cost(0.0), start))]);
@@ -131,15 +166,19 @@ impl Grid {
         (costs, before)
     }
 
-    /// The eight cells around one that is not at the border of the grid, with their distances in cells.
+    /// The eight cells around one, with their distances in cells.
     fn neighbors(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
-        let columns = self.columns;
+        let Cells { columns, rows, .. } = self.cells;
         let around = [-1_isize, 0, 1]
             .into_iter()
             .flat_map(|y| [-1_isize, 0, 1].map(|x| (x, y)));
         let around = around.filter(|at| *at != (0, 0));
         around.filter_map(move |(x, y)| {
             let next = cell.checked_add_signed(y * columns as isize + x)?;
+            let is_beyond = next >= columns * rows || (next % columns).abs_diff(cell % columns) > 1;
+            if is_beyond {
+                return None;
+            }
             let is_across = x != 0 && y != 0;
             let length = if is_across {
                 std::f64::consts::SQRT_2
@@ -152,11 +191,17 @@ impl Grid {
 
     /// Per cell whether its middle is inside.
     fn inside(&self, outline: &Outline) -> Vec<bool> {
-        let mut inside = vec![false; self.columns * self.rows];
+        let Cells {
+            low,
+            side,
+            columns,
+            rows,
+        } = self.cells;
+        let mut inside = vec![false; columns * rows];
         let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
         let mut crossings = Vec::new();
-        for row in 0..self.rows {
-            let y = self.low.y + (row as f64 + 0.5) * self.cell;
+        for row in 0..rows {
+            let y = low.y + (row as f64 + 0.5) * side;
             crossings.clear();
             for ring in rings() {
                 let ends = ring.iter().zip(ring.iter().cycle().skip(1));
@@ -164,10 +209,10 @@ impl Grid {
                 crossings.extend(crossed.map(|(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x)));
             }
             crossings.sort_by(f64::total_cmp);
-            let column = |x: f64| ((x - self.low.x) / self.cell - 0.5).ceil().max(0.0) as usize;
+            let column = |x: f64| ((x - low.x) / side - 0.5).ceil().max(0.0) as usize;
             for span in crossings.chunks_exact(2) {
-                let [from, to] = [span[0], span[1]].map(|x| column(x).min(self.columns));
-                inside[row * self.columns..][from..to.max(from)].fill(true);
+                let [from, to] = [span[0], span[1]].map(|x| column(x).min(columns));
+                inside[row * columns..][from..to.max(from)].fill(true);
             }
         }
         inside
@@ -206,7 +251,7 @@ impl Grid {
     ///
     /// Source: Felzenszwalb & Huttenlocher, *Distance transforms of sampled functions* (2012).
     fn distances(&self, inside: &[bool]) -> Vec<f64> {
-        let (columns, rows) = (self.columns, self.rows);
+        let Cells { columns, rows, .. } = self.cells;
         let far = (columns + rows).pow(2) as f64;
         let square = inside.iter().map(|inside| if *inside { far } else { 0.0 });
         let mut squares: Vec<f64> = square.collect();
@@ -257,5 +302,20 @@ impl Transform {
             let (place, _) = envelope[lowest];
             *value = (at as f64 - place as f64).powi(2) + values[place];
         }
+    }
+}
+
+/// A cost, ordered.
+#[derive(PartialEq)]
+struct Cost(f64);
+impl Eq for Cost {}
+impl PartialOrd for Cost {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+impl Ord for Cost {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.0.total_cmp(&other.0)
     }
 }

@@ -4,15 +4,16 @@ use std::any::Any;
 use std::hash::Hasher;
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
 use rustc_hash::FxHasher;
 
 use super::cuts::cut;
 use super::{Bend, BendNode, Centerline};
 use crate::scene::{Influence, Surface, SurfaceSource};
 
-/// The distance of cuts where the surface passes from one node to the next, in widths …
-const CUT: f64 = 0.125;
+/// The distance of cuts where the surface passes from one node to the next, in widths, where a turn is shared and in a chain, whose
+/// joints turn less …
+const CUT: [f64; 2] = [0.125, 0.25];
 /// … of which there are at least, and at most, as many as this.
 const CUTS: [f64; 2] = [4.0, 12.0];
 
@@ -25,15 +26,18 @@ pub(crate) struct Bones {
     line: Centerline,
     /// How far along the line each node after the first is, and half the length over which the surface passes to it.
     nodes: Vec<[f64; 2]>,
+    is_chain: bool,
 }
 
 impl Bones {
-    /// Those of a part, given the map from the drawing, y up, to the frame of its node, which scales.
-    pub(crate) fn new(bend: &Bend, to_frame: impl Fn(DVec2) -> DVec2, scale: f64) -> Self {
+    /// Those of a part, given the map from the drawing, y up, to the frame of its node, which scales evenly.
+    pub(crate) fn new(bend: &Bend, to_frame: DAffine2) -> Self {
+        let scale = to_frame.matrix2.determinant().abs().sqrt();
         let place = |node: &BendNode| [node.at * scale, node.blend * scale];
         Self {
             line: bend.line.mapped(to_frame, scale),
             nodes: bend.nodes.iter().map(place).collect(),
+            is_chain: bend.shares() == 1,
         }
     }
 
@@ -54,11 +58,16 @@ impl Bones {
         }
     }
 
+    /// What is no longer than this along the line follows a bend without being cut.
+    fn shortest(&self) -> f64 {
+        CUT[usize::from(self.is_chain)] * self.line.width()
+    }
+
     /// How far along the line the surface is cut, ascending: where it passes from one node to the next.
     fn levels(&self) -> impl Iterator<Item = f64> + '_ {
         let mut last = f64::NEG_INFINITY;
         let levels = self.nodes.iter().flat_map(|[at, blend]| {
-            let cuts = 2.0 * blend / (CUT * self.line.width());
+            let cuts = 2.0 * blend / self.shortest();
             let cuts = cuts.ceil().clamp(CUTS[0], CUTS[1]);
             let place = move |cut: usize| at - blend + 2.0 * blend * cut as f64 / cuts;
             (0..=cuts as usize).map(place)
@@ -94,7 +103,7 @@ impl SurfaceSource for BentSurface {
             let point = DVec2::new(f64::from(x), f64::from(y));
             self.bones.line.along(point)
         };
-        let values = cut(&mut surface, along, self.bones.levels());
+        let values = cut(&mut surface, along, self.bones.shortest(), self.bones.levels());
         let influences = values.into_iter().map(|value| self.bones.influence(value));
         surface.influences = influences.collect();
         surface

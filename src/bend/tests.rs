@@ -58,7 +58,7 @@ fn bent(outline: &Outline, kind: &str, bend: impl Fn(Centerline) -> Bend) -> Ben
     let solid = solid(outline, kind);
     let source = BentSurface {
         solid: Arc::new(solid.clone()),
-        bones: Arc::new(Bones::new(&bend, |point| point, 1.0)),
+        bones: Arc::new(Bones::new(&bend, DAffine2::IDENTITY)),
         rigid: None,
     };
     Bent {

@@ -245,8 +245,8 @@ impl<'a> Figures<'a> {
     fn bones(&self, main: PartId, world: &WorldTransform) -> Option<Arc<Bones>> {
         let bend = self.context.bends[main].as_deref()?;
         let frame = self.frames[main].node;
-        let place = |point: DVec2| frame.to_local(point) * world.scale;
-        Some(Arc::new(Bones::new(bend, place, world.scale)))
+        let to_frame = DAffine2::from_scale(DVec2::splat(world.scale)) * frame.from_plane();
+        Some(Arc::new(Bones::new(bend, to_frame)))
     }
 
     /// A surface of a part in the frame of its node, bound to the node's bones. What is smaller than half the width of what bends, such

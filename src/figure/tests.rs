@@ -84,10 +84,37 @@ fn the_middle_of_the_lower_edge_is_the_origin() {
 }
 
 #[test]
-fn copies_have_names_of_their_own_and_follow_their_originals() {
+fn what_bends_is_a_chain_of_nodes_and_so_is_its_copy() {
     let elements = [
         rect([40, 40, 20, 20], "Body$"),
         rect([60, 45, 60, 10], "Arm@Body$Shape -d roundv Offset 9"),
+        rect([118, 45, 12, 10], "Hand@Arm$"),
+    ];
+    let scene = drawing(&elements.concat()).scene;
+    for back in ["", ".back"] {
+        let chain = ["Arm", "Arm.2a", "Arm.2b", "Arm.2", "Hand"].map(|name| format!("{name}{back}"));
+        let ids = chain.map(|name| {
+            let found = scene.nodes.iter_enumerated();
+            let mut found = found.filter(|(_, node)| node.name == name);
+            found.next().unwrap_or_else(|| panic!("{name}")).0
+        });
+        for pair in ids.windows(2) {
+            assert_eq!(scene.nodes[pair[0]].children, [pair[1]]);
+        }
+        assert_eq!(scene.nodes[ids[0]].bones, ids[1..4]);
+        assert_eq!(ids.map(|id| scene.nodes[id].shares), [0, 0, 0, 3, 0]);
+        // The hand is where it is drawn, and as deep as the arm.
+        let rest = scene.rest();
+        let [arm, hand] = [ids[0], ids[4]].map(|id| rest[id].translation * 100.0);
+        assert!(hand.distance(arm + DVec3::X * 58.0) < 1e-6, "{arm} {hand}");
+    }
+}
+
+#[test]
+fn copies_have_names_of_their_own_and_follow_their_originals() {
+    let elements = [
+        rect([40, 40, 20, 20], "Body$"),
+        rect([60, 45, 60, 10], "Arm@Body$Shape -d roundv Offset 9 Bend 0"),
         rect([120, 45, 30, 10], "Hand@Arm$Shape -d roundv Offset 4"),
     ];
     let scene = drawing(&elements.concat()).scene;

@@ -48,6 +48,11 @@ impl Frame {
         DVec2::from_angle(-self.angle).rotate(point - self.origin)
     }
 
+    /// The map from the plane to this frame.
+    pub(crate) fn from_plane(self) -> DAffine2 {
+        DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.origin)
+    }
+
     /// The map from the drawing, y down, to axes turned like this frame's with the part's centre at the origin.
     pub(crate) fn drawing_about_center(self) -> DAffine2 {
         let flip = DAffine2::from_scale(DVec2::new(1.0, -1.0));

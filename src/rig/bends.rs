@@ -28,7 +28,10 @@ pub(crate) fn bends(
     bindings: &Bindings,
     figures: &[FigureFacing],
 ) -> TiVec<PartId, Option<Arc<Bend>>> {
-    let labels = figures.iter().filter(|figure| !figure.found.is_vehicle);
+    // Parts of what is no body, such as a machine, are limbs only if they are to move like ones.
+    let is_moving = !bindings.clip_requests().is_empty();
+    let bodies = figures.iter().filter(|figure| figure.has_names || is_moving);
+    let labels = bodies.filter(|figure| !figure.found.is_vehicle);
     let labels = labels.flat_map(|figure| &figure.labels);
     let labels: FxHashMap<PartId, &Label> = labels.map(|(part, label)| (*part, label)).collect();
     let parts_of_node = bindings.parts_of_nodes();

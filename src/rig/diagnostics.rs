@@ -404,7 +404,7 @@ fn match_problem(
                 error * 100.0
             );
             Diagnostic::new(Code::BentArm, element, message)
-                .help("split the arm into two shapes at the elbow to show the motion better")
+                .help("split the arm into two shapes at the elbow to show the motion better, or let it bend: `Bend 1` in its string")
         }
         Problem::NothingMatched => unclear("no joint drives any part".to_owned()),
     }

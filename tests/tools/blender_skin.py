@@ -3,7 +3,7 @@
     blender -b --factory-startup --python-exit-code 1 --python blender_skin.py -- PLAIN.glb SKINNED.glb [PLAIN.glb SKINNED.glb...]
 
 Imports each pair, compares all corners at rest and after the largest node with a parent and a mesh was turned by 40
-degrees about its joint. Ends with 1 if a corner is off by more than a thousandth of the model's size.
+degrees about its joint, and with it a bone inside a part that bends, if there is one. Ends with 1 if a corner is off by more than a thousandth of the model's size.
 """
 
 import math

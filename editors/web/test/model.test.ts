@@ -135,7 +135,7 @@ browse("the pointer highlights parts; a click picks one and notifies the host", 
   assert.equal(await page.getAttribute("canvas", "data-hovered"), "Arm");
   await page.mouse.click(arm.x, arm.y);
   await page.waitForSelector("[data-part=Arm][aria-selected=true]");
-  await page.waitForFunction(() => document.querySelector(".inspector code")?.textContent === "Arm@Body$Shape default -8 8");
+  await page.waitForFunction(() => document.querySelector(".inspector code")?.textContent === "Arm@Body$Shape default -8 8 Bend 0");
   assert.deepEqual(host.heard.filter(({ type }) => type === "pick"), [{ type: "pick", drawing: "figure.svg", part: "Arm" }]);
   const facts = await page.locator(".inspector").innerText();
   for (const fact of [/nearest/, /Line\s+6, column/, /Parent\s+Body/, /#arm/, /Shape\s+default -8 8\s+its string/, /Color\s+0 0.627 0\s+built in/]) assert.match(facts, fact);

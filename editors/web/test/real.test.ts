@@ -73,6 +73,32 @@ real("an error is shown over what can be built until it is fixed", "figure.svg",
   assertLike((await picture(page)).at(await at(page, 140, 180, 0.2)), BLUE, "the new body", 80);
 });
 
+real("posing turns the half of an arm that is taken hold of, and the elbow stays whole", "figure.svg", async (page, folder) => {
+  await shown(page, 1);
+  save(folder, (text) => text.replace(" Bend 0", ""));
+  await shown(page, 2);
+  await page.keyboard.press("1");
+  await page.keyboard.press("p");
+  await still(page);
+  const [elbow, tip, shoulder] = [await at(page, 210, 120, 0.08), await at(page, 240, 120, 0.08), await at(page, 180, 120, 0.08)];
+  await page.mouse.move(tip.x, tip.y);
+  await page.mouse.down();
+  await page.mouse.move(elbow.x, elbow.y - (tip.x - elbow.x), { steps: 6 });
+  await page.mouse.up();
+  assert.match((await page.locator(".pose-readout").innerText()).trim(), /^Arm \+(8[5-9]|9[0-5])°$/);
+  await page.keyboard.press("p");
+  await page.mouse.move(5, 5);
+  await still(page);
+  const seen = await picture(page, "real-bent");
+  assertLike(seen.at(shoulder), GREEN, "the upper half stays", 80);
+  assertLike(seen.at(elbow), GREEN, "the elbow is whole", 80);
+  assertLike(seen.at({ x: elbow.x + 12, y: elbow.y - (tip.x - elbow.x) }), GREEN, "the lower half is turned", 80);
+  assert.ok(!isLike(seen.at(tip), GREEN, 80), "nothing is left where it was");
+  // The outline of the selected part follows its bones.
+  await page.mouse.click(shoulder.x, shoulder.y);
+  assert.equal(await page.locator(".tree-item[aria-selected=true]").getAttribute("data-part"), "Arm");
+});
+
 real("a click reports the part, and posing turns the limb about its joint", "figure.svg", async (page) => {
   await shown(page, 1);
   await page.keyboard.press("1");
@@ -80,7 +106,7 @@ real("a click reports the part, and posing turns the limb about its joint", "fig
   const tip = await at(page, 240, 120, 0.08);
   await page.mouse.click(tip.x, tip.y);
   await page.waitForSelector("[data-part=Arm][aria-selected=true]");
-  assert.equal(await page.locator(".inspector code").innerText(), "Arm@Body$Shape default -8 8");
+  assert.equal(await page.locator(".inspector code").innerText(), "Arm@Body$Shape default -8 8 Bend 0");
   // The joint is where the arm meets the body, at (170, 120): dragging its tip to above the joint turns it up.
   await page.locator("canvas").focus();
   await page.keyboard.press("p");

@@ -17,6 +17,7 @@ pub(crate) fn bent_arms(matching: &Matching, clip: &Clip, anatomy: &Anatomy) -> 
         let follow = part.drive.map(|drive| drive.follow);
         let label = part.label.as_ref();
         follow == Some(Follow::Direction)
+            && part.bones.is_empty()
             && label.is_some_and(|label| {
                 (label.class, label.segment) == (Class::Arm, LimbSegment::Whole)
             })
