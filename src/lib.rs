@@ -91,8 +91,8 @@
 mod anatomy;
 mod assemble;
 mod assignment;
-mod billboard;
 mod bend;
+mod billboard;
 mod bind;
 #[cfg(feature = "cli")]
 mod cli;

@@ -11,8 +11,8 @@ use std::sync::Arc;
 
 use typed_index_collections::{TiVec, ti_vec};
 
-use crate::billboard::{self, Character, RegionMaterials};
 use crate::bend::Bend;
+use crate::billboard::{self, Character, RegionMaterials};
 use crate::bind::{Bindings, PartId};
 use crate::diagnostic::Diagnostic;
 use crate::figure::{Behind, FigureNodes, Figures, FormInFigure, LinkedModels, NodeDepth};
@@ -216,8 +216,7 @@ fn build(
             let seen = rig::seen(bindings, &facings);
             let bends = rig::bends(drawing, bindings, &facings);
             let bent = bends.clone();
-            let figures =
-                Figures::lay_out(drawing, bindings, seen, bent, &world, memo, &mut found);
+            let figures = Figures::lay_out(drawing, bindings, seen, bent, &world, memo, &mut found);
             (figures, facings, bends)
         },
         || {

@@ -93,7 +93,8 @@ impl Centerline {
         let points = self.points.iter().enumerate();
         points.into_iter().any(|(number, point)| {
             let far = self.points.iter().skip(number + apart.max(1));
-            far.into_iter().any(|other| point.distance_squared(*other) < near)
+            far.into_iter()
+                .any(|other| point.distance_squared(*other) < near)
         })
     }
 
@@ -205,8 +206,12 @@ impl Centerline {
 
     /// The line in another frame: its points mapped, its lengths scaled.
     pub(super) fn mapped(&self, map: DAffine2, scale: f64) -> Self {
-                Self {
-            points: self.points.iter().map(|point| map.transform_point2(*point)).collect(),
+        Self {
+            points: self
+                .points
+                .iter()
+                .map(|point| map.transform_point2(*point))
+                .collect(),
             first: self.first * scale,
             spacing: self.spacing * scale,
             length: self.length * scale,
@@ -254,7 +259,11 @@ fn resampled(way: &[DVec2], from: f64, length: f64, count: usize) -> Vec<DVec2> 
         points.push(match segments.peek() {
             Some([a, b]) => {
                 let own = a.distance(*b);
-                let share = if own > 0.0 { (wanted - passed) / own } else { 0.0 };
+                let share = if own > 0.0 {
+                    (wanted - passed) / own
+                } else {
+                    0.0
+                };
                 a.lerp(*b, share)
             }
             None => last,

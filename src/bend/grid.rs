@@ -129,7 +129,11 @@ impl Grid {
                 continue;
             }
             for (next, length) in self.neighbors(cell) {
-                let factor = if self.depths[next] > 0.0 { 1.0 } else { OUTSIDE };
+                let factor = if self.depths[next] > 0.0 {
+                    1.0
+                } else {
+                    OUTSIDE
+                };
                 let total = spent + factor * length;
                 if total < found[next].0 {
                     found[next] = (total, found[cell].1);
@@ -296,7 +300,10 @@ impl Transform {
         }
         let mut lowest = 0;
         for (at, value) in row.iter_mut().step_by(stride).take(count).enumerate() {
-            while envelope.get(lowest + 1).is_some_and(|(_, from)| *from < at as f64) {
+            while envelope
+                .get(lowest + 1)
+                .is_some_and(|(_, from)| *from < at as f64)
+            {
                 lowest += 1;
             }
             let (place, _) = envelope[lowest];

@@ -94,7 +94,9 @@ impl Bend {
         let shares = if joints.len() == 1 { SHARES } else { 1 };
         let mut nodes = Vec::with_capacity(shares * joints.len());
         for (joint, bones) in ends.windows(3).enumerate() {
-            let &[before, at, after] = bones else { continue };
+            let &[before, at, after] = bones else {
+                continue;
+            };
             let shorter = (at - before).min(after - at);
             let arc = match shares {
                 1 => shorter,

@@ -43,7 +43,9 @@ impl Bones {
 
     /// What moves a point at a distance along the line.
     pub(super) fn influence(&self, along: f64) -> Influence {
-        let after = self.nodes.partition_point(|[at, blend]| at + blend <= along);
+        let after = self
+            .nodes
+            .partition_point(|[at, blend]| at + blend <= along);
         match self.nodes.get(after) {
             Some([at, blend]) if along > at - blend => {
                 let share = (along - (at - blend)) / (2.0 * blend);
@@ -103,7 +105,12 @@ impl SurfaceSource for BentSurface {
             let point = DVec2::new(f64::from(x), f64::from(y));
             self.bones.line.along(point)
         };
-        let values = cut(&mut surface, along, self.bones.shortest(), self.bones.levels());
+        let values = cut(
+            &mut surface,
+            along,
+            self.bones.shortest(),
+            self.bones.levels(),
+        );
         let influences = values.into_iter().map(|value| self.bones.influence(value));
         surface.influences = influences.collect();
         surface

@@ -72,7 +72,12 @@ impl Bent {
     /// The corners where each joint is turned by an angle about an axis.
     fn posed(&self, axis: DVec3, angle: f64) -> Vec<DVec3> {
         let mut transforms = vec![(DQuat::IDENTITY, DVec3::ZERO)];
-        let shares = self.bend.nodes.iter().filter(|node| node.joint == 0).count();
+        let shares = self
+            .bend
+            .nodes
+            .iter()
+            .filter(|node| node.joint == 0)
+            .count();
         for node in &self.bend.nodes {
             let (turn, shift) = *transforms.last().unwrap();
             let own = DQuat::from_axis_angle(axis, angle / shares as f64);
@@ -136,7 +141,12 @@ fn at_rest(surface: &Surface) -> Vec<DVec3> {
 
 /// The least width of a limb across its first joint, where its corners are moved so.
 fn width_at_joint(bent: &Bent, corners: &[DVec3]) -> f64 {
-    let joint = bent.bend.nodes.iter().find(|node| node.share > 0.5).unwrap();
+    let joint = bent
+        .bend
+        .nodes
+        .iter()
+        .find(|node| node.share > 0.5)
+        .unwrap();
     // Of the corners near the joint along the limb those of either side.
     let near = |corner: &DVec3| {
         let along = bent.bend.line.along(corner.truncate());
@@ -204,8 +214,9 @@ fn every_edge_has_two_triangles_after_cutting() {
             for triangle in &bent.surface.triangles {
                 for (a, b) in [(0, 1), (1, 2), (2, 0)] {
                     let [a, b] = [triangle[a], triangle[b]].map(place);
-                    *edges.entry(if a < b { (a, b) } else { (b, a) }).or_default() +=
-                        if a < b { 1 } else { -1 };
+                    *edges
+                        .entry(if a < b { (a, b) } else { (b, a) })
+                        .or_default() += if a < b { 1 } else { -1 };
                 }
             }
             assert!(edges.values().all(|sum| *sum == 0));
@@ -258,7 +269,14 @@ fn an_elbow_is_where_the_drawing_bends() {
     let bend = Bend::limb(Centerline::new(&straight, DVec2::ZERO).unwrap());
     let middle = bend.nodes[1].position;
     assert!(middle.distance(DVec2::new(0.0, -50.0)) < 3.0, "{middle}");
-    let points = [(0., 0.), (20., 0.), (20., 55.), (80., 55.), (80., 75.), (0., 75.)];
+    let points = [
+        (0., 0.),
+        (20., 0.),
+        (20., 55.),
+        (80., 55.),
+        (80., 75.),
+        (0., 75.),
+    ];
     let ring = points.map(|(x, y)| DVec2::new(x, y)).to_vec();
     let bent = Outline {
         polygons: vec![Polygon { rings: vec![ring] }],

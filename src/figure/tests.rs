@@ -92,7 +92,8 @@ fn what_bends_is_a_chain_of_nodes_and_so_is_its_copy() {
     ];
     let scene = drawing(&elements.concat()).scene;
     for back in ["", ".back"] {
-        let chain = ["Arm", "Arm.2a", "Arm.2b", "Arm.2", "Hand"].map(|name| format!("{name}{back}"));
+        let chain =
+            ["Arm", "Arm.2a", "Arm.2b", "Arm.2", "Hand"].map(|name| format!("{name}{back}"));
         let ids = chain.map(|name| {
             let found = scene.nodes.iter_enumerated();
             let mut found = found.filter(|(_, node)| node.name == name);

@@ -6,9 +6,9 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::layers::Layers;
 use super::{FigureContext, PartFrames};
-use crate::geometry::Frame;
 use crate::bind::{PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::Frame;
 use crate::scene::NodeId;
 
 /// Limit of the nodes that `-d` adds: nested copies double each time.
@@ -166,11 +166,7 @@ fn bones(
             name: free_name(format!("{name}{suffix}"), names),
             part: pending.part,
             bone: number + 1,
-            shares: if bone.is_bone() {
-                bend.shares()
-            } else {
-                0
-            },
+            shares: if bone.is_bone() { bend.shares() } else { 0 },
             parent: Some(parent),
             position: above.to_local(frame.origin).extend(0.0),
             angle: frame.angle - above.angle,

@@ -30,7 +30,9 @@ pub(crate) fn bends(
 ) -> TiVec<PartId, Option<Arc<Bend>>> {
     // Parts of what is no body, such as a machine, are limbs only if they are to move like ones.
     let is_moving = !bindings.clip_requests().is_empty();
-    let bodies = figures.iter().filter(|figure| figure.has_names || is_moving);
+    let bodies = figures
+        .iter()
+        .filter(|figure| figure.has_names || is_moving);
     let labels = bodies.filter(|figure| !figure.found.is_vehicle);
     let labels = labels.flat_map(|figure| &figure.labels);
     let labels: FxHashMap<PartId, &Label> = labels.map(|(part, label)| (*part, label)).collect();
@@ -59,7 +61,10 @@ pub(crate) fn bends(
             _ => Bend::chain(line, joints),
         }))
     };
-    par_keys(&bindings.parts).map(bend).collect::<Vec<_>>().into()
+    par_keys(&bindings.parts)
+        .map(bend)
+        .collect::<Vec<_>>()
+        .into()
 }
 
 /// How many joints a part has inside by its name and by what it is of its figure.

@@ -85,7 +85,11 @@ fn add_chain(
             tip: position,
             surface: Vec::new(),
             stands: false,
-            drive: drives.get(node.joint).copied().flatten().filter(|_| is_bone),
+            drive: drives
+                .get(node.joint)
+                .copied()
+                .flatten()
+                .filter(|_| is_bone),
             is_leg: base.is_leg,
             swing: base.swing.filter(|_| is_bone),
             inside: Some(index),
@@ -122,7 +126,9 @@ fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartI
             Some(node) if !is_bone => {
                 let after = bend.nodes[number..].first();
                 let is_late = node.share > 0.5;
-                after.filter(|_| is_late).map_or(node.position, |after| after.position)
+                after
+                    .filter(|_| is_late)
+                    .map_or(node.position, |after| after.position)
             }
             _ => {
                 let joint = own.map_or(0, |node| node.joint + 1);
@@ -141,6 +147,21 @@ fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartI
             _ => end,
         };
     }
+}
+
+/// The bones of a part of a rig: the part itself, and those inside it from its joint to its far end.
+pub(super) fn chain(rig: &Rig, part: FigurePartId) -> Vec<FigurePartId> {
+    let inside = rig.parts.iter_enumerated();
+    let inside = inside.filter(|(_, bone)| bone.inside == Some(part));
+    let inside = inside.map(|(bone, _)| bone);
+    std::iter::once(part).chain(inside).collect()
+}
+
+/// The last bone of a part that something drives; the part itself if nothing does.
+pub(super) fn driven_end(rig: &Rig, part: FigurePartId) -> FigurePartId {
+    let mut bones = chain(rig, part).into_iter().rev();
+    let driven = bones.find(|bone| rig.parts[*bone].drive.is_some());
+    driven.unwrap_or(part)
 }
 
 /// The parts of a rig, each with the number of its node: 0 is the part's own one.

@@ -211,7 +211,8 @@ impl<'a> ClipBuilder<'a> {
         });
         let filmed = performance.as_ref().and_then(|found| {
             let part = found.channels.filmed(&found.plan)?;
-            let driven = rig.parts[..part]
+            let end = bones::driven_end(&rig, part);
+            let driven = rig.parts[..end]
                 .iter()
                 .filter(|part| part.drive.is_some())
                 .count();

@@ -1,9 +1,10 @@
 //! Whether the parts of a figure that moves stay with what they hang on.
 
 use glam::{DVec2, DVec3};
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::Context;
+use super::bones;
 use super::figures::FigureGroup;
 use crate::bind::PartId;
 use crate::geometry::{Outline, distance_squared, y_up};
@@ -62,7 +63,7 @@ pub(super) fn loose(
             placed[*part] = clip.node(rig, *part, frame, &placed);
         }
         for (most, pair) in most.iter_mut().zip(&pairs) {
-            let gap = pair.gap(rig, placed[pair.part], placed[pair.parent]);
+            let gap = pair.gap(rig, &placed);
             *most = most.max(gap - pair.drawn);
         }
     }
@@ -91,8 +92,8 @@ fn height(context: &Context<'_>, group: &FigureGroup) -> f64 {
 struct Pair<'a> {
     part: FigurePartId,
     parent: FigurePartId,
-    /// Points of the part, where it is drawn.
-    points: Vec<DVec3>,
+    /// Points of the part, where it is drawn, each with the bone that it is on.
+    points: Vec<(FigurePartId, DVec3)>,
     /// The shapes of what it hangs on.
     below: Vec<&'a Outline>,
     /// How far apart the middles of both may be in depth, as they are drawn and as thick as they are.
@@ -131,6 +132,9 @@ impl<'a> Pair<'a> {
         if from_part == 0.0 {
             points.push(joint);
         }
+        let chain = bones::chain(rig, part);
+        let bend = context.bends[group.parts[part]].as_deref();
+        let bone = |point: DVec2| chain[bend.map_or(0, |bend| bend.node_at(point))];
         let gaps = points.iter().map(|point| distance(&below, *point));
         let drawn = gaps.fold(f64::INFINITY, f64::min);
         (drawn.is_finite() && from_part.is_finite()).then(|| Self {
@@ -138,7 +142,7 @@ impl<'a> Pair<'a> {
             parent,
             points: points
                 .iter()
-                .map(|point| point.extend(own.joint.z))
+                .map(|point| (bone(*point), point.extend(own.joint.z)))
                 .collect(),
             below,
             depth,
@@ -153,11 +157,11 @@ impl<'a> Pair<'a> {
     }
 
     /// The gap between both where they are placed.
-    fn gap(&self, rig: &Rig, part: Transform, parent: Transform) -> f64 {
-        let [own, below] = [self.part, self.parent].map(|part| &rig.parts[part].node);
-        let gaps = self.points.iter().map(|point| {
-            let at = part.apply(own.to_local(*point));
-            let at = below.apply(parent.to_local(at));
+    fn gap(&self, rig: &Rig, placed: &TiSlice<FigurePartId, Transform>) -> f64 {
+        let below = &rig.parts[self.parent].node;
+        let gaps = self.points.iter().map(|(bone, point)| {
+            let at = placed[*bone].apply(rig.parts[*bone].node.to_local(*point));
+            let at = below.apply(placed[self.parent].to_local(at));
             let beside = ((at.z - below.position.z).abs() - self.depth).max(0.0);
             distance(&self.below, at.truncate()).hypot(beside)
         });

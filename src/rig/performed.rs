@@ -182,7 +182,7 @@ impl Channels {
         motion: &Arc<PreparedClip>,
         memo: &Memo,
     ) -> Arc<Plan> {
-        let drive = |place: &FigurePartId| matched.matching.parts[*place].drive;
+        let drive = |place: &FigurePartId| matched.matching.parts[*place].end_drive();
         let channel = |(mark, places): &(MarkId, Vec<FigurePartId>)| {
             (*mark, places.iter().filter_map(drive).collect())
         };
@@ -325,8 +325,9 @@ fn followers(
     }
     let joints = joints_named(&motion.clip.skeleton, name);
     let is_driven = |place: &FigurePartId| {
-        let drive = matched.matching.parts[*place].drive;
-        drive.is_some_and(|drive| joints.contains(&drive.joint))
+        let part = &matched.matching.parts[*place];
+        let mut drives = part.drive.iter().chain(part.bones.iter().flatten());
+        drives.any(|drive| joints.contains(&drive.joint))
     };
     parts.keys().filter(is_driven).collect()
 }

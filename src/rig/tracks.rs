@@ -47,7 +47,10 @@ impl AnimatedNodes {
         let index: BTreeMap<(PartId, usize), FigurePartId> = index.collect();
         let mut tracks = Vec::new();
         for (node, rest) in self.nodes.iter_enumerated() {
-            let Some(&index) = index.get(&(rest.part, rest.bone)).filter(|_| !keys.frames.is_empty()) else {
+            let Some(&index) = index
+                .get(&(rest.part, rest.bone))
+                .filter(|_| !keys.frames.is_empty())
+            else {
                 continue;
             };
             let mut add = |timing, values| {

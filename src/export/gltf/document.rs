@@ -246,7 +246,9 @@ fn skinned_node(scene: &Scene, skin: &PackedSkin) -> JsonNode {
             ..JsonNode::default()
         };
     };
-    let okoshi = OfNode { mesh_of: &part.name };
+    let okoshi = OfNode {
+        mesh_of: &part.name,
+    };
     JsonNode {
         name: name(&format!("{}.mesh", part.name)),
         extras: to_raw_value(&Extras { okoshi }).ok(),

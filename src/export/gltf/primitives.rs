@@ -20,8 +20,8 @@ use crate::export::size::{Extent, Placed};
 use crate::export::surfaces::with_surface;
 use crate::memo::Memo;
 use crate::scene::{
-    Image, ImageId, Influence, MediaType, MeshId, NodeId, Primitive, RigidTransform, Scene,
-    Skin, Surface,
+    Image, ImageId, Influence, MediaType, MeshId, NodeId, Primitive, RigidTransform, Scene, Skin,
+    Surface,
 };
 
 /// Primitives in a window.
@@ -257,7 +257,8 @@ fn write_skins(
             bind_matrices: write_matrices(&matrices, out)?,
         });
     }
-    if let Some(Skin { mesh, joints, rest }) = scene.skin.as_ref().filter(|skin| !is_empty(skin.mesh))
+    if let Some(Skin { mesh, joints, rest }) =
+        scene.skin.as_ref().filter(|skin| !is_empty(skin.mesh))
     {
         let matrices: Vec<[f32; 16]> = rest.iter().map(|pose| matrix(&pose.inverse())).collect();
         skins.push(PackedSkin {

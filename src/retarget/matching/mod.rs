@@ -45,6 +45,19 @@ pub(crate) struct MatchedPart {
     pub why: String,
 }
 
+impl MatchedPart {
+    /// What drives its far end: its last bone that something drives, if it bends.
+    pub(crate) fn end_drive(&self) -> Option<Drive> {
+        self.bones
+            .iter()
+            .rev()
+            .flatten()
+            .next()
+            .copied()
+            .or(self.drive)
+    }
+}
+
 /// How a joint drives a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Drive {
@@ -208,7 +221,11 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
             .map(|drive| Some(carried(drive?, carry, splayed).0))
             .collect();
         let why = match bones.iter().flatten().next() {
-            Some(drive) => why + &matcher.way(drive).replacen("; it", "; beyond its joint it", 1),
+            Some(drive) => {
+                why + &matcher
+                    .way(drive)
+                    .replacen("; it", "; beyond its joint it", 1)
+            }
             None => why,
         };
         parts.push(MatchedPart {

@@ -135,8 +135,8 @@ fn rig(clip: &Clip, (parts, facing): (Vec<PartSpec>, Facing)) -> Rig {
             drive,
             is_leg: stands,
             swing: (turn > 3.0).then_some(turn),
-        inside: None,
-        shared: None,
+            inside: None,
+            shared: None,
         }
     };
     Rig {
