@@ -126,6 +126,11 @@ impl Bend {
         self.line.width()
     }
 
+    /// How many bones the part has: one more than joints.
+    pub(crate) fn bones(&self) -> usize {
+        1 + self.nodes.iter().filter(|node| node.is_bone()).count()
+    }
+
     /// How many nodes share the turn of a joint.
     pub(crate) fn shares(&self) -> usize {
         self.nodes.iter().filter(|node| node.joint == 0).count()

@@ -136,7 +136,8 @@ impl<'a> Figures<'a> {
             }
         });
         let frames: TiVec<PartId, PartFrames> = frames.collect::<Vec<_>>().into();
-        let (layers, forms, buried) = Layers::arrange(&context, &frames, world, memo);
+        let (layers, mut forms, buried) = Layers::arrange(&context, &frames, world, memo);
+        forms.extend(context.bending());
         let tree = tree::nodes(&context, &frames, &layers, diagnostics);
         copies::check(&context, diagnostics);
         layers::report(&context, buried, diagnostics);
@@ -343,6 +344,21 @@ impl<'a> FigureContext<'a> {
             bends,
             invisible: INVISIBLE * extent,
         }
+    }
+
+    /// The parts that bend although no string says so.
+    fn bending(&self) -> impl Iterator<Item = (PartId, FormInFigure)> + '_ {
+        let bends = self.bends.iter_enumerated();
+        let bends = bends.filter_map(|(part, bend)| Some((part, bend.as_deref()?)));
+        let unasked = bends.filter(|(part, _)| self.bindings.attributes(*part).bend().is_none());
+        unasked.map(|(part, bend)| {
+            (
+                part,
+                FormInFigure::Bends {
+                    bones: bend.bones(),
+                },
+            )
+        })
     }
 
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.

@@ -31,6 +31,7 @@ pub(crate) enum Undo {
     Round,
     Flattened,
     Rounded,
+    Bends,
 }
 
 impl Undo {
@@ -41,6 +42,7 @@ impl Undo {
             Self::Back => "Side near",
             Self::Toes | Self::Thin | Self::Disc | Self::Round | Self::Flattened => "Shape inflate",
             Self::Rounded => "Shape default",
+            Self::Bends => "Bend 0",
         }
     }
 
@@ -56,6 +58,7 @@ impl Undo {
             Self::Round => "round",
             Self::Flattened => "flattened",
             Self::Rounded => "body",
+            Self::Bends => "bends",
         }
     }
 }
@@ -192,10 +195,18 @@ impl<'a> Reasons<'a> {
     /// What is done to the form of a part; `None` for nothing.
     pub(crate) fn form(&self, part: PartId) -> Option<Said> {
         let main = self.compiled.bindings.parts[part].main;
-        let mut in_figure = self.forms.get(&main).into_iter().flatten();
-        match in_figure.find(|(of, _)| *of == part) {
-            Some((_, form)) => Some(self.in_figure(*form, main)),
-            None => self.by_name(part),
+        let in_figure = self.forms.get(&main).into_iter().flatten();
+        let own = in_figure.filter(|(of, _)| *of == part);
+        let (bends, own): (Vec<_>, Vec<_>) = own
+            .map(|(_, form)| self.in_figure(*form, main))
+            .partition(|said| said.undo == Some(Undo::Bends));
+        let form = own.into_iter().next().or_else(|| self.by_name(part));
+        match (form, bends.into_iter().next()) {
+            (Some(form), Some(bends)) => Some(Said {
+                text: format!("{}; {}", form.text, bends.text),
+                undo: form.undo,
+            }),
+            (form, bends) => form.or(bends),
         }
     }
 
@@ -215,6 +226,12 @@ impl<'a> Reasons<'a> {
             FormInFigure::Toes { away: true } => ("points away: a foot".to_owned(), Undo::Toes),
             FormInFigure::Flattened => {
                 ("flattened: deep for its figure".to_owned(), Undo::Flattened)
+            }
+            FormInFigure::Bends { bones } => {
+                let name = &self.compiled.bindings.parts[main].name;
+                let others = (2..=bones).map(|bone| format!(", {name}.{bone}"));
+                let others: String = others.collect();
+                (format!("bends: its bones are {name}{others}"), Undo::Bends)
             }
             FormInFigure::Cord { around } if around == main => {
                 ("outline is a cord".to_owned(), Undo::Cord)

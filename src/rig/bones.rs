@@ -13,8 +13,7 @@ use crate::retarget::{Matching, Rig, RigPart, SharedTurn};
 
 /// How many bones a part has inside: 1 if it is rigid.
 pub(super) fn count(bend: Option<&Bend>) -> usize {
-    let nodes = bend.iter().flat_map(|bend| &bend.nodes);
-    1 + nodes.filter(|node| node.is_bone()).count()
+    bend.map_or(1, Bend::bones)
 }
 
 /// Adds the bones of parts that bend to the parts of a rig, which are in the order of the figure's.

@@ -162,6 +162,11 @@ pub(crate) enum FormInFigure {
     },
     /// It is no deeper than its figure may be.
     Flattened,
+    /// It bends about joints inside it without a string that says so.
+    Bends {
+        /// How many bones it has.
+        bones: usize,
+    },
 }
 
 /// What a part has on the back of a volume.
