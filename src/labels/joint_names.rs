@@ -67,7 +67,8 @@ fn name(name: &str) -> Option<JointName> {
     let any = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
     let finger = has(T::Middle) && !any(&[T::Body, T::Chest, T::Belly, T::Back, T::Neck]);
     let worn = any(&[T::BodyWear, T::HeadWear, T::HipWear]);
-    if any(&[T::Helper, T::Detail, T::Face]) || worn || finger {
+    let helper = has(T::Helper) && !(has(T::Neck) && twists(name));
+    if helper || any(&[T::Detail, T::Face]) || worn || finger {
         return Some(JointName::Helper);
     }
     let side = match (has(T::Left), has(T::Right)) {
@@ -91,6 +92,14 @@ fn name(name: &str) -> Option<JointName> {
     } else {
         None
     }
+}
+
+/// Whether a joint is named after a turn about its bone. iClone's joints of the neck are, and the head hangs on them.
+fn twists(name: &str) -> bool {
+    let words = name_words::split(name);
+    words
+        .iter()
+        .any(|word| ["twist", "roll"].contains(&word.as_str()))
 }
 
 fn limb_word(terms: &[Term]) -> Option<LimbWord> {

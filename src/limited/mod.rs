@@ -131,7 +131,8 @@ impl Steps {
 /// - *Omission*: removes the fastest pose. To keep the length, the pose before the slowest one is then shown for one frame
 ///   more. Only poses shown for fewer than [`MAX_COPIED_FRAMES`] frames qualify, and never the last one, which has no
 ///   successor. The slowest pose is searched for after the fastest was removed, and may itself be shown for several frames. If
-///   no pose qualifies, the omission is undone and omitting ends.
+///   no pose qualifies, the omission is undone and omitting ends. What is omitted before the key pose is made up for before it,
+///   and what is omitted after it from it on, so that the key pose stays in its frame; omitting ends on either side by itself.
 /// - *Hold*: the slowest pose whose predecessor is shown for fewer than [`MAX_COPIED_FRAMES`] frames is covered by it, which
 ///   saves one drawing.
 ///

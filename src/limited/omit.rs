@@ -25,9 +25,10 @@ pub(super) fn omit(list: &mut PoseList<'_>, asked: usize, length: Length) -> Omi
     let poses = 0..list.len();
     let mut fastest = Queue::new(poses.clone().map(|pose| omission_key(list, pose)).collect());
     let mut slowest = match length {
-        Length::Kept => Some(Queue::new(
-            poses.map(|pose| duplication_key(list, pose)).collect(),
-        )),
+        Length::Kept => {
+            let keys = poses.map(|pose| duplication_key(list, pose)).collect();
+            Some(Sides::new(list, keys))
+        }
         Length::Shortened => None,
     };
     while done.omitted.len() < asked {
@@ -43,11 +44,15 @@ pub(super) fn omit(list: &mut PoseList<'_>, asked: usize, length: Length) -> Omi
             if let Some(after) = after {
                 slowest.set(after, duplication_key(list, after));
             }
-            let place = slowest.first();
+            let place = slowest.first_beside(pose);
             let Some((place, twice)) = place.and_then(|place| Some((place, list.previous(place)?)))
             else {
                 list.restore(pose);
-                break;
+                // Poses on the other side of the key pose may still be omitted.
+                for pose in slowest.side_of(pose) {
+                    fastest.set(pose, Queue::OUT);
+                }
+                continue;
             };
             list.shown[twice] += 1;
             fastest.set(twice, omission_key(list, twice));
@@ -58,6 +63,50 @@ pub(super) fn omit(list: &mut PoseList<'_>, asked: usize, length: Length) -> Omi
     }
     done.omitted_run = omitted_run(list);
     done
+}
+
+/// The poses by which others are duplicated, up to the key pose and after it. The key pose itself is duplicated after its first frame,
+/// so neither side moves it.
+struct Sides {
+    queues: [Queue; 2],
+    /// The number of poses up to the key pose; of all if there is none.
+    split: usize,
+}
+
+impl Sides {
+    fn new(list: &PoseList<'_>, mut keys: Vec<u64>) -> Self {
+        let split = list.key().map_or(keys.len(), |key| key + 1);
+        let after = keys.split_off(split);
+        Self {
+            queues: [keys, after].map(Queue::new),
+            split,
+        }
+    }
+
+    fn set(&mut self, pose: usize, key: u64) {
+        match pose.checked_sub(self.split) {
+            None => self.queues[0].set(pose, key),
+            Some(pose) => self.queues[1].set(pose, key),
+        }
+    }
+
+    /// The first pose on the same side of the key pose as another one.
+    fn first_beside(&self, pose: usize) -> Option<usize> {
+        if pose < self.split {
+            self.queues[0].first()
+        } else {
+            Some(self.queues[1].first()? + self.split)
+        }
+    }
+
+    /// All poses on the same side of the key pose as another one.
+    fn side_of(&self, pose: usize) -> std::ops::Range<usize> {
+        if pose < self.split {
+            0..self.split
+        } else {
+            self.split..self.split + self.queues[1].len()
+        }
+    }
 }
 
 fn omission_key(list: &PoseList<'_>, pose: usize) -> u64 {

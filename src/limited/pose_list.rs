@@ -57,6 +57,11 @@ impl<'a> PoseList<'a> {
         self.source.len()
     }
 
+    /// The pose that is not to be removed.
+    pub(super) fn key(&self) -> Option<usize> {
+        self.key
+    }
+
     pub(super) fn source(&self, pose: usize) -> u32 {
         self.source[pose]
     }

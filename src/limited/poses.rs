@@ -26,6 +26,7 @@ pub struct Poses<'a> {
     per_frame: usize,
     repeats: Option<&'a [bool]>,
     key: Option<usize>,
+    is_loop: bool,
 }
 
 impl<'a> Poses<'a> {
@@ -37,6 +38,7 @@ impl<'a> Poses<'a> {
             per_frame,
             repeats: None,
             key: None,
+            is_loop: false,
         }
     }
 
@@ -49,10 +51,16 @@ impl<'a> Poses<'a> {
         }
     }
 
-    /// The same poses, of which the pose of this frame is never removed: the key pose of a performance.
+    /// The same poses, of which the pose of this frame is never removed, nor moved to another frame: the key pose of a performance.
     #[must_use]
     pub fn keeping(self, key: Option<usize>) -> Self {
         Self { key, ..self }
+    }
+
+    /// The same poses, without the last one if they are a loop: it is the first one again, and no frame is left for it to be held in.
+    #[must_use]
+    pub fn looping(self, is_loop: bool) -> Self {
+        Self { is_loop, ..self }
     }
 
     pub(super) fn key(self) -> Option<usize> {
@@ -63,7 +71,12 @@ impl<'a> Poses<'a> {
     pub fn count(self) -> usize {
         let whole = self.points.len().checked_div(self.per_frame).unwrap_or(0);
         // `u32::MAX` marks the absence of a pose.
-        whole.min(u32::MAX as usize - 1)
+        let whole = whole.min(u32::MAX as usize - 1);
+        if self.is_loop && whole > 1 {
+            whole - 1
+        } else {
+            whole
+        }
     }
 
     pub(super) fn per_frame(self) -> usize {

@@ -28,6 +28,11 @@ impl Queue {
         queue
     }
 
+    /// The number of entries.
+    pub(super) fn len(&self) -> usize {
+        self.keys.len()
+    }
+
     fn winner(&self, node: usize) -> u32 {
         let [a, b] = [self.winners[2 * node], self.winners[2 * node + 1]];
         let [key_a, key_b] = [a, b].map(|entry| self.keys[entry as usize]);

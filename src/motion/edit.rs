@@ -7,6 +7,7 @@ use crate::limited::Measured;
 use crate::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method, Poses};
 use crate::mocap::bvh::{self, Decimals};
 use crate::mocap::resample;
+use crate::mocap::travel::Ending;
 use crate::mocap::{Clip, JointId, height};
 use crate::motion::{Chart, PointChoice, chart};
 use crate::performance::{self, Filming};
@@ -75,6 +76,8 @@ pub struct EditedClip {
     projected: Option<Vec<DVec3>>,
     /// The frame that stays.
     key: Option<usize>,
+    /// Whether it ends in the pose in which it begins.
+    is_loop: bool,
     /// The height of the body in the first frame, in the file's unit.
     height: f64,
 }
@@ -95,6 +98,7 @@ pub fn edit(prepared: PreparedClip, options: &Options) -> EditedClip {
         anatomy,
         notes,
         cycle,
+        ending,
         ..
     } = prepared;
     let first = positions.iter().take(clip.skeleton.joints.len());
@@ -120,6 +124,7 @@ pub fn edit(prepared: PreparedClip, options: &Options) -> EditedClip {
         measured,
         projected,
         key,
+        is_loop: ending == Ending::Loop,
         height,
     };
     edited.expose(method);
@@ -179,7 +184,7 @@ impl EditedClip {
     }
 
     fn expose(&mut self, method: ExposureMethod) {
-        let frames = self.clip.frames;
+        let frames = self.seen().count();
         self.exposure = match method {
             ExposureMethod::Full => None,
             ExposureMethod::Limited { omit, hold, length } => {
@@ -213,12 +218,13 @@ impl EditedClip {
         Poses::new(points, self.measured.per_frame)
             .repeating(&self.measured.repeats)
             .keeping(self.key)
+            .looping(self.is_loop)
     }
 
     /// The error of what is shown against the source, and those of other ways to thin it out.
     pub fn compared(&self) -> Option<[(Method, Error); 4]> {
         let exposure = self.exposure.as_ref()?;
-        let poses = self.measured.poses();
+        let poses = self.measured.poses().looping(self.is_loop);
         Some(limited::compare(poses, self.height, exposure))
     }
 
@@ -268,7 +274,14 @@ impl EditedClip {
             Decimals::All
         };
         match &self.exposure {
-            Some(exposure) => bvh::write_frames(&self.clip, &exposure.sources, decimals, out),
+            Some(exposure) => {
+                let mut frames = exposure.sources.clone();
+                // A file of rows has no key that closes a loop, only its last row.
+                if self.is_loop && frames.len() < self.clip.frames {
+                    frames.push(self.clip.frames as u32 - 1);
+                }
+                bvh::write_frames(&self.clip, &frames, decimals, out)
+            }
             None => bvh::write(&self.clip, decimals, out),
         }
     }

@@ -170,7 +170,10 @@ pub(super) fn rotations(
         let drive = source.rig.parts[*part].drive?;
         let reference = match means[*part] {
             Some(mean) => mean,
-            None => Reference::at_rest(source.clip, &drive, rest),
+            None => {
+                let axes = rest.axes_for(&drive, &source.clip.skeleton, source.landmarks);
+                Reference::of(source.clip, &drive, axes, &rest.pose)
+            }
         };
         let rotation = PartRotation::new(&source.rig.parts[*part], drive, &source.axes, reference);
         Some((*part, rotation))
@@ -207,10 +210,6 @@ struct Reference {
 }
 
 impl Reference {
-    fn at_rest(clip: &Clip, drive: &Drive, rest: &RestPose) -> Self {
-        Self::of(clip, drive, rest.axes, &rest.pose)
-    }
-
     /// A pose as the reference, in which the body has these axes.
     fn of(clip: &Clip, drive: &Drive, axes: DQuat, pose: &TiSlice<JointId, Transform>) -> Self {
         let direction = drive.direction(&clip.skeleton, pose);

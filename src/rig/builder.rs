@@ -23,7 +23,7 @@ use crate::limited::Measured;
 use crate::limited::{self, Cut, Exposure, Length};
 use crate::mark_tracks::MarkTracks;
 use crate::memo::{Exactly, Memo, Same};
-use crate::mocap::travel::travel;
+use crate::mocap::travel::{Ending, travel};
 use crate::performance::{Filmed, Plan};
 use crate::prepare::{self, PreparedClip};
 use crate::retarget::{Matching, bent_arms, match_figure};
@@ -53,9 +53,10 @@ struct InPlaceKey {
 #[derive(PartialEq, Eq, Hash)]
 struct MeasuredKey(Exactly<Arc<Rig>>, Same<RetargetedClip>);
 
-/// A figure's motion, the numbers of drawings to omit and frames to hold, and the frame that must stay, as the key of a cached [`Cut`].
+/// A figure's motion, the numbers of drawings to omit and frames to hold, the frame that must stay, and whether it is a loop, as the
+/// key of a cached [`Cut`].
 #[derive(PartialEq, Eq, Hash)]
-struct CutKey(Same<Measured>, [usize; 2], Option<usize>);
+struct CutKey(Same<Measured>, [usize; 2], Option<usize>, bool);
 
 /// A built-in clip, as the key of a cached [`PreparedClip`].
 #[derive(PartialEq, Eq, Hash)]
@@ -204,8 +205,13 @@ impl<'a> ClipBuilder<'a> {
         let key_frame = performance
             .as_ref()
             .and_then(|found| found.plan.key_frame());
+        // A performance with a timing of its own ends where its track does.
+        let is_timed = performance
+            .as_ref()
+            .is_some_and(|found| found.plan.timing.is_some());
+        let is_loop = motion.ending == Ending::Loop && !is_timed;
         let cut = limits.map(|limits| {
-            let cut = self.cut([limits.omit, limits.hold], &measured, key_frame);
+            let cut = self.cut([limits.omit, limits.hold], &measured, key_frame, is_loop);
             diagnostics::too_limited(&cut, frames, limits.span, diagnostics);
             cut
         });
@@ -334,17 +340,18 @@ impl<'a> ClipBuilder<'a> {
         amounts: [usize; 2],
         measured: &Arc<Measured>,
         key_frame: Option<usize>,
+        is_loop: bool,
     ) -> Arc<Cut> {
-        let key = CutKey(Same(Arc::clone(measured)), amounts, key_frame);
+        let key = CutKey(Same(Arc::clone(measured)), amounts, key_frame, is_loop);
         self.memo
-            .get(key, |CutKey(measured, [omit, hold], key_frame)| {
+            .get(key, |CutKey(measured, [omit, hold], key_frame, is_loop)| {
                 let (omit, hold) = (*omit, *hold);
                 let options = limited::Options {
                     omit,
                     hold,
                     length: Length::Kept,
                 };
-                let poses = measured.0.poses().keeping(*key_frame);
+                let poses = measured.0.poses().keeping(*key_frame).looping(*is_loop);
                 Arc::new(limited::limit(poses, &options))
             })
     }

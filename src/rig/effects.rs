@@ -20,7 +20,7 @@ pub struct Performance<'a> {
     pub marks: Vec<PerformedMark<'a>>,
     /// The frames of the largest movements.
     pub keys: Option<Frames>,
-    /// The shown frame in which the key pose stands. Limited animation may show it later or earlier than the performance has it.
+    /// The shown frame in which the key pose stands: limited animation leaves it there.
     pub shown: Option<usize>,
     /// Whether the motion has the timing of the performance: its key frame then stands in that of the performance.
     pub timed: bool,
@@ -84,7 +84,7 @@ impl FigureClip {
             keys: plan
                 .keys
                 .map(|[performed, motion]| Frames { performed, motion }),
-            shown: plan.key_frame().and_then(|key| self.shown_in(key)),
+            shown: plan.key_frame(),
             timed: plan.timing.is_some(),
             lengths: Frames {
                 performed: plan.input.frames(),
@@ -144,16 +144,12 @@ impl Performance<'_> {
         let Some(keys) = self.keys.filter(|_| self.timed) else {
             return "the motion keeps its timing".to_owned();
         };
-        let stands = format!(
+        format!(
             "frame {} of the motion stands in frame {} of {}",
             keys.motion + 1,
             keys.performed + 1,
             self.lengths.performed
-        );
-        match self.shown.filter(|shown| *shown != keys.performed) {
-            Some(shown) => format!("{stands}, shown in frame {}", shown + 1),
-            None => stands,
-        }
+        )
     }
 
     /// How it is filmed, in words; likewise.

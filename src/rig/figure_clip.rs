@@ -191,11 +191,6 @@ impl FigureClip {
         tracks::add(&mut scene.animations, animation);
     }
 
-    /// The first shown frame in which a frame of the motion or its performance stands; `None` if it is omitted.
-    pub fn shown_in(&self, frame: usize) -> Option<usize> {
-        self.shown_frames().iter().position(|shown| *shown == frame)
-    }
-
     /// Per shown frame the frame of the clip.
     fn shown_frames(&self) -> Vec<usize> {
         Exposure::shown(self.exposure(), self.source_frames())

@@ -24,6 +24,8 @@ const PALEST: [f64; 2] = [0.35, 0.6];
 const LEAST_PIXELS: f64 = 8.0;
 /// The fewest pixels of a sample that a mark usually has.
 const LEAST_AREA: f64 = 5.0;
+/// What covers more than this part of a square with the picture's smaller side is seldom a mark: a disc as wide as a sixth of it.
+const LARGEST: f64 = 0.022;
 /// A mark is in at least one of so many samples.
 const RAREST: usize = 8;
 /// A hue is in the clip if it has this part of the pixels.
@@ -232,23 +234,24 @@ impl Learner {
 
     /// How many pixels of a sample a mark usually has; 0 if it never has enough to be one.
     fn area(&self, mark: usize, lookup: &Lookup, clutter: &Clutter) -> f64 {
-        let largest = |sample: &Vec<[u8; 3]>| {
+        let areas = |sample: &Vec<[u8; 3]>| -> Vec<f64> {
             let is_mark = |marks: u64| marks >> mark & 1 == 1;
             let found = likenesses(sample, self.samples.size, |index, pixel| {
                 let is_it = !is_mark(clutter.marks[index]) && is_mark(lookup.marks(pixel));
                 is_it.then_some(1.0)
             });
-            found.iter().map(|found| found.area).fold(0.0, f64::max)
+            let areas = found.iter().map(|found| found.area);
+            areas.filter(|area| *area >= LEAST_AREA).collect()
         };
-        let areas = self.samples.frames.iter().map(largest);
         // Where the mark is out of the picture there may still be specks of its colour.
-        let mut areas: Vec<f64> = areas.filter(|area| *area >= LEAST_AREA).collect();
+        let mut areas: Vec<Vec<f64>> = self.samples.frames.iter().map(areas).collect();
+        areas.retain(|areas| !areas.is_empty());
         // Specks that are as large as a mark are rare.
         if areas.len() * RAREST < self.samples.frames.len() {
             return 0.0;
         }
-        areas.sort_by(f64::total_cmp);
-        areas.get(areas.len() / 2).copied().unwrap_or(0.0)
+        let sides = self.samples.size.map(|side| side as f64);
+        usual_area(&areas, LARGEST * sides[0].min(sides[1]).powi(2))
     }
 
     /// That a mark is not in the clip.
@@ -279,6 +282,28 @@ impl Learner {
             .iter()
             .filter(|(_, count)| *count as f64 > LEAST_PART * f64::from(all));
         found.map(|(name, _)| *name).collect()
+    }
+}
+
+/// The area of a mark, of the areas of all things of its hue in each sample: that of the largest thing in most of them. If that is
+/// larger than marks are, and something smaller is in half as many samples, a surface of the mark's hue passes, and the mark is smaller.
+fn usual_area(samples: &[Vec<f64>], largest: f64) -> f64 {
+    let usual = |most: f64| {
+        let own = samples.iter().filter_map(|areas| {
+            let areas = areas.iter().copied();
+            areas.filter(|area| *area <= most).reduce(f64::max)
+        });
+        let mut own: Vec<f64> = own.collect();
+        own.sort_by(f64::total_cmp);
+        (own.get(own.len() / 2).copied().unwrap_or(0.0), own.len())
+    };
+    let (any, _) = usual(f64::INFINITY);
+    if any <= largest {
+        return any;
+    }
+    match usual(largest) {
+        (small, count) if 2 * count >= samples.len() => small,
+        _ => any,
     }
 }
 

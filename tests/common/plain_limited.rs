@@ -22,8 +22,10 @@ struct Motion<'a> {
     positions: &'a [DVec3],
     joints: usize,
     shown: Vec<u32>,
-    /// What stays shown.
+    /// What stays shown, in its frame.
     key: Option<u32>,
+    /// Whether nothing more is omitted before that, and after it.
+    ended: [bool; 2],
 }
 
 /// Per frame whether all its positions are those of the frame before.
@@ -35,7 +37,7 @@ pub(crate) fn repeats(positions: &[DVec3], joints: usize) -> Vec<bool> {
 }
 
 /// Omits and holds; `positions` are frames × joints, `repeats` says which frames are equal to the one before, and the pose of the
-/// frame `key` stays.
+/// frame `key` stays where it is.
 pub(crate) fn plain(
     positions: &[DVec3],
     joints: usize,
@@ -50,6 +52,7 @@ pub(crate) fn plain(
         joints,
         shown: (0..frames as u32).collect(),
         key: None,
+        ended: [false; 2],
     };
     // Equal neighbours are one pose: its first frame stands for all.
     for (frame, repeats) in repeats.iter().enumerate().take(frames) {
@@ -121,12 +124,22 @@ impl Motion<'_> {
         slowest
     }
 
+    /// The first frame that shows what stays; the end if nothing does.
+    fn stays(&self) -> usize {
+        let key = self
+            .shown
+            .iter()
+            .position(|source| Some(*source) == self.key);
+        key.unwrap_or(self.shown.len())
+    }
+
     fn omit(&mut self, done: &mut Plain, kept: bool) -> bool {
         let speeds = self.speeds();
+        let stays = self.stays();
         let mut fastest = None;
         for k in 1..self.shown.len() {
             let faster = fastest.is_none_or(|fastest: usize| speeds[k] > speeds[fastest]);
-            if self.is_free(k) && faster {
+            if self.is_free(k) && !self.ended[usize::from(k > stays)] && faster {
                 fastest = Some(k);
             }
         }
@@ -134,9 +147,13 @@ impl Motion<'_> {
         let whole = self.shown.clone();
         let omitted = self.shown.remove(fastest);
         if kept {
-            let Some(slowest) = self.slowest(|_| true) else {
+            // What is duplicated makes up for what is omitted on the same side of what stays.
+            let is_after = fastest > stays;
+            let stays = self.stays();
+            let Some(slowest) = self.slowest(|k| (k > stays) == is_after) else {
                 self.shown = whole;
-                return false;
+                self.ended[usize::from(is_after)] = true;
+                return self.omit(done, kept);
             };
             let duplicated = self.shown[slowest - 1];
             self.shown.insert(slowest, duplicated);

@@ -154,19 +154,85 @@ fn the_key_pose_stands_in_the_key_frame_of_the_scene() {
             assert!(same, "{limb}: {} {}", performed[input], whole[source]);
             checked += 1;
         }
-        // Limited animation keeps that drawing.
-        let string = format!(
-            "%Motion {motion} Perform -ec \"hands.csv\" Limited 6 {}",
-            frames / 2
-        );
-        let limited = perform(&string, &red, &green);
-        let cut = limited.clips[0].cut.as_ref().expect("it is limited");
-        assert!(
-            cut.exposure.sources.contains(&(input as u32)),
-            "frame {input} stays"
-        );
     }
     assert_eq!(checked, 48);
+}
+
+#[test]
+fn the_key_pose_stays_in_its_frame_when_the_clip_is_limited() {
+    let mut random = Rng::with_seed(4);
+    let motions = ["punch", "\"boxing.bvh\" boxing", "wave", "dance", "jump"];
+    let mut omitted = [0, 0];
+    for round in 0..20 {
+        let frames = 40 + random.usize(..60);
+        let at = 6 + random.usize(..frames - 12);
+        let (red, green) = (
+            strike(&mut random, frames, at, 90.0),
+            strike(&mut random, frames, frames / 2, 30.0),
+        );
+        let motion = motions[round % motions.len()];
+        let name = motion.rsplit(' ').next().expect("a word");
+        let performed = perform(
+            &format!("%Motion {motion} Perform \"hands.csv\""),
+            &red,
+            &green,
+        );
+        for limits in ["Limited 4 20", "Limited 10 30"] {
+            let string = format!("%Motion {motion} Perform \"hands.csv\" {limits}");
+            let limited = perform(&string, &red, &green);
+            let clip = &limited.clips[0];
+            let plan = &clip.performed.as_ref().expect("a performance").plan;
+            let [input, _] = plan.keys.expect("keys");
+            let cut = clip.cut.as_ref().expect("it is limited");
+            assert_eq!(
+                cut.exposure.len(),
+                frames,
+                "its length is the performance's"
+            );
+            for frame in &cut.omitted {
+                omitted[usize::from(*frame as usize > input)] += 1;
+            }
+            for limb in LIMBS {
+                let [shown, due] = [&limited, &performed].map(|of| {
+                    let node = of.scene.nodes.position(|node| node.name == limb);
+                    placed(&of.scene, name, node.expect("a limb"), input as f64 * STEP)
+                });
+                let off = shown.0.angle_between(due.0);
+                assert!(
+                    off < 1e-6,
+                    "{motion} {limits}, frame {input}: {limb} is {off} off"
+                );
+            }
+        }
+    }
+    assert!(omitted.iter().all(|side| *side > 40), "{omitted:?}");
+}
+
+#[test]
+fn a_limited_loop_is_as_long_as_the_loop() {
+    let still = [[0.0, 0.0]; 2];
+    for motion in ["walk", "run", "-l \"boxing.bvh\" boxing", "-i walk"] {
+        let compiled = perform(
+            &format!("%Motion {motion} Motion {motion} Limited 3 8"),
+            &still,
+            &still,
+        );
+        let ends = compiled.scene.animations.iter().map(|animation| {
+            let ends = animation
+                .tracks
+                .iter()
+                .filter_map(|track| track.timing.times.last());
+            ends.copied().fold(0.0, f32::max)
+        });
+        let ends: Vec<f32> = ends.collect();
+        assert_eq!(ends.len(), 2, "{motion}");
+        assert_eq!(ends[0], ends[1], "{motion}");
+        let [full, limited] = [0, 1].map(|clip| compiled.clips[clip].seconds());
+        assert!(
+            (full - limited).abs() < 1e-9,
+            "{motion}: {full} s, {limited} s"
+        );
+    }
 }
 
 #[test]

@@ -10,4 +10,5 @@ mod common;
 mod accuracy;
 mod cli;
 mod filmed;
+mod passing;
 mod synthetic;

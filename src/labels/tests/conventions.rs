@@ -237,3 +237,46 @@ hip
         ["hip", "chest", "neck", "head"],
     );
 }
+
+#[test]
+fn necks_of_iclone_are_named_after_twists() {
+    check(
+        "
+CC_Base_BoneRoot
+ CC_Base_Hip
+  CC_Base_Pelvis
+   CC_Base_L_Thigh
+    CC_Base_L_ThighTwist01
+    CC_Base_L_Calf
+     CC_Base_L_CalfTwist01
+     CC_Base_L_Foot
+      CC_Base_L_ToeBase
+   CC_Base_R_Thigh
+    CC_Base_R_Calf
+     CC_Base_R_Foot
+      CC_Base_R_ToeBase
+  CC_Base_Waist
+   CC_Base_Spine01
+    CC_Base_Spine02
+     CC_Base_NeckTwist01
+      CC_Base_NeckTwist02
+       CC_Base_Head
+     CC_Base_L_Clavicle
+      CC_Base_L_Upperarm
+       CC_Base_L_UpperarmTwist01
+       CC_Base_L_Forearm
+        CC_Base_L_Hand
+     CC_Base_R_Clavicle
+      CC_Base_R_Upperarm
+       CC_Base_R_Forearm
+        CC_Base_R_Hand",
+        "CC_Base_L_Upperarm, CC_Base_L_Forearm, CC_Base_L_Hand; CC_Base_R_Upperarm, CC_Base_R_Forearm, CC_Base_R_Hand; \
+         CC_Base_L_Thigh, CC_Base_L_Calf, CC_Base_L_Foot; CC_Base_R_Thigh, CC_Base_R_Calf, CC_Base_R_Foot",
+        [
+            "CC_Base_Pelvis",
+            "CC_Base_Spine02",
+            "CC_Base_NeckTwist01",
+            "CC_Base_Head",
+        ],
+    );
+}

@@ -117,6 +117,25 @@ impl Moving {
         self
     }
 
+    /// The joints' frames as some programs have them: up is along each bone that goes on to a single joint or end, whatever its place in
+    /// the body, so that the offsets of legs point up like those of the trunk.
+    pub(crate) fn along_bones(self, up: DVec3) -> Self {
+        let joints = &self.skeleton.joints;
+        let mut ways: TiVec<JointId, Vec<DVec3>> =
+            joints.iter().map(|joint| joint.ends.clone()).collect();
+        for joint in joints {
+            if let Some(parent) = joint.parent {
+                ways[parent].push(joint.offset);
+            }
+        }
+        let turn = |ways: &Vec<DVec3>| match ways[..] {
+            [way] if way != DVec3::ZERO => DQuat::from_rotation_arc(up, way.normalize()),
+            _ => DQuat::IDENTITY,
+        };
+        let turns: TiVec<JointId, DQuat> = ways.iter().map(turn).collect();
+        self.reoriented(&turns)
+    }
+
     /// World and skeleton rotated alike, as from a program with other axes.
     pub(crate) fn in_other_axes(self, by: DQuat) -> Self {
         let back = ti_vec![by.inverse(); self.skeleton.joints.len()];

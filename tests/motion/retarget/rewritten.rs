@@ -10,8 +10,8 @@ use fastrand::Rng;
 use typed_index_collections::TiVec;
 
 use super::clips::{FILES, Moving, clip};
-use super::rigs::{Limbs, biped};
-use super::{Body, apart, placed};
+use super::rigs::{Limbs, biped, stout};
+use super::{Body, angle, apart, placed};
 
 /// Retargets a clip to a figure that is built from the clip's own labels.
 fn play(clip: &Clip, pieces: usize) -> (Rig, RetargetedClip) {
@@ -161,34 +161,64 @@ fn the_up_axis_of_the_motion_alone_does_not_matter() {
 fn the_rest_pose_does_not_matter() {
     for file in FILES {
         let clip = clip(file).clip;
-        let joints = clip.skeleton.joints.len();
-        let fallen = |seed| {
-            Moving::of(&clip)
-                .reoriented(&random_turns(joints, seed))
-                .written(0)
-        };
-        // Randomly rotated, a few skeletons stand by chance; then the offsets are the rest pose.
+        let legs_up = Moving::of(&clip).along_bones(up(&clip)).written(0);
+        // Randomly rotated, few skeletons stand by chance; then the offsets are the rest pose.
         let falls = |clip: &Clip| matches!(play(clip, 2).1.rest, RestSource::Frame(_));
-        let mut fallen = (1..20).map(fallen).filter(falls);
-        let base = fallen.next().expect("most fall");
-        for (frame, clip_) in [(0, &clip), (clip.frames - 1, &clip)] {
-            for (a, b) in clip_.pose(frame).iter().zip(base.pose(frame)) {
-                let size = clip_
-                    .skeleton
-                    .joints
-                    .iter()
-                    .map(|joint| joint.offset.length())
-                    .sum::<f64>();
+        assert!(
+            falls(&legs_up),
+            "{file}: its legs point up beside the trunk"
+        );
+        let joints = clip.skeleton.joints.len();
+        let turned = (1..20).map(|seed| random_turns(joints, seed));
+        let mut fallen = turned
+            .map(|turns| Moving::of(&clip).reoriented(&turns).written(0))
+            .filter(falls);
+        let others: Vec<Clip> = fallen.by_ref().take(4).collect();
+        assert_eq!(others.len(), 4, "{file}");
+        let size: f64 = clip
+            .skeleton
+            .joints
+            .iter()
+            .map(|joint| joint.offset.length())
+            .sum();
+        for frame in [0, clip.frames - 1] {
+            for (a, b) in clip.pose(frame).iter().zip(legs_up.pose(frame)) {
                 assert!(
                     a.position.distance(b.position) < 1e-9 * size,
                     "{file}: it is another motion"
                 );
             }
         }
-        let others: Vec<Clip> = fallen.take(3).collect();
-        assert_eq!(others.len(), 3, "{file}");
         for other in others {
-            same(file, "rest", &base, &other);
+            same(file, "rest", &legs_up, &other);
+        }
+    }
+}
+
+/// Where the offsets do not stand, a trunk leans by as much as the actor's, whatever frame is nearest to the drawing.
+#[test]
+fn trunks_lean_as_the_actor_does() {
+    for file in FILES {
+        let clip = clip(file).clip;
+        let clip = Moving::of(&clip).along_bones(up(&clip)).written(0);
+        let anatomy = label_clip(&clip);
+        let landmarks = Landmarks::of(&anatomy);
+        let body = Body::of(&clip, &landmarks, Facing::Viewer);
+        let first = clip.pose(0);
+        let shoulders = landmarks.shoulders.expect("shoulders");
+        for pieces in 1..=3 {
+            let rig = stout(&anatomy, Limbs::Bound, pieces);
+            let trunk = rig.parts.first_key().expect("a trunk");
+            let retargeted = retarget(&clip, &rig, &landmarks);
+            for frame in 0..clip.frames {
+                let pose = clip.pose(frame);
+                let [left, right] = shoulders.map(|joint| pose[joint].position);
+                let line = (left + right) / 2.0 - pose[landmarks.hips].position;
+                let drawn = rig.parts[trunk].node.rotation.inverse() * DVec3::Y;
+                let leans = placed(&rig, &retargeted, frame)[trunk].rotation * drawn;
+                let off = angle(leans, body.drawn(&first, line));
+                assert!(off < 0.05, "{file}, {pieces} pieces, frame {frame}: {off}°");
+            }
         }
     }
 }
