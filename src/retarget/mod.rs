@@ -13,6 +13,7 @@ mod planting;
 mod rest_pose;
 mod root_motion;
 mod rotations;
+mod soles;
 mod spline;
 mod swing;
 mod turns;

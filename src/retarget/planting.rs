@@ -99,7 +99,10 @@ impl Planting {
                 .iter()
                 .map(|path| smoothed(path, SMOOTHING / time))
                 .collect();
-            let lowest: Vec<f64> = paths.iter().map(|path| lowest(path)).collect();
+            let lowest: Vec<f64> = paths
+                .iter()
+                .map(|path| lowest(path.iter().map(|point| point.y)))
+                .collect();
             let points = paths.iter().zip(&lowest);
             let points = points.map(|(path, lowest)| point_contacts(path, *lowest, time, leg));
             contacts.push(points.reduce(firmer).unwrap_or_default());
@@ -139,9 +142,9 @@ fn sampled(path: &[DVec3], rate: usize) -> Vec<DVec3> {
     steps.chain(path.last().copied()).collect()
 }
 
-/// The lowest height of a path: a low quantile of its heights, because single frames may be wrong.
-fn lowest(path: &[DVec3]) -> f64 {
-    let mut heights: Vec<f64> = path.iter().map(|point| point.y).collect();
+/// The lowest of some heights: a low quantile, because single frames may be wrong.
+pub(super) fn lowest(heights: impl Iterator<Item = f64>) -> f64 {
+    let mut heights: Vec<f64> = heights.collect();
     heights.sort_by(f64::total_cmp);
     match heights.len() {
         0 => 0.0,

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::axes::Landmarks;
 use super::contacts::Walk;
 use super::kinematics::ForwardKinematics;
-use super::planting::{CONTACT_HEIGHT, Hold};
+use super::planting::Hold;
 use super::rotations::Rotations;
 use super::{Rig, Source};
 use crate::labels::FigurePartId;
@@ -73,9 +73,8 @@ pub(super) fn root_motion(
         for (steps, (before, now)) in steps.iter_mut().zip(before.iter().zip(&feet)) {
             steps.push(rolled(before, now, ROLLING * legs[1]));
         }
-        let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
-        let clearance = clearance.fold(f64::INFINITY, f64::min);
-        let lifted = lifted(clearance, legs[0]) * scale;
+        let lifts = walk.feet.iter().map(|foot| foot.lift[frame]);
+        let lifted = lifts.fold(f64::INFINITY, f64::min) * scale;
         let mut holds = walk.feet.iter().map(|foot| foot.holds[frame].mean);
         motion.grounded[frame] = lifted == 0.0 && holds.any(|held| held >= GROUNDED);
         heights.push(match floor {
@@ -187,13 +186,6 @@ impl Surfaces {
         });
         parts.fold(f64::INFINITY, f64::min)
     }
-}
-
-/// The height at which a foot is shown that has this clearance in the clip. Up to the contact height it is on the ground,
-/// because a heel that rises lifts the end of a leg; from twice that height on it keeps its clearance.
-fn lifted(clearance: f64, leg: f64) -> f64 {
-    let low = CONTACT_HEIGHT * leg;
-    (2.0 * (clearance - low)).max(0.0).min(clearance)
 }
 
 /// Whether a drive is that of a foot, rather than that of a whole leg or its lower half.

@@ -5,6 +5,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::axes::Axes;
 use super::rest_pose::RestPose;
+use super::soles::{FootEnd, Sole, foot_axes};
 use super::{Rig, RigPart, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
@@ -136,13 +137,20 @@ pub(super) fn rotations(
     source: &mut Source<'_>,
     rest: &RestPose,
     order: &[FigurePartId],
+    leg: f64,
 ) -> Rotations {
     let count = source.rig.parts.len();
-    let means = mean_references(source);
+    let mut known = mean_references(source);
+    for part in order {
+        let drive = source.rig.parts[*part].drive;
+        if let Some(drive) = drive.filter(|drive| drive.follow == Follow::Sole) {
+            known[*part] = Some(Reference::on_sole(source, *part, &drive, leg));
+        }
+    }
     let solver = |part: &FigurePartId| {
         let drive = source.rig.parts[*part].drive?;
-        let reference = match means[*part] {
-            Some(mean) => mean,
+        let reference = match known[*part] {
+            Some(known) => known,
             None => Reference::at_rest(source.clip, &drive, rest),
         };
         let rotation = PartRotation::new(&source.rig.parts[*part], drive, &source.axes, reference);
@@ -181,6 +189,17 @@ struct Reference {
 impl Reference {
     fn at_rest(clip: &Clip, drive: &Drive, rest: &RestPose) -> Self {
         Self::of(clip, drive, rest.axes, &rest.pose)
+    }
+
+    /// Where a foot stands flat, as the drawn foot does, with its toes ahead.
+    fn on_sole(source: &mut Source<'_>, part: FigurePartId, drive: &Drive, leg: f64) -> Self {
+        let end = FootEnd::of(source.landmarks, drive);
+        let flat = Sole::of(source, end, leg).flat;
+        let drawn = foot_axes(DVec3::Y, drawn_toes(source.rig, part));
+        Self {
+            turn: (flat * drawn.inverse()).normalize(),
+            direction: None,
+        }
     }
 
     /// A pose as the reference, in which the body has these axes.
@@ -225,6 +244,33 @@ fn mean_references(source: &mut Source<'_>) -> TiVec<FigurePartId, Option<Refere
         })
     };
     sums.into_iter().map(|sum| sum.and_then(mean)).collect()
+}
+
+/// The level direction in which a foot is drawn: where the figure faces, or to a side if the foot reaches more to that side of its leg
+/// than ahead of it.
+fn drawn_toes(rig: &Rig, part: FigurePartId) -> DVec3 {
+    /// The share of a foot's width that is more on one side of the leg than on the other, from which on it points to that side.
+    const ASIDE: f64 = 0.35;
+
+    let ahead = rig.facing.turn() * DVec3::Z;
+    let own = &rig.parts[part];
+    let leg = own.parent.map(|parent| &rig.parts[parent]);
+    let ankle = match leg.filter(|leg| leg.is_leg) {
+        Some(leg) if !rig.facing.is_profile() => leg.tip,
+        _ => return ahead,
+    };
+    let reach = |way: DVec3| {
+        let reaches = own.surface.iter().map(|point| (*point - ankle).dot(way));
+        reaches.fold(0.0, f64::max)
+    };
+    let [left, right] = [DVec3::NEG_X, DVec3::X].map(reach);
+    let before = reach(ahead) - reach(-ahead);
+    let aside = right - left;
+    if aside.abs() > ASIDE * (left + right) && aside.abs() > before {
+        DVec3::X * aside.signum()
+    } else {
+        ahead
+    }
 }
 
 /// Computes the rotations of one part.

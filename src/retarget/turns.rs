@@ -56,7 +56,7 @@ impl<'a> Turns<'a> {
             let rest = rest_pose::choose(&mut source);
             let legs = root_motion::leg_lengths(&mut source);
             Moving {
-                rotations: rotations::rotations(&mut source, &rest, &order),
+                rotations: rotations::rotations(&mut source, &rest, &order, legs[0]),
                 walk: Walk::of(&mut source, legs[0]),
                 legs,
                 rest: rest.source,

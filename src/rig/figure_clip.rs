@@ -249,7 +249,7 @@ pub(super) fn part_drives(
         joint: matched.drive.map(|drive| drive.joint),
         tip: matched.drive.and_then(|drive| match drive.follow {
             Follow::Direction => drive.tip,
-            Follow::Change | Follow::Trunk { .. } => None,
+            Follow::Change | Follow::Trunk { .. } | Follow::Sole => None,
         }),
         why: if swings(*part) {
             format!("{}; it swings", matched.why)

@@ -12,7 +12,7 @@ use crate::geometry::{Frame, bounds_of, y_up};
 use crate::labels::{Carry, Class, Detail, Facing, Figure, FigurePart, FigurePartId};
 use crate::memo::exact;
 use crate::mocap::Transform;
-use crate::retarget::{Drive, Matching};
+use crate::retarget::{Drive, Follow, Matching};
 use crate::retarget::{Rig, RigPart};
 use crate::svg::Drawing;
 
@@ -157,7 +157,9 @@ pub(super) fn rig(
 ) -> Rig {
     let is_leg = |part: FigurePartId| {
         let matched = &matching.parts[part];
-        let is_chain = matched.drive.is_some_and(|drive| drive.tip.is_some());
+        let is_chain = matched
+            .drive
+            .is_some_and(|drive| drive.tip.is_some() || drive.follow == Follow::Sole);
         let class = matched.label.as_ref().map(|label| label.class);
         is_chain && class == Some(Class::Leg)
     };

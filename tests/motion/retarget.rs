@@ -196,6 +196,7 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
     let retargeted = retarget(clip, rig, landmarks);
     let body = Body::of(clip, landmarks, rig.facing);
     let first = clip.pose(0);
+    let at_first = placed(rig, &retargeted, 0);
     let (rest, at_rest) = match retargeted.rest {
         RestSource::Offsets => (
             clip.skeleton.offset_pose(),
@@ -230,6 +231,13 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
                     worst.limbs = worst.limbs.max(off);
                 }
                 (Follow::Direction, None) => worst.checked -= 1,
+                // A foot turns by as much as its joint, from the first frame on.
+                (Follow::Sole, _) => {
+                    let change = pose[drive.joint].rotation * first[drive.joint].rotation.inverse();
+                    let drawn = body.turn(&first);
+                    let due = drawn * change * drawn.inverse() * at_first[index].rotation;
+                    worst.bodies = worst.bodies.max(apart(placed[index].rotation, due));
+                }
                 (Follow::Trunk { hips, shoulders }, _) => {
                     let lean = |pose: &Pose| {
                         let joints = [hips, shoulders[0], shoulders[1]];

@@ -69,6 +69,9 @@ pub enum Follow {
         /// The joints where the arms begin.
         shoulders: [JointId; 2],
     },
+    /// It turns with the joint, from where the foot of the motion stands flat on the ground, and its toes point where the motion's do:
+    /// feet. While the motion's foot stands flat, the drawn sole is flat, and only turns about the vertical.
+    Sole,
 }
 
 impl Drive {
@@ -84,6 +87,7 @@ impl Drive {
                 hips,
                 shoulders: [left, right],
             } => (place(left) + place(right)) / 2.0 - place(hips),
+            Follow::Sole => return None,
             Follow::Direction | Follow::Change => {
                 self.tip?.place(skeleton, pose) - place(self.joint)
             }
@@ -217,16 +221,24 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
 /// The drive of a part with what it takes over from its joint, and the reason if that is unusual. Only what points along a bone
 /// has a choice: it does what `Carry` says, else it takes over the change if it is splayed.
 fn carried(drive: Drive, carry: Option<Carry>, splayed: bool) -> (Drive, &'static str) {
-    let change = Drive {
-        follow: Follow::Change,
-        ..drive
-    };
+    let as_if = |follow: Follow| Drive { follow, ..drive };
+    let change = as_if(Follow::Change);
     match (drive.follow, carry, splayed) {
         (Follow::Direction, Some(Carry::Change), _) => (
             change,
             "; its string says `Carry change`, so it keeps its drawn pose",
         ),
-        (Follow::Direction, None, true) => (change, "; it is splayed, so it keeps its drawn pose"),
+        (Follow::Direction | Follow::Sole, None, true) => {
+            (change, "; it is splayed, so it keeps its drawn pose")
+        }
+        (Follow::Sole, Some(Carry::Change), _) => (
+            change,
+            "; its string says `Carry change`, so it keeps its drawn pose",
+        ),
+        (Follow::Sole, Some(Carry::Direction), _) if drive.tip.is_some() => (
+            as_if(Follow::Direction),
+            "; its string says `Carry direction`",
+        ),
         (Follow::Direction, Some(Carry::Direction), true) => {
             (drive, "; its string says `Carry direction`")
         }
@@ -319,8 +331,9 @@ impl<'a> Matcher<'a> {
     ) -> Result<(Drive, String), String> {
         let why = &label.why;
         let own = label.side.ok_or_else(|| why.clone())?;
+        let is_foot = (label.class, label.segment) == (Class::Leg, LimbSegment::End);
         let is_last = matches!(label.segment, LimbSegment::End | LimbSegment::Beyond);
-        if is_last && self.whole.contains(&(label.class, label.side, label.pair)) {
+        if is_last && !is_foot && self.whole.contains(&(label.class, label.side, label.pair)) {
             return Err(format!("{why}; it follows a limb of one piece"));
         }
         // The pairs of the skeleton from the hind end on, and again and again for further pairs, with their sides swapped.
@@ -352,6 +365,7 @@ impl<'a> Matcher<'a> {
             };
         }
         let follow = match tip {
+            _ if is_foot => Follow::Sole,
             Some(_) => Follow::Direction,
             None => Follow::Change,
         };
@@ -370,6 +384,9 @@ impl<'a> Matcher<'a> {
                     "; it turns like the line from `{name}` to {}",
                     self.tip(tip)
                 )
+            }
+            (Follow::Sole, _) => {
+                format!("; its sole turns with `{name}`, flat where that stands flat")
             }
             (Follow::Trunk { .. }, _) => format!(
                 "; it turns with `{name}` and leans with the line from the hips to the shoulders"

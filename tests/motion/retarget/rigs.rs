@@ -109,11 +109,12 @@ impl Builder {
                 joint: *joint,
                 tip: *tip,
                 follow: match tip {
+                    _ if is_leg && index == 2 => Follow::Sole,
                     Some(_) => Follow::Direction,
                     None => Follow::Change,
                 },
             });
-            own.is_leg = is_leg && tip.is_some();
+            own.is_leg = is_leg;
             if is_leg && index + 1 == bones.len() {
                 own.stands = true;
                 own.surface = match pieces {
