@@ -38,6 +38,25 @@ pub(crate) fn smoothed(path: &[DVec3], deviation: f64) -> Vec<DVec3> {
     (0..=last).map(point).collect()
 }
 
+/// The smooth curve that is nowhere below some values and nowhere far above them: the greatest value within `reach` points, averaged
+/// over as many to both sides with the weights of a cosine bell.
+pub(crate) fn envelope(values: &[f64], reach: usize) -> Vec<f64> {
+    let around = |at: usize| at.saturating_sub(reach)..(at + reach + 1).min(values.len());
+    let greatest = |at: usize| values[around(at)].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let greatest: Vec<f64> = (0..values.len()).map(greatest).collect();
+    let bell = |offset: usize| {
+        let angle = std::f64::consts::PI * offset as f64 / (reach + 1) as f64;
+        1.0 + angle.cos()
+    };
+    let mean = |at: usize| {
+        let weighed = around(at).map(|other| (greatest[other], bell(at.abs_diff(other))));
+        let (sum, weights) =
+            weighed.fold((0.0, 0.0), |(sum, all), (value, weight)| (sum + value * weight, all + weight));
+        sum / weights
+    };
+    (0..values.len()).map(mean).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,6 +83,18 @@ mod tests {
         // Longer than the path.
         assert!(largest_difference(&smoothed(&steady[..5], 9.6), &steady[..5]) < 1e-9);
         assert_eq!(smoothed(&steady[..1], 9.6), &steady[..1]);
+    }
+
+    #[test]
+    fn an_envelope_is_above_its_values_and_smooth() {
+        let values: Vec<f64> = (0..60).map(|at| if at == 30 { 1.0 } else { 0.0 }).collect();
+        let curve = envelope(&values, 4);
+        assert!(curve.iter().zip(&values).all(|(curve, value)| curve >= value));
+        assert_eq!((curve[30], curve[21], curve[39]), (1.0, 0.0, 0.0));
+        let steps = curve.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        assert!(steps.fold(0.0, f64::max) < 0.3);
+        assert_eq!(envelope(&values, 0), values);
+        assert!(envelope(&[], 3).is_empty());
     }
 
     #[test]

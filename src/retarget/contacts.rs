@@ -9,7 +9,7 @@ use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
 
 /// A foot whose sole is known is on the ground up to this height, in leg lengths: feet of actors that stand are not steadier.
-const STEADY: f64 = 0.02;
+const STEADY: f64 = 0.0125;
 
 /// The walk of a clip, in the drawing's axes and the clip's unit.
 pub(super) struct Walk {
@@ -22,15 +22,17 @@ pub(super) struct Walk {
 pub(super) struct Foot {
     pub(super) sole: Sole,
     pub(super) parts: Vec<FigurePartId>,
-    /// Per frame how high above the ground it is shown: as high as the lowest point of its sole.
+    /// Per frame how high above the ground it is shown, in the figure's unit: as high as the lowest point of its sole.
     pub(super) lift: Vec<f64>,
+    /// Per frame how firmly it is in contact with the ground, from 0 to 1.
+    pub(super) firm: Vec<f64>,
     /// Per frame how it holds the figure in place on the way from the frame before.
     pub(super) holds: Vec<Hold>,
 }
 
 impl Walk {
-    /// The walk of a clip whose legs are `leg` long.
-    pub(super) fn of(source: &mut Source<'_>, leg: f64) -> Self {
+    /// The walk of a clip on a rig, given the lengths of their legs.
+    pub(super) fn of(source: &mut Source<'_>, [leg, own]: [f64; 2]) -> Self {
         let mut feet: Vec<Foot> = Vec::new();
         for (index, part) in source.rig.parts.iter_enumerated() {
             let Some(drive) = part.drive.filter(|_| part.is_leg && part.stands) else {
@@ -43,6 +45,7 @@ impl Walk {
                     sole: Sole::of(source, end, leg),
                     parts: vec![index],
                     lift: Vec::new(),
+                    firm: Vec::new(),
                     holds: Vec::new(),
                 }),
             }
@@ -74,7 +77,8 @@ impl Walk {
                 heights.fold(f64::INFINITY, f64::min)
             };
             let frames = 0..source.clip.frames;
-            let lift = frames.map(|frame| lifted(clearance(frame).max(0.0), on_ground * leg));
+            let scale = if leg > 0.0 { own / leg } else { 0.0 };
+            let lift = frames.map(|frame| lifted(clearance(frame).max(0.0), on_ground * leg) * scale);
             foot.lift = lift.collect();
         }
         let frames: Vec<f64> = (0..source.clip.frames).map(|frame| frame as f64).collect();
@@ -89,8 +93,10 @@ impl Walk {
     /// The same walk, whose frames are at these places of the clip.
     fn held_at(mut self, places: &[f64]) -> Self {
         let holds = self.planting.holds(places);
-        for (foot, holds) in self.feet.iter_mut().zip(holds) {
+        let firmness = self.planting.firmness(places);
+        for (foot, (holds, firm)) in self.feet.iter_mut().zip(holds.into_iter().zip(firmness)) {
             foot.holds = holds;
+            foot.firm = firm;
         }
         self
     }
@@ -106,6 +112,7 @@ impl Walk {
             sole: foot.sole.clone(),
             parts: foot.parts.clone(),
             lift: map.apply(&foot.lift, between),
+            firm: Vec::new(),
             holds: Vec::new(),
         };
         Self {

@@ -15,6 +15,7 @@ mod root_motion;
 mod rotations;
 mod soles;
 mod spline;
+mod stepping;
 mod swing;
 mod turns;
 

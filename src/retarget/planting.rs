@@ -20,7 +20,7 @@ const RELEASE: f64 = 1.5;
 /// Of two feet that could take over, one that is slower by this, in leg lengths per second, gets e times as much.
 const PREFERENCE: f64 = 0.1;
 /// Paths are smoothed by a Gaussian of this deviation, seconds: single frames may be wrong.
-const SMOOTHING: f64 = 0.04;
+const SMOOTHING: f64 = 0.02;
 /// A contact lasts: what a foot's velocity changes by in this time, seconds, counts as speed.
 const TURN: f64 = 0.03;
 /// Samples per second, at least; every frame has a whole number of them.
@@ -36,6 +36,8 @@ pub(super) struct Planting {
     /// Per foot its share: 0 in the air, 1 if it alone holds the figure. Linear from one sample to the next; the sum of all shares is
     /// at most 1.
     shares: Vec<Vec<f64>>,
+    /// Per foot how firmly it is in contact, from 0 to 1.
+    firmness: Vec<Vec<f64>>,
     /// Per foot the lowest heights of its points.
     pub(super) lowest: Vec<Vec<f64>>,
 }
@@ -115,6 +117,12 @@ impl Planting {
             } else {
                 vec![Vec::new(); feet.len()]
             },
+            firmness: if is_timed && leg > 0.0 {
+                let firmness = |own: &Vec<Contact>| own.iter().map(|own| own.firmness).collect();
+                contacts.iter().map(firmness).collect()
+            } else {
+                vec![Vec::new(); feet.len()]
+            },
             lowest: lowest_heights,
         }
     }
@@ -130,6 +138,17 @@ impl Planting {
                 .collect()
         };
         self.shares.iter().map(holds).collect()
+    }
+
+    /// Per foot how firmly it is in contact at these places, likewise.
+    pub(super) fn firmness(&self, places: &[f64]) -> Vec<Vec<f64>> {
+        let at = |firmness: &Vec<f64>| {
+            let places = places.iter();
+            places
+                .map(|place| value(firmness, place * self.rate as f64))
+                .collect()
+        };
+        self.firmness.iter().map(at).collect()
     }
 }
 
@@ -216,16 +235,19 @@ fn shares(feet: &[Vec<Contact>]) -> Vec<Vec<f64>> {
     shares
 }
 
+/// The value at a place of a list of samples, linear between them; 0 if it is empty.
+fn value(samples: &[f64], place: f64) -> f64 {
+    let Some(last) = samples.len().checked_sub(1) else {
+        return 0.0;
+    };
+    let sample = (place as usize).min(last);
+    let [start, end] = [sample, (sample + 1).min(last)].map(|sample| samples[sample]);
+    start + (end - start) * (place - sample as f64).clamp(0.0, 1.0)
+}
+
 /// The share of a foot from one place to another, in samples.
 fn hold(shares: &[f64], from: f64, to: f64) -> Hold {
-    let Some(last) = shares.len().checked_sub(1) else {
-        return Hold::default();
-    };
-    let at = |place: f64| {
-        let sample = (place as usize).min(last);
-        let [start, end] = [sample, (sample + 1).min(last)].map(|sample| shares[sample]);
-        start + (end - start) * (place - sample as f64).clamp(0.0, 1.0)
-    };
+    let at = |place: f64| value(shares, place);
     let way = to - from;
     if way.is_nan() || way <= 0.0 {
         return Hold {

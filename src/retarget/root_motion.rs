@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::axes::Landmarks;
-use super::contacts::Walk;
+use super::contacts::{Foot, Walk};
 use super::kinematics::ForwardKinematics;
 use super::planting::Hold;
 use super::rotations::Rotations;
@@ -60,38 +60,74 @@ pub(super) fn root_motion(
     let mut heights = Vec::with_capacity(frames);
     for frame in 0..frames {
         kinematics.pose(rig, rotations, order, frame);
-        let feet: Vec<Vec<Vec<DVec3>>> = walk
-            .feet
-            .iter()
-            .map(|foot| {
-                let parts = foot.parts.iter();
-                parts
-                    .map(|part| kinematics.surface(rig, *part).collect())
-                    .collect()
-            })
-            .collect();
-        for (steps, (before, now)) in steps.iter_mut().zip(before.iter().zip(&feet)) {
+        let feet = Feet::of(rig, &kinematics, walk);
+        for (steps, (before, now)) in steps.iter_mut().zip(before.iter().zip(&feet.0)) {
             steps.push(rolled(before, now, ROLLING * legs[1]));
         }
-        let lifts = walk.feet.iter().map(|foot| foot.lift[frame]);
-        let lifted = lifts.fold(f64::INFINITY, f64::min) * scale;
         let mut holds = walk.feet.iter().map(|foot| foot.holds[frame].mean);
-        motion.grounded[frame] = lifted == 0.0 && holds.any(|held| held >= GROUNDED);
+        motion.grounded[frame] =
+            lift(walk, frame) == 0.0 && holds.any(|held| held >= GROUNDED);
         heights.push(match floor {
-            Some(floor) => {
-                let lowest = feet.iter().flatten().flatten().map(|point| point.y);
-                (floor + lifted - lowest.fold(f64::INFINITY, f64::min))
-                    .max(floor - surfaces.lowest(rig, &kinematics))
-            }
+            Some(floor) => (floor + root_height(walk, frame, &feet.lowest()))
+                .max(floor - surfaces.lowest(rig, &kinematics)),
             None => start.y + (walk.hips[frame].y - walk.hips[0].y) * scale,
         });
-        before = feet;
+        before = feet.0;
     }
     motion.path = travel(walk, &steps, scale, start);
     for (place, height) in motion.path.iter_mut().zip(heights) {
         place.y = height;
     }
     motion
+}
+
+/// The feet of a figure in a pose: per foot of the clip, and per part that stands on it, the points of the part's surface.
+pub(super) struct Feet(Vec<Vec<Vec<DVec3>>>);
+
+impl Feet {
+    pub(super) fn of(rig: &Rig, kinematics: &ForwardKinematics, walk: &Walk) -> Self {
+        let foot = |foot: &Foot| {
+            let parts = foot.parts.iter();
+            let surfaces = parts.map(|part| kinematics.surface(rig, *part).collect());
+            surfaces.collect()
+        };
+        Self(walk.feet.iter().map(foot).collect())
+    }
+
+    /// Per foot the height of its lowest point.
+    pub(super) fn lowest(&self) -> Vec<f64> {
+        let lowest = |foot: &Vec<Vec<DVec3>>| {
+            let heights = foot.iter().flatten().map(|point| point.y);
+            heights.fold(f64::INFINITY, f64::min)
+        };
+        self.0.iter().map(lowest).collect()
+    }
+}
+
+/// How far the lowest foot is above the ground in a frame.
+fn lift(walk: &Walk, frame: usize) -> f64 {
+    let lifts = walk.feet.iter().map(|foot| foot.lift[frame]);
+    lifts.fold(f64::INFINITY, f64::min)
+}
+
+/// How high above the ground the root is, given the heights of the feet relative to it. Feet in contact stand on the ground, as firmly
+/// as they are in contact; without any, the lowest foot is as high as the actor's.
+pub(super) fn root_height(walk: &Walk, frame: usize, lowest: &[f64]) -> f64 {
+    let heights = || lowest.iter().map(|low| -low);
+    let in_air = heights().fold(f64::NEG_INFINITY, f64::max);
+    let firmness = walk.feet.iter().map(|foot| foot.firm[frame]);
+    let most = firmness.clone().fold(0.0, f64::max);
+    let lift = lift(walk, frame);
+    if most <= 0.0 {
+        return lift + in_air;
+    }
+    let weighed = || heights().zip(firmness.clone().map(|firm| firm / most));
+    let (sum, weights) =
+        weighed().fold((0.0, 0.0), |(sum, all), (height, weight)| (sum + height * weight, all + weight));
+    let mean = sum / weights;
+    let on_ground = weighed().map(|(height, weight)| mean + weight * (height - mean));
+    let on_ground = on_ground.fold(f64::NEG_INFINITY, f64::max);
+    lift + in_air + (on_ground - in_air) * most
 }
 
 /// Where the root goes, frame by frame. Feet are locked: one stays in place if the root moves by the opposite of its step. Where none

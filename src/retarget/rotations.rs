@@ -44,6 +44,13 @@ impl Rotations {
         self.carry(rig, order);
     }
 
+    /// Turns a part further, in every frame by a rotation in the drawing's axes.
+    pub(super) fn turn(&mut self, part: FigurePartId, turns: impl Iterator<Item = DQuat>) {
+        for (own, turn) in self.own[part].iter_mut().flatten().zip(turns) {
+            *own = (turn * *own).normalize();
+        }
+    }
+
     fn carry(&mut self, rig: &Rig, order: &[FigurePartId]) {
         for part in order {
             let drawn = rig.parts[*part].node.rotation;

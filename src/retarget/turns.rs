@@ -11,7 +11,7 @@ use super::contacts::Walk;
 use super::rotations::{self, Rotations};
 use super::{
     Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, Source, kinematics, rest_pose,
-    root_motion, swing,
+    root_motion, stepping, swing,
 };
 use crate::labels::FigurePartId;
 use crate::mocap::Clip;
@@ -57,7 +57,7 @@ impl<'a> Turns<'a> {
             let legs = root_motion::leg_lengths(&mut source);
             Moving {
                 rotations: rotations::rotations(&mut source, &rest, &order, legs[0]),
-                walk: Walk::of(&mut source, legs[0]),
+                walk: Walk::of(&mut source, legs),
                 legs,
                 rest: rest.source,
             }
@@ -107,6 +107,13 @@ impl<'a> Turns<'a> {
             };
         };
         let mut rotations = moving.rotations;
+        stepping::clear(
+            self.rig,
+            &self.order,
+            &mut rotations,
+            &moving.walk,
+            [moving.legs[1], self.frame_time],
+        );
         let root_motion =
             root_motion::root_motion(self.rig, &self.order, &rotations, &moving.walk, moving.legs);
         swing::swing(

@@ -42,6 +42,8 @@ const EQUAL: f64 = 0.002;
 const IN_AIR: f64 = 0.03;
 /// … and an actor flies whose feet all are higher than this.
 const FLIES: f64 = 0.025;
+/// Legs that are shorter than this, as a share of the figure's height, are feet only.
+const NO_LEG: f64 = 0.12;
 /// How many times of a clip arms are looked at.
 const TIMES: usize = 12;
 /// How many points of a forearm or a hand are looked at.
@@ -223,6 +225,10 @@ impl<'a> Played<'a> {
 
     /// Flights of the actor, and how high the figure is in them.
     fn fly(&self, heights: &[f64], totals: &mut Totals) {
+        // A penguin has feet, but no legs.
+        if self.leg < NO_LEG * self.height {
+            return;
+        }
         let clearances: Vec<f64> = (0..heights.len()).map(|frame| self.actor.clearance(frame)).collect();
         let mut frame = 0;
         while frame < heights.len() {
