@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::Source;
-use super::planting::{CONTACT_HEIGHT, Hold, Planting};
+use super::planting::{CONTACT_HEIGHT, Hold, Planting, SOLE_HEIGHT};
 use super::soles::{FootEnd, Sole};
 use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
@@ -52,11 +52,19 @@ impl Walk {
         }
         let to_drawing = source.axes.first.inverse();
         let mut hips = Vec::with_capacity(source.clip.frames);
-        let mut paths: Vec<Vec<Vec<DVec3>>> = vec![Vec::new(); feet.len()];
+        let known = |foot: &Foot| {
+            if foot.sole.is_known() {
+                SOLE_HEIGHT
+            } else {
+                CONTACT_HEIGHT
+            }
+        };
+        let mut paths: Vec<(Vec<Vec<DVec3>>, f64)> =
+            feet.iter().map(|foot| (Vec::new(), known(foot))).collect();
         for frame in 0..source.clip.frames {
             let pose = source.poses.at(frame);
             hips.push(to_drawing * pose[source.landmarks.hips].position);
-            for (foot, paths) in feet.iter().zip(&mut paths) {
+            for (foot, (paths, _)) in feet.iter().zip(&mut paths) {
                 let places = foot.sole.places(&source.clip.skeleton, pose);
                 paths.resize_with(places.len(), Vec::new);
                 for (path, place) in paths.iter_mut().zip(places) {
@@ -72,7 +80,7 @@ impl Walk {
                 CONTACT_HEIGHT
             };
             let clearance = |frame: usize| {
-                let points = paths[index].iter().zip(&planting.lowest[index]);
+                let points = paths[index].0.iter().zip(&planting.lowest[index]);
                 let heights = points.map(|(path, lowest)| path[frame].y - lowest);
                 heights.fold(f64::INFINITY, f64::min)
             };

@@ -15,14 +15,20 @@ pub(super) const CONTACT_HEIGHT: f64 = 0.08;
 const CONTACT_SPEED: f64 = 0.6;
 /// The lowest height of a point is this quantile of its heights.
 const LOWEST: f64 = 0.02;
+/// What it is lower than if it is known to be on the sole.
+pub(super) const SOLE_HEIGHT: f64 = 0.03;
 /// At this many times the height or the speed of a contact, nothing is left of it.
 const RELEASE: f64 = 1.5;
 /// Of two feet that could take over, one that is slower by this, in leg lengths per second, gets e times as much.
 const PREFERENCE: f64 = 0.1;
+/// The foot that holds the figure lets go where it pulls less than this share of what another one does …
+const WEAKER: f64 = 0.3;
+/// … and holds nothing where it pulls less than this.
+const WEAKEST: f64 = 0.05;
 /// Paths are smoothed by a Gaussian of this deviation, seconds: single frames may be wrong.
 const SMOOTHING: f64 = 0.02;
 /// A contact lasts: what a foot's velocity changes by in this time, seconds, counts as speed.
-const TURN: f64 = 0.03;
+const TURN: f64 = 0.015;
 /// Samples per second, at least; every frame has a whole number of them.
 const SAMPLES: f64 = 240.0;
 /// The most samples of a frame.
@@ -80,8 +86,9 @@ struct Contact {
 }
 
 impl Planting {
-    /// The planting of feet, each of which touches the ground at points with these paths, frame by frame. `leg` is the length of a leg.
-    pub(super) fn of(feet: &[Vec<Vec<DVec3>>], frame_time: f64, leg: f64) -> Self {
+    /// The planting of feet, each of which touches the ground at points with these paths, frame by frame, below a height in leg
+    /// lengths. `leg` is the length of a leg.
+    pub(super) fn of(feet: &[(Vec<Vec<DVec3>>, f64)], frame_time: f64, leg: f64) -> Self {
         let is_timed = frame_time > 0.0 && frame_time.is_finite();
         let rate = if is_timed {
             (frame_time * SAMPLES).ceil().clamp(1.0, MAX_SAMPLES) as usize
@@ -95,7 +102,7 @@ impl Planting {
         };
         let mut lowest_heights = Vec::with_capacity(feet.len());
         let mut contacts = Vec::with_capacity(feet.len());
-        for foot in feet {
+        for (foot, height) in feet {
             let paths: Vec<Vec<DVec3>> = foot.iter().map(|path| sampled(path, rate)).collect();
             let paths: Vec<Vec<DVec3>> = paths
                 .iter()
@@ -106,7 +113,7 @@ impl Planting {
                 .map(|path| lowest(path.iter().map(|point| point.y)))
                 .collect();
             let points = paths.iter().zip(&lowest);
-            let points = points.map(|(path, lowest)| point_contacts(path, *lowest, time, leg));
+            let points = points.map(|(path, lowest)| point_contacts(path, [*lowest, *height], time, leg));
             contacts.push(points.reduce(firmer).unwrap_or_default());
             lowest_heights.push(lowest);
         }
@@ -171,8 +178,14 @@ pub(super) fn lowest(heights: impl Iterator<Item = f64>) -> f64 {
     }
 }
 
-/// How firmly a point is in contact, sample by sample. `time` is the time between samples.
-fn point_contacts(path: &[DVec3], lowest: f64, time: f64, leg: f64) -> Vec<Contact> {
+/// How firmly a point is in contact, sample by sample, given its lowest height, and up to which height above it, in leg lengths, it is so.
+/// `time` is the time between samples.
+fn point_contacts(
+    path: &[DVec3],
+    [lowest, contact_height]: [f64; 2],
+    time: f64,
+    leg: f64,
+) -> Vec<Contact> {
     let contact = |sample: usize| {
         let [before, after] = [sample.saturating_sub(1), (sample + 1).min(path.len() - 1)];
         let passed = (after - before).max(1) as f64 * time;
@@ -181,7 +194,7 @@ fn point_contacts(path: &[DVec3], lowest: f64, time: f64, leg: f64) -> Vec<Conta
         let change = (path[before] + path[after] - 2.0 * path[sample]).length();
         let speed = speed.hypot(change / (time * time * leg) * TURN);
         let height = (path[sample].y - lowest) / leg;
-        let firmness = within(height / CONTACT_HEIGHT) * within(speed / CONTACT_SPEED);
+        let firmness = within(height / contact_height) * within(speed / CONTACT_SPEED);
         Contact {
             firmness,
             pull: firmness * (-speed / PREFERENCE).exp(),
@@ -212,14 +225,18 @@ fn shares(feet: &[Vec<Contact>]) -> Vec<Vec<f64>> {
     let mut holder: Option<usize> = None;
     for sample in 0..samples {
         let contact = |foot: usize| feet[foot][sample];
-        let pulling = |foot: &usize| contact(*foot).pull > 0.0;
+        let strongest = (0..feet.len()).map(|foot| contact(foot).pull).fold(0.0, f64::max);
+        let pulling = |foot: &usize| contact(*foot).pull > WEAKEST * strongest;
         holder = holder.filter(pulling).or_else(|| {
             let pulling = (0..feet.len()).filter(pulling);
             pulling.max_by(|a, b| contact(*a).pull.total_cmp(&contact(*b).pull))
         });
         let all = (0..feet.len()).map(contact);
         let firmest = all.clone().map(|own| own.firmness).fold(0.0, f64::max);
-        let held = holder.map_or(0.0, |foot| contact(foot).firmness);
+        let held = holder.map_or(0.0, |foot| {
+            let share = contact(foot).pull / strongest;
+            contact(foot).firmness * ease((share - WEAKEST) / (WEAKER - WEAKEST))
+        });
         let pull: f64 = all.map(|own| own.pull).sum();
         let others = pull - holder.map_or(0.0, |foot| contact(foot).pull);
         for (foot, shares) in shares.iter_mut().enumerate() {
@@ -279,9 +296,9 @@ mod tests {
         let point = |place: [f64; 2]| DVec3::new(place[1], place[0], 0.0);
         let path = |foot: &&dyn Fn(f64) -> [f64; 2]| {
             let places = (0..=96).map(|frame| point(foot(f64::from(frame) / 48.0)));
-            vec![places.collect()]
+            (vec![places.collect()], CONTACT_HEIGHT)
         };
-        let paths: Vec<Vec<Vec<DVec3>>> = feet.iter().map(path).collect();
+        let paths: Vec<(Vec<Vec<DVec3>>, f64)> = feet.iter().map(path).collect();
         Planting::of(&paths, 1.0 / 48.0, 1.0)
     }
 

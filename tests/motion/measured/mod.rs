@@ -169,6 +169,16 @@ impl<'a> Played<'a> {
             if let Some(before) = &before {
                 self.slide(frame, [before, &world], totals);
             }
+            if env::var("OKOSHI_LOW").is_ok() && frame % 20 == 0 {
+                let low = lows.iter().copied().fold(f64::INFINITY, f64::min);
+                if low > 0.01 {
+                    let all = 0..self.model.nodes.len();
+                    let lows = all.map(|node| (self.model.corners(&[node], &world).map(|c| c.y).fold(f64::INFINITY, f64::min), node));
+                    let l = lows.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+                    eprintln!("LOW {} frame {frame}: feet at {low:.3}, lowest {} at {:.3} rest {:.3}", self.clip.name, self.model.name(l.1), (l.0 - self.ground)/self.height,
+                      (self.model.corners(&[l.1], self.rest).map(|c| c.y).fold(f64::INFINITY, f64::min)-self.ground)/self.height);
+                }
+            }
             heights.push(lows.into_iter().fold(f64::INFINITY, f64::min));
             before = Some(world);
         }
