@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Source;
+use super::{Follow, Rig, Source};
 use super::planting::{CONTACT_HEIGHT, Hold, Planting, SOLE_HEIGHT};
 use super::soles::{FootEnd, Sole};
 use crate::labels::FigurePartId;
@@ -31,7 +31,7 @@ pub(super) struct Foot {
 }
 
 impl Walk {
-    /// The walk of a clip on a rig, given the lengths of their legs.
+    /// The walk of a clip on a rig, given the lengths of their legs without feet.
     pub(super) fn of(source: &mut Source<'_>, [leg, own]: [f64; 2]) -> Self {
         let mut feet: Vec<Foot> = Vec::new();
         for (index, part) in source.rig.parts.iter_enumerated() {
@@ -73,6 +73,7 @@ impl Walk {
             }
         }
         let planting = Planting::of(&paths, source.clip.frame_time, leg);
+        let scale = height_scale(source.rig, &feet, [leg, own]);
         for (index, foot) in feet.iter_mut().enumerate() {
             let on_ground = if foot.sole.is_known() {
                 STEADY
@@ -85,7 +86,6 @@ impl Walk {
                 heights.fold(f64::INFINITY, f64::min)
             };
             let frames = 0..source.clip.frames;
-            let scale = if leg > 0.0 { own / leg } else { 0.0 };
             let lift = frames.map(|frame| lifted(clearance(frame).max(0.0), on_ground * leg) * scale);
             foot.lift = lift.collect();
         }
@@ -130,6 +130,28 @@ impl Walk {
         }
         .held_at(&places)
     }
+}
+
+/// By how much heights in a clip are to be multiplied: legs down to the soles as long as these, given their lengths without feet.
+fn height_scale(rig: &Rig, feet: &[Foot], [leg, own]: [f64; 2]) -> f64 {
+    let mean = |drops: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = drops.fold((0.0, 0.0), |(sum, count), drop| (sum + drop, count + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
+    };
+    let clip = leg + mean(&mut feet.iter().map(|foot| foot.sole.drop));
+    let parts = feet.iter().flat_map(|foot| &foot.parts);
+    let drawn = own + mean(&mut parts.map(|part| drop_of(rig, *part)));
+    if clip > 0.0 { drawn / clip } else { 0.0 }
+}
+
+/// How far the lowest point of a part is below the end of its leg, as drawn.
+fn drop_of(rig: &Rig, part: FigurePartId) -> f64 {
+    let own = &rig.parts[part];
+    let is_foot = own.drive.is_some_and(|drive| drive.follow == Follow::Sole);
+    let leg = own.parent.filter(|parent| is_foot && rig.parts[*parent].is_leg);
+    let end = leg.map_or(own.tip, |leg| rig.parts[leg].tip);
+    let lowest = own.surface.iter().map(|point| point.y);
+    (end.y - lowest.fold(end.y, f64::min)).max(0.0)
 }
 
 /// The height at which a foot is shown that has this clearance in the clip. Up to a height it is on the ground, because nobody knows its

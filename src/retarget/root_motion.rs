@@ -274,18 +274,23 @@ pub(super) fn leg_lengths(source: &mut Source<'_>) -> [f64; 2] {
     }
 }
 
-/// The length of the leg that ends with a part.
+/// The length of the leg that ends with a part, from joint to joint: pieces reach into each other.
 fn leg_length(rig: &Rig, landmarks: &Landmarks, end: FigurePartId) -> f64 {
     let above = |part: &FigurePartId| {
         let parent = rig.parts[*part].parent?;
         let above = &rig.parts[parent];
         (above.is_leg && above.drive.is_some()).then_some(parent)
     };
-    std::iter::successors(Some(end), above)
+    let pieces = std::iter::successors(Some(end), above)
         // Parents that form a cycle have no top.
         .take(rig.parts.len())
         .map(|part| &rig.parts[part])
-        .filter(|part| part.drive.is_none_or(|drive| !is_foot(landmarks, &drive)))
-        .map(|part| (part.tip - part.joint).length())
-        .sum()
+        .filter(|part| part.drive.is_none_or(|drive| !is_foot(landmarks, &drive)));
+    let points: Vec<DVec3> = pieces
+        .enumerate()
+        .flat_map(|(index, piece)| [(index == 0).then_some(piece.tip), Some(piece.joint)])
+        .flatten()
+        .collect();
+    let bones = points.windows(2);
+    bones.map(|pair| pair[0].distance(pair[1])).sum()
 }

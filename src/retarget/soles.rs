@@ -52,6 +52,8 @@ pub(super) struct Sole {
     pub(super) end: FootEnd,
     /// Points of the sole in the ankle's frame; none for a foot without toes.
     points: Vec<DVec3>,
+    /// How far the ground is below the ankle while the foot is flat, in the clip's unit.
+    pub(super) drop: f64,
     /// From the axes of the foot, y up from the sole and z to the toes, to the ankle's frame.
     pub(super) flat: DQuat,
 }
@@ -71,6 +73,7 @@ impl Sole {
         let mut sole = Self {
             end,
             points: Vec::new(),
+            drop: 0.0,
             flat: DQuat::IDENTITY,
         };
         let FootEnd::Foot(ankle, tip) = end else {
@@ -92,6 +95,7 @@ impl Sole {
         sole.flat = foot_axes(up, ahead);
         if tip.is_some() {
             let ground = up * toes.dot(up).min(0.0);
+            sole.drop = ground.length();
             sole.points = vec![ground - way * HEEL, ground + way * BALL];
         }
         sole

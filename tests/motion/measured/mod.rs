@@ -125,12 +125,7 @@ impl<'a> Played<'a> {
                 is_foot: *segment == LimbSegment::End,
             });
             let (_, top) = node(segments.first_key_value()?.1)?;
-            let corners: Vec<DVec3> = model.corners(&[top], rest).collect();
-            let extent = |axis: usize| {
-                let values = corners.iter().map(|corner| corner[axis]);
-                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
-            };
-            lengths.push(extent(1).1 - (extent(0).1 - extent(0).0) / 2.0);
+            lengths.push(length(model, rest, [top, sole]));
         }
         let low = |nodes: &[usize]| {
             let heights = model.corners(nodes, rest).map(|corner| corner.y);
@@ -138,9 +133,10 @@ impl<'a> Played<'a> {
         };
         let all: Vec<usize> = (0..model.nodes.len()).collect();
         let ground = feet.iter().map(|foot| low(&foot.nodes).0).reduce(f64::min)?;
+        let height = low(&all).1 - ground;
         Some(Self {
-            leg: lengths.iter().sum::<f64>() / lengths.len() as f64 - ground,
-            height: low(&all).1 - ground,
+            leg: (lengths.iter().sum::<f64>() / lengths.len() as f64).max(NO_LEG * height),
+            height,
             model,
             rest,
             clip,
@@ -169,16 +165,6 @@ impl<'a> Played<'a> {
             if let Some(before) = &before {
                 self.slide(frame, [before, &world], totals);
             }
-            if env::var("OKOSHI_LOW").is_ok() && frame % 20 == 0 {
-                let low = lows.iter().copied().fold(f64::INFINITY, f64::min);
-                if low > 0.01 {
-                    let all = 0..self.model.nodes.len();
-                    let lows = all.map(|node| (self.model.corners(&[node], &world).map(|c| c.y).fold(f64::INFINITY, f64::min), node));
-                    let l = lows.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
-                    eprintln!("LOW {} frame {frame}: feet at {low:.3}, lowest {} at {:.3} rest {:.3}", self.clip.name, self.model.name(l.1), (l.0 - self.ground)/self.height,
-                      (self.model.corners(&[l.1], self.rest).map(|c| c.y).fold(f64::INFINITY, f64::min)-self.ground)/self.height);
-                }
-            }
             heights.push(lows.into_iter().fold(f64::INFINITY, f64::min));
             before = Some(world);
         }
@@ -205,7 +191,10 @@ impl<'a> Played<'a> {
             totals.lowest.add(f64::from(u8::from(standing > moving + EQUAL)));
         }
         if self.feet.iter().any(stands) {
-            let low = lowest(&|_| true).unwrap_or(0.0);
+            // Somebody who kneels stands on more than feet.
+            let all: Vec<usize> = (0..self.model.nodes.len()).collect();
+            let heights = self.model.corners(&all, world).map(|corner| corner.y);
+            let low = (heights.fold(f64::INFINITY, f64::min) - self.ground) / self.height;
             totals.off_ground.add(low.abs() * 100.0);
         }
     }
@@ -236,7 +225,7 @@ impl<'a> Played<'a> {
     /// Flights of the actor, and how high the figure is in them.
     fn fly(&self, heights: &[f64], totals: &mut Totals) {
         // A penguin has feet, but no legs.
-        if self.leg < NO_LEG * self.height {
+        if self.leg <= NO_LEG * self.height {
             return;
         }
         let clearances: Vec<f64> = (0..heights.len()).map(|frame| self.actor.clearance(frame)).collect();
@@ -251,10 +240,27 @@ impl<'a> Played<'a> {
             let highest = |values: &[f64]| values[frame..end].iter().copied().fold(0.0, f64::max);
             let due = highest(&clearances);
             let own = highest(heights) * self.height / self.leg;
+            if env::var("OKOSHI_EACH").is_ok() {
+                eprintln!("FLIGHT {}: due {due:.3} own {own:.3} leg/height {:.3}", self.clip.name, self.leg / self.height);
+            }
             totals.flight.add((own / due - 1.0).abs() * 100.0);
             frame = end;
         }
     }
+}
+
+/// The length of a leg from its joint, which is half its width below its top, to the sole, given the nodes of its first and last piece.
+fn length(model: &Model, rest: &[Transform], [top, sole]: [usize; 2]) -> f64 {
+    let corners: Vec<DVec3> = model.corners(&[top], rest).collect();
+    let highest = corners.iter().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
+    let lowest = corners.iter().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
+    let near = corners.iter().filter(|corner| corner.y > highest - 0.2 * (highest - lowest));
+    let xs = near.map(|corner| corner.x);
+    let (left, right) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    let hip = DVec3::new(f64::midpoint(left, right), highest - (right - left) / 2.0, 0.0);
+    let soles = model.corners(std::slice::from_ref(&sole), rest).map(|corner| corner.with_z(0.0));
+    let end = soles.min_by(|a, b| a.y.total_cmp(&b.y)).expect("a sole");
+    end.distance(hip)
 }
 
 /// The arms of a figure, with points of their meshes.

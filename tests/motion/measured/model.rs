@@ -83,10 +83,6 @@ impl Model {
         self.names.get(name).copied()
     }
 
-    pub(super) fn name(&self, node: usize) -> &str {
-        self.names.iter().find(|(_, n)| **n == node).map_or("", |(s, _)| s)
-    }
-
     /// A node and what hangs on it.
     pub(super) fn with_children(&self, node: usize) -> Vec<usize> {
         let above = |node: &usize| self.nodes[*node].parent;

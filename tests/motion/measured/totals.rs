@@ -33,7 +33,7 @@ pub(super) struct Totals {
     pub(super) tilt: Values,
     /// Of feet that stand: how far they are below the ground, percent of the figure's height.
     pub(super) sunk: Values,
-    /// Of frames with a foot that stands: how far the lowest foot is from the ground, likewise.
+    /// Of frames with a foot that stands: how far the figure's lowest point is from the ground, likewise.
     pub(super) off_ground: Values,
     /// Of frames with one foot that stands and one in the air: 1 if that in the air is lower.
     pub(super) lowest: Values,
@@ -53,7 +53,7 @@ impl Totals {
         [
             ("sole's tilt off the actor's, degrees", &self.tilt, 5.0),
             ("sole below the ground, % of the height", &self.sunk, 1.0),
-            ("lowest foot off the ground, % of the height", &self.off_ground, 1.0),
+            ("lowest point off the ground, % of the height", &self.off_ground, 1.0),
             ("planted foot above a moving one", &self.lowest, 0.0),
             ("height of flights off the actor's, %", &self.flight, 20.0),
             ("slide over the actor's, legs a second", &self.slide, 0.1),
@@ -109,7 +109,7 @@ impl Half {
 /// The least share of values within the limit, percent, in the order of [`Totals::rows`].
 const LEAST: [f64; 7] = [0.0; 7];
 /// The fewest values of a measure.
-const FEWEST: usize = 20;
+const FEWEST: usize = 14;
 
 impl fmt::Display for Half {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
