@@ -11,6 +11,7 @@ mod kinematics;
 mod matching;
 mod planting;
 mod rest_pose;
+mod room;
 mod root_motion;
 mod rotations;
 mod soles;
@@ -77,6 +78,10 @@ pub struct RigPart {
     pub tip: DVec3,
     /// Points around its surface and around what moves with it, which the ground holds up.
     pub surface: Vec<DVec3>,
+    /// Points around its own solid, if it is a piece of an arm that makes room, or a part of the trunk, of which that stays out.
+    pub outline: Vec<DVec3>,
+    /// Whether it is a piece of such an arm.
+    pub is_arm: bool,
     /// Whether it is the end of a leg, on which the figure stands.
     pub stands: bool,
     /// The joint that drives it.

@@ -12,6 +12,7 @@ use super::contacts::Walk;
 use super::kinematics::ForwardKinematics;
 use super::root_motion::{Feet, root_height};
 use super::rotations::{Rotations, arc};
+use super::turns::Length;
 use super::{Follow, Rig, RigPart};
 use crate::labels::FigurePartId;
 use crate::smoothing::envelope;
@@ -31,10 +32,10 @@ pub(super) fn clear(
     order: &[FigurePartId],
     rotations: &mut Rotations,
     walk: &Walk,
-    [leg, frame_time]: [f64; 2],
+    leg: f64,
+    length: &Length,
 ) {
-    let frames = walk.hips.len();
-    let is_timed = frame_time > 0.0 && frame_time.is_finite();
+    let frames = length.frames;
     let standing = walk.feet.iter().enumerate();
     let standing = standing.flat_map(|(foot, own)| own.parts.iter().map(move |part| (foot, *part)));
     let standing: Vec<(usize, FigurePartId)> = standing.collect();
@@ -49,10 +50,10 @@ pub(super) fn clear(
             lacking[frame] = (MARGIN * leg - low).max(0.0);
         }
     }
-    let reach = if is_timed { (EASE / frame_time).round() as usize } else { 0 };
+    let reach = length.frames_in(EASE);
     let mut legs: Vec<Leg> = Vec::new();
     for ((foot, part), lacking) in standing.into_iter().zip(lacking) {
-        let mut lifts = envelope(&lacking, reach);
+        let mut lifts = envelope(&lacking, reach, length.is_cycle);
         for (lift, firm) in lifts.iter_mut().zip(&walk.feet[foot].firm) {
             *lift *= 1.0 - firm;
         }

@@ -11,7 +11,7 @@ use super::contacts::Walk;
 use super::rotations::{self, Rotations};
 use super::{
     Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, Source, kinematics, rest_pose,
-    root_motion, stepping, swing,
+    room, root_motion, stepping, swing,
 };
 use crate::labels::FigurePartId;
 use crate::mocap::Clip;
@@ -27,6 +27,26 @@ pub struct Turns<'a> {
     moving: Option<Moving>,
     frames: usize,
     frame_time: f64,
+}
+
+/// How long turns are.
+pub(super) struct Length {
+    pub(super) frames: usize,
+    /// Seconds from one frame to the next.
+    frame_time: f64,
+    /// Whether they end as they begin.
+    pub(super) is_cycle: bool,
+}
+
+impl Length {
+    /// The number of frames that is nearest to a time in seconds; 0 if frames take no time.
+    pub(super) fn frames_in(&self, seconds: f64) -> usize {
+        if self.frame_time > 0.0 && self.frame_time.is_finite() {
+            (seconds / self.frame_time).round() as usize
+        } else {
+            0
+        }
+    }
 }
 
 struct Moving {
@@ -107,13 +127,20 @@ impl<'a> Turns<'a> {
             };
         };
         let mut rotations = moving.rotations;
+        let length = Length {
+            frames: self.frames,
+            frame_time: self.frame_time,
+            is_cycle: self.frames > 0 && swing::is_cycle(&rotations, self.frames),
+        };
         stepping::clear(
             self.rig,
             &self.order,
             &mut rotations,
             &moving.walk,
-            [moving.legs[1], self.frame_time],
+            moving.legs[1],
+            &length,
         );
+        room::open(self.rig, &self.order, &mut rotations, &length);
         let root_motion =
             root_motion::root_motion(self.rig, &self.order, &rotations, &moving.walk, moving.legs);
         swing::swing(

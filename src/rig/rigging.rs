@@ -163,6 +163,15 @@ pub(super) fn rig(
         let class = matched.label.as_ref().map(|label| label.class);
         is_chain && class == Some(Class::Leg)
     };
+    let class = |part: FigurePartId| matching.parts[part].label.as_ref().map(|label| label.class);
+    let follow = |part: FigurePartId| matching.parts[part].drive.map(|drive| drive.follow);
+    let is_trunk = |part: FigurePartId| matches!(class(part), Some(Class::Body | Class::Hips));
+    // An arm that keeps its drawn pose, or whose string says that it points as the actor's, makes no room.
+    let is_arm = |part: FigurePartId| {
+        class(part) == Some(Class::Arm)
+            && follow(part).is_none_or(|follow| follow == Follow::Direction)
+            && figure.parts[part].carry.is_none()
+    };
     let mut continues = ti_vec![false; group.parts.len()];
     for (index, part) in figure.parts.iter_enumerated() {
         if let Some(parent) = part.parent.filter(|_| is_leg(index)) {
@@ -205,6 +214,12 @@ pub(super) fn rig(
             joint,
             tip: joint + way,
             surface: surface_of(index),
+            outline: if is_arm(index) || is_trunk(index) {
+                surface::outermost(context, std::iter::once((group.parts[index], depth)))
+            } else {
+                Vec::new()
+            },
+            is_arm: is_arm(index),
             stands,
             drive: matching.parts[index].drive,
             is_leg: is_leg(index),
@@ -264,7 +279,7 @@ impl RestNodes {
 
 exact! {
     Rig { parts, facing }
-    RigPart { parent, is_rooted, node, joint, tip, surface, stands, drive, is_leg, swing }
+    RigPart { parent, is_rooted, node, joint, tip, surface, outline, is_arm, stands, drive, is_leg, swing }
     Transform { rotation, position }
 }
 exact!(Facing, Drive, FigurePartId);

@@ -57,6 +57,8 @@ pub(crate) fn part(
         joint,
         tip,
         surface: Vec::new(),
+        outline: Vec::new(),
+        is_arm: false,
         stands: false,
         drive: None,
         is_leg: false,
