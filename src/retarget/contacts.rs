@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::{Follow, Rig, Source};
 use super::planting::{CONTACT_HEIGHT, Hold, Planting, SOLE_HEIGHT};
 use super::soles::{FootEnd, Sole};
+use super::{Follow, Rig, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
 
@@ -86,7 +86,8 @@ impl Walk {
                 heights.fold(f64::INFINITY, f64::min)
             };
             let frames = 0..source.clip.frames;
-            let lift = frames.map(|frame| lifted(clearance(frame).max(0.0), on_ground * leg) * scale);
+            let lift =
+                frames.map(|frame| lifted(clearance(frame).max(0.0), on_ground * leg) * scale);
             foot.lift = lift.collect();
         }
         let frames: Vec<f64> = (0..source.clip.frames).map(|frame| frame as f64).collect();
@@ -148,7 +149,9 @@ fn height_scale(rig: &Rig, feet: &[Foot], [leg, own]: [f64; 2]) -> f64 {
 fn drop_of(rig: &Rig, part: FigurePartId) -> f64 {
     let own = &rig.parts[part];
     let is_foot = own.drive.is_some_and(|drive| drive.follow == Follow::Sole);
-    let leg = own.parent.filter(|parent| is_foot && rig.parts[*parent].is_leg);
+    let leg = own
+        .parent
+        .filter(|parent| is_foot && rig.parts[*parent].is_leg);
     let end = leg.map_or(own.tip, |leg| rig.parts[leg].tip);
     let lowest = own.surface.iter().map(|point| point.y);
     (end.y - lowest.fold(end.y, f64::min)).max(0.0)

@@ -102,6 +102,9 @@ pub struct RetargetedClip {
     pub translations: TiVec<FigurePartId, Option<Vec<DVec3>>>,
     /// Per frame whether a foot is in contact with the ground, and none takes over from another.
     pub grounded: Vec<bool>,
+    /// Per part by how much it is turned in each frame to keep an arm out of the trunk or a foot out of the ground, radians; `None`
+    /// if it points where the motion says in all of them.
+    pub turned: TiVec<FigurePartId, Option<Vec<f64>>>,
     /// The rest pose from which the clip's rotations were measured.
     pub rest: RestSource,
 }

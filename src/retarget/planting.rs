@@ -113,7 +113,8 @@ impl Planting {
                 .map(|path| lowest(path.iter().map(|point| point.y)))
                 .collect();
             let points = paths.iter().zip(&lowest);
-            let points = points.map(|(path, lowest)| point_contacts(path, [*lowest, *height], time, leg));
+            let points =
+                points.map(|(path, lowest)| point_contacts(path, [*lowest, *height], time, leg));
             contacts.push(points.reduce(firmer).unwrap_or_default());
             lowest_heights.push(lowest);
         }
@@ -225,7 +226,9 @@ fn shares(feet: &[Vec<Contact>]) -> Vec<Vec<f64>> {
     let mut holder: Option<usize> = None;
     for sample in 0..samples {
         let contact = |foot: usize| feet[foot][sample];
-        let strongest = (0..feet.len()).map(|foot| contact(foot).pull).fold(0.0, f64::max);
+        let strongest = (0..feet.len())
+            .map(|foot| contact(foot).pull)
+            .fold(0.0, f64::max);
         let pulling = |foot: &usize| contact(*foot).pull > WEAKEST * strongest;
         holder = holder.filter(pulling).or_else(|| {
             let pulling = (0..feet.len()).filter(pulling);

@@ -30,14 +30,16 @@ const AROUND: usize = 16;
 const TILTS: [f64; 3] = [-45.0, 0.0, 45.0];
 
 /// Opens the arms of a rig where they would be in its trunk.
-pub(super) fn open(
-    rig: &Rig,
-    order: &[FigurePartId],
-    rotations: &mut Rotations,
-    length: &Length,
-) {
-    let trunk: Vec<Volume> = rig.parts.keys().filter_map(|part| Volume::of(rig, part)).collect();
-    let arms: Vec<Arm> = order.iter().filter_map(|part| Arm::of(rig, order, *part, &trunk)).collect();
+pub(super) fn open(rig: &Rig, order: &[FigurePartId], rotations: &mut Rotations, length: &Length) {
+    let trunk: Vec<Volume> = rig
+        .parts
+        .keys()
+        .filter_map(|part| Volume::of(rig, part))
+        .collect();
+    let arms: Vec<Arm> = order
+        .iter()
+        .filter_map(|part| Arm::of(rig, order, *part, &trunk))
+        .collect();
     if trunk.is_empty() || arms.is_empty() {
         return;
     }
@@ -101,12 +103,18 @@ impl Volume {
             let reaches = own.outline.iter().map(|point| point.dot(direction));
             (direction, reaches.fold(f64::NEG_INFINITY, f64::max))
         };
-        Some(Self { part, planes: directions().map(plane).collect() })
+        Some(Self {
+            part,
+            planes: directions().map(plane).collect(),
+        })
     }
 
     /// How far a point of the drawing is inside, negative outside, and the nearest way out.
     fn depth(&self, point: DVec3) -> (f64, DVec3) {
-        let depths = self.planes.iter().map(|(way, reach)| (reach - point.dot(*way), *way));
+        let depths = self
+            .planes
+            .iter()
+            .map(|(way, reach)| (reach - point.dot(*way), *way));
         let nearest = depths.min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.unwrap_or((f64::NEG_INFINITY, DVec3::Z))
     }
@@ -138,15 +146,20 @@ struct Arm {
 impl Arm {
     fn of(rig: &Rig, order: &[FigurePartId], top: FigurePartId, trunk: &[Volume]) -> Option<Self> {
         let own = &rig.parts[top];
-        let chest = own.parent.filter(|parent| own.is_arm && !rig.parts[*parent].is_arm)?;
+        let chest = own
+            .parent
+            .filter(|parent| own.is_arm && !rig.parts[*parent].is_arm)?;
         let is_below = |part: &FigurePartId| {
             let above = |part: &FigurePartId| rig.parts[*part].parent;
             let mut ways = std::iter::successors(Some(*part), above).take(rig.parts.len());
             ways.any(|part| part == top)
         };
         let carried: Vec<FigurePartId> = order.iter().copied().filter(is_below).collect();
-        let pieces: Vec<FigurePartId> =
-            carried.iter().copied().filter(|part| rig.parts[*part].is_arm).collect();
+        let pieces: Vec<FigurePartId> = carried
+            .iter()
+            .copied()
+            .filter(|part| rig.parts[*part].is_arm)
+            .collect();
         let allowed = ALLOWED * (rig.parts[*pieces.last()?].tip - own.joint).length();
         let mut points = Vec::new();
         for piece in &pieces {
@@ -162,11 +175,18 @@ impl Arm {
                 (false, _) => 0.0,
             };
             for point in stations(&rig.parts[*piece], from) {
-                let depths = trunk.iter().map(|volume| volume.depth(point).0.max(allowed));
+                let depths = trunk
+                    .iter()
+                    .map(|volume| volume.depth(point).0.max(allowed));
                 points.push((*piece, point, depths.collect()));
             }
         }
-        Some(Self { top, chest, carried, points })
+        Some(Self {
+            top,
+            chest,
+            carried,
+            points,
+        })
     }
 
     /// The shortest way out of the trunk for the deepest point of an arm that is opened: a rotation vector in the axes of what the arm is
@@ -232,7 +252,10 @@ fn stations(part: &RigPart, from: f64) -> Vec<DVec3> {
     };
     let across = along.cross(DVec3::Z).normalize_or(DVec3::X);
     let reach = |way: DVec3| {
-        let reaches = part.outline.iter().map(|point| (*point - part.joint).dot(way));
+        let reaches = part
+            .outline
+            .iter()
+            .map(|point| (*point - part.joint).dot(way));
         reaches.fold(0.0, f64::max)
     };
     let sides = [across, -across, DVec3::Z, DVec3::NEG_Z].map(|way| way * reach(way));

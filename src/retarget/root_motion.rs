@@ -65,8 +65,7 @@ pub(super) fn root_motion(
             steps.push(rolled(before, now, ROLLING * legs[1]));
         }
         let mut holds = walk.feet.iter().map(|foot| foot.holds[frame].mean);
-        motion.grounded[frame] =
-            lift(walk, frame) == 0.0 && holds.any(|held| held >= GROUNDED);
+        motion.grounded[frame] = lift(walk, frame) == 0.0 && holds.any(|held| held >= GROUNDED);
         heights.push(match floor {
             Some(floor) => (floor + root_height(walk, frame, &feet.lowest()))
                 .max(floor - surfaces.lowest(rig, &kinematics)),
@@ -122,8 +121,9 @@ pub(super) fn root_height(walk: &Walk, frame: usize, lowest: &[f64]) -> f64 {
         return lift + in_air;
     }
     let weighed = || heights().zip(firmness.clone().map(|firm| firm / most));
-    let (sum, weights) =
-        weighed().fold((0.0, 0.0), |(sum, all), (height, weight)| (sum + height * weight, all + weight));
+    let (sum, weights) = weighed().fold((0.0, 0.0), |(sum, all), (height, weight)| {
+        (sum + height * weight, all + weight)
+    });
     let mean = sum / weights;
     let on_ground = weighed().map(|(height, weight)| mean + weight * (height - mean));
     let on_ground = on_ground.fold(f64::NEG_INFINITY, f64::max);

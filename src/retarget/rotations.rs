@@ -19,6 +19,8 @@ pub(super) struct Rotations {
     own: TiVec<FigurePartId, Option<Vec<DQuat>>>,
     /// Per part the nearest ancestor (or itself) that turns on its own, and the part's rotation in that ancestor's frame.
     carrier: TiVec<FigurePartId, (Option<FigurePartId>, DQuat)>,
+    /// Per part by how much it was turned further in each frame, radians; `None` if it was not.
+    pub(super) turned: TiVec<FigurePartId, Option<Vec<f64>>>,
 }
 
 impl Rotations {
@@ -46,8 +48,13 @@ impl Rotations {
 
     /// Turns a part further, in every frame by a rotation in the drawing's axes.
     pub(super) fn turn(&mut self, part: FigurePartId, turns: impl Iterator<Item = DQuat>) {
-        for (own, turn) in self.own[part].iter_mut().flatten().zip(turns) {
+        let Some(own) = &mut self.own[part] else {
+            return;
+        };
+        let turned = self.turned[part].get_or_insert_with(|| vec![0.0; own.len()]);
+        for ((own, turned), turn) in own.iter_mut().zip(turned).zip(turns) {
             *own = (turn * *own).normalize();
+            *turned += turn.angle_between(DQuat::IDENTITY);
         }
     }
 
@@ -72,6 +79,7 @@ impl Rotations {
         Self {
             own: self.own.into_iter().map(|own| own.map(timed)).collect(),
             carrier: self.carrier,
+            turned: self.turned,
         }
     }
 
@@ -179,6 +187,7 @@ pub(super) fn rotations(
     let mut rotations = Rotations {
         own,
         carrier: ti_vec![(None, DQuat::IDENTITY); count],
+        turned: ti_vec![None; count],
     };
     rotations.carry(source.rig, order);
     rotations

@@ -84,10 +84,12 @@ impl Sole {
         }
         let track = Track::of(source, ankle, tip);
         let frames = track.flat(source.clip.frame_time, leg);
-        let mean = |of: &dyn Fn(usize) -> DVec3| frames.iter().map(|frame| of(*frame)).sum::<DVec3>();
+        let mean =
+            |of: &dyn Fn(usize) -> DVec3| frames.iter().map(|frame| of(*frame)).sum::<DVec3>();
         let back = |frame: usize| track.ankles[frame].rotation.inverse();
         let up = mean(&|frame| back(frame) * DVec3::Y).normalize_or(DVec3::Y);
-        let toes = mean(&|frame| track.ankles[frame].to_local(track.toes[frame])) / frames.len() as f64;
+        let toes =
+            mean(&|frame| track.ankles[frame].to_local(track.toes[frame])) / frames.len() as f64;
         let way = toes.reject_from(up);
         let front = mean(&|frame| back(frame) * track.fronts[frame]).reject_from(up);
         let ahead = way.try_normalize().or(front.try_normalize());
@@ -162,13 +164,22 @@ impl Track {
         ];
         let heights = |frame: usize| {
             let own = [self.ankles[frame].position.y, self.toes[frame].y];
-            (0..2).map(move |end| (own[end] - floors[end]).max(0.0)).sum::<f64>()
+            (0..2)
+                .map(move |end| (own[end] - floors[end]).max(0.0))
+                .sum::<f64>()
         };
         let height = |frame: usize| {
-            let [before, after] = [frame.saturating_sub(1), (frame + 1).min(self.toes.len() - 1)];
+            let [before, after] = [
+                frame.saturating_sub(1),
+                (frame + 1).min(self.toes.len() - 1),
+            ];
             let way = self.ankles[after].position - self.ankles[before].position;
             let way = way.length() / (after - before).max(1) as f64;
-            let moving = if frame_time > 0.0 { way / frame_time * MOVING } else { 0.0 };
+            let moving = if frame_time > 0.0 {
+                way / frame_time * MOVING
+            } else {
+                0.0
+            };
             heights(frame) + moving
         };
         let heights: Vec<f64> = (0..self.toes.len()).map(height).collect();

@@ -87,12 +87,23 @@ struct Leg {
 
 impl Leg {
     fn of(rig: &Rig, end: FigurePartId, lifts: Vec<f64>) -> Self {
-        let is_foot = rig.parts[end].drive.is_some_and(|drive| drive.follow == Follow::Sole);
-        let above = |part: &FigurePartId| rig.parts[*part].parent.filter(|part| rig.parts[*part].is_leg);
+        let is_foot = rig.parts[end]
+            .drive
+            .is_some_and(|drive| drive.follow == Follow::Sole);
+        let above = |part: &FigurePartId| {
+            rig.parts[*part]
+                .parent
+                .filter(|part| rig.parts[*part].is_leg)
+        };
         let pieces = std::iter::successors(Some(end), above).take(rig.parts.len());
         let mut pieces: Vec<FigurePartId> = pieces.skip(usize::from(is_foot)).collect();
         pieces.reverse();
-        Self { pieces, end, is_foot, lifts }
+        Self {
+            pieces,
+            end,
+            is_foot,
+            lifts,
+        }
     }
 
     /// The turns of the pieces and of the foot in a frame.
@@ -189,11 +200,12 @@ fn outward(
     let Some(&root) = order.first() else {
         return DVec3::ZERO;
     };
-    let is_top = |part: &&RigPart| {
-        part.is_leg && part.parent.is_none_or(|parent| !rig.parts[parent].is_leg)
-    };
+    let is_top =
+        |part: &&RigPart| part.is_leg && part.parent.is_none_or(|parent| !rig.parts[parent].is_leg);
     let hips = rig.parts.iter().filter(is_top).map(|part| part.joint);
-    let (sum, count) = hips.fold((DVec3::ZERO, 0.0), |(sum, count), hip| (sum + hip, count + 1.0));
+    let (sum, count) = hips.fold((DVec3::ZERO, 0.0), |(sum, count), hip| {
+        (sum + hip, count + 1.0)
+    });
     let left = rig.facing.turn() * DVec3::X;
     let aside = (rig.parts[top].joint * count - sum).dot(left);
     if aside == 0.0 {

@@ -10,8 +10,8 @@ use super::axes::Axes;
 use super::contacts::Walk;
 use super::rotations::{self, Rotations};
 use super::{
-    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, Source, kinematics, rest_pose,
-    room, root_motion, stepping, swing,
+    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, Source, kinematics, rest_pose, room,
+    root_motion, stepping, swing,
 };
 use crate::labels::FigurePartId;
 use crate::mocap::Clip;
@@ -123,6 +123,7 @@ impl<'a> Turns<'a> {
                 rotations: ti_vec![None; count],
                 translations: ti_vec![None; count],
                 grounded: vec![false; self.frames],
+                turned: ti_vec![None; count],
                 rest: RestSource::default(),
             };
         };
@@ -154,6 +155,7 @@ impl<'a> Turns<'a> {
             rotations: self.node_rotations(&rotations),
             translations: self.node_translations(&rotations, &root_motion.path),
             grounded: root_motion.grounded,
+            turned: rotations.turned,
             rest: moving.rest,
         }
     }

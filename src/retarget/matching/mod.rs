@@ -173,6 +173,7 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
     let names = Names::new(skeleton);
     let mut parts = TiVec::with_capacity(labels.len());
     let mut lacking = Vec::new();
+    let ground = standing_height(figure);
     let matcher = Matcher::new(skeleton, anatomy, &labels);
     for ((part, label), splayed) in labels.into_iter_enumerated().zip(splayed) {
         let bones = &figure.parts[part].bones;
@@ -191,7 +192,8 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
         let (drive, why) = match found {
             Ok((drive, mut why)) => {
                 let carry = figure.parts[part].carry;
-                let (drive, how) = carried(drive, carry, splayed);
+                let stands = figure.parts[part].bounds[0].y <= ground;
+                let (drive, how) = carried(drive, carry, splayed, stands);
                 why += how;
                 if !is_bone {
                     why += &matcher.way(&drive);
@@ -218,9 +220,28 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
     }
 }
 
+/// Up to which height the lowest point of a foot is on the ground: legs on the far side are drawn higher.
+fn standing_height(figure: &Figure) -> f64 {
+    /// The share of the figure's height.
+    const STANDS: f64 = 0.08;
+
+    let (low, high) = figure
+        .parts
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), part| {
+            (low.min(part.bounds[0].y), high.max(part.bounds[1].y))
+        });
+    low + STANDS * (high - low)
+}
+
 /// The drive of a part with what it takes over from its joint, and the reason if that is unusual. Only what points along a bone
 /// has a choice: it does what `Carry` says, else it takes over the change if it is splayed.
-fn carried(drive: Drive, carry: Option<Carry>, splayed: bool) -> (Drive, &'static str) {
+fn carried(
+    drive: Drive,
+    carry: Option<Carry>,
+    splayed: bool,
+    stands: bool,
+) -> (Drive, &'static str) {
     let as_if = |follow: Follow| Drive { follow, ..drive };
     let change = as_if(Follow::Change);
     match (drive.follow, carry, splayed) {
@@ -234,6 +255,10 @@ fn carried(drive: Drive, carry: Option<Carry>, splayed: bool) -> (Drive, &'stati
         (Follow::Sole, Some(Carry::Change), _) => (
             change,
             "; its string says `Carry change`, so it keeps its drawn pose",
+        ),
+        (Follow::Sole, None, false) if !stands && drive.tip.is_some() => (
+            as_if(Follow::Direction),
+            "; it does not stand in the drawing",
         ),
         (Follow::Sole, Some(Carry::Direction), _) if drive.tip.is_some() => (
             as_if(Follow::Direction),

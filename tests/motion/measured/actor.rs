@@ -44,17 +44,24 @@ impl Actor {
         let poses: Vec<Pose> = (0..clip.frames).map(|frame| clip.pose(frame)).collect();
         let up = up(prepared, &poses);
         let legs = prepared.anatomy.limbs.iter();
-        let legs = legs.filter(|limb| limb.class == Class::Leg && limb.end.or(limb.lower).is_some());
+        let legs =
+            legs.filter(|limb| limb.class == Class::Leg && limb.end.or(limb.lower).is_some());
         let legs: Vec<Limb> = legs.copied().collect();
-        let soles: Vec<Sole> = legs.iter().map(|leg| Sole::of(clip, &poses, leg, up)).collect();
+        let soles: Vec<Sole> = legs
+            .iter()
+            .map(|leg| Sole::of(clip, &poses, leg, up))
+            .collect();
         let lengths = legs.iter().zip(&soles).map(|(leg, sole)| {
-            let joints = [Some(leg.upper), leg.lower, leg.end].map(|joint| Some(poses[0][joint?].position));
+            let joints =
+                [Some(leg.upper), leg.lower, leg.end].map(|joint| Some(poses[0][joint?].position));
             let joints: Vec<DVec3> = joints.into_iter().flatten().collect();
             let bones = joints.windows(2).map(|pair| pair[0].distance(pair[1]));
             bones.sum::<f64>() + sole.drop
         });
         let leg = lengths.sum::<f64>() / legs.len().max(1) as f64;
-        let feet = soles.iter().map(|sole| sole.measured(clip, &poses, up, leg));
+        let feet = soles
+            .iter()
+            .map(|sole| sole.measured(clip, &poses, up, leg));
         Self {
             feet: legs.iter().copied().zip(feet).collect(),
             up,
@@ -135,14 +142,20 @@ impl Sole {
             let toe = tip_place(clip, pose, tip);
             drop = (placed.position - toe).dot(up).max(0.0);
             let way = (toe - placed.position).reject_from(up);
-            points = vec![placed.position - way * HEEL - up * drop, placed.position + way * 0.7 - up * drop];
+            points = vec![
+                placed.position - way * HEEL - up * drop,
+                placed.position + way * 0.7 - up * drop,
+            ];
         }
         let back = placed.rotation.inverse();
         Self {
             ankle,
             tip,
             drop,
-            points: points.iter().map(|point| back * (*point - placed.position)).collect(),
+            points: points
+                .iter()
+                .map(|point| back * (*point - placed.position))
+                .collect(),
             flat: placed.rotation,
         }
     }
@@ -150,7 +163,11 @@ impl Sole {
     /// The points of the sole in a pose.
     fn points(&self, clip: &Clip, pose: &Pose) -> Vec<DVec3> {
         let placed = pose[self.ankle];
-        let mut points: Vec<DVec3> = self.points.iter().map(|point| placed.position + placed.rotation * *point).collect();
+        let mut points: Vec<DVec3> = self
+            .points
+            .iter()
+            .map(|point| placed.position + placed.rotation * *point)
+            .collect();
         points.extend(self.tip.map(|tip| tip_place(clip, pose, tip)));
         points
     }
@@ -162,7 +179,9 @@ impl Sole {
             .collect();
         let heights = |frame: usize| {
             let points = paths[frame].iter().zip(&floors);
-            points.map(|(point, floor)| (point.dot(up) - floor) / leg).collect::<Vec<f64>>()
+            points
+                .map(|(point, floor)| (point.dot(up) - floor) / leg)
+                .collect::<Vec<f64>>()
         };
         let clearance: Vec<f64> = (0..poses.len())
             .map(|frame| heights(frame).into_iter().fold(f64::INFINITY, f64::min))
@@ -170,7 +189,10 @@ impl Sole {
         let speed: Vec<f64> = (0..poses.len())
             .map(|frame| {
                 let before = frame.saturating_sub(1);
-                let pairs = heights(frame).into_iter().zip(heights(before)).map(|(a, b)| a + b);
+                let pairs = heights(frame)
+                    .into_iter()
+                    .zip(heights(before))
+                    .map(|(a, b)| a + b);
                 let low = pairs.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
                 let point = low.expect("a point").0;
                 let way = (paths[frame][point] - paths[before][point]).reject_from(up);
@@ -182,7 +204,11 @@ impl Sole {
             (turn * up).angle_between(up).to_degrees()
         });
         ActorFoot {
-            stands: clearance.iter().zip(&speed).map(|(height, speed)| *height < STANDS && *speed < RESTS).collect(),
+            stands: clearance
+                .iter()
+                .zip(&speed)
+                .map(|(height, speed)| *height < STANDS && *speed < RESTS)
+                .collect(),
             tilt: tilt.collect(),
             clearance,
             speed,

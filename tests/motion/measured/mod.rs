@@ -87,8 +87,17 @@ struct Played<'a> {
 fn legs(figure: &DrawnFigure) -> BTreeMap<(Side, usize), BTreeMap<LimbSegment, &str>> {
     let mut legs: BTreeMap<_, BTreeMap<_, _>> = BTreeMap::new();
     for (id, choices) in &figure.parts {
-        if let Choice::Limb { class: Class::Leg, side, segment, pair, .. } = choices[0] {
-            legs.entry((side, pair)).or_default().insert(segment, id.as_str());
+        if let Choice::Limb {
+            class: Class::Leg,
+            side,
+            segment,
+            pair,
+            ..
+        } = choices[0]
+        {
+            legs.entry((side, pair))
+                .or_default()
+                .insert(segment, id.as_str());
         }
     }
     legs
@@ -110,12 +119,16 @@ impl<'a> Played<'a> {
         let mut feet = Vec::new();
         let mut lengths = Vec::new();
         for segments in legs(figure).values() {
-            let mut drives = segments.values().filter_map(|id| clip.part_drive(node(id)?.0)?.joint);
+            let mut drives = segments
+                .values()
+                .filter_map(|id| clip.part_drive(node(id)?.0)?.joint);
             let Some(joint) = drives.next() else { continue };
             let is_of = |limb: &okoshi::internals::labels::Limb| {
                 [Some(limb.upper), limb.lower, limb.end, limb.toe].contains(&Some(joint))
             };
-            let Some(own) = actor.feet.iter().position(|(limb, _)| is_of(limb)) else { continue };
+            let Some(own) = actor.feet.iter().position(|(limb, _)| is_of(limb)) else {
+                continue;
+            };
             let (segment, id) = segments.last_key_value()?;
             let Some((_, sole)) = node(id) else { continue };
             feet.push(Foot {
@@ -129,10 +142,15 @@ impl<'a> Played<'a> {
         }
         let low = |nodes: &[usize]| {
             let heights = model.corners(nodes, rest).map(|corner| corner.y);
-            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| (a.min(y), b.max(y)))
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| {
+                (a.min(y), b.max(y))
+            })
         };
         let all: Vec<usize> = (0..model.nodes.len()).collect();
-        let ground = feet.iter().map(|foot| low(&foot.nodes).0).reduce(f64::min)?;
+        let ground = feet
+            .iter()
+            .map(|foot| low(&foot.nodes).0)
+            .reduce(f64::min)?;
         let height = low(&all).1 - ground;
         Some(Self {
             leg: (lengths.iter().sum::<f64>() / lengths.len() as f64).max(NO_LEG * height),
@@ -157,7 +175,10 @@ impl<'a> Played<'a> {
         for frame in 0..frames {
             let world = self.model.at(&self.clip.name, frame);
             let lows = self.feet.iter().map(|foot| {
-                let heights = self.model.corners(&foot.nodes, &world).map(|corner| corner.y);
+                let heights = self
+                    .model
+                    .corners(&foot.nodes, &world)
+                    .map(|corner| corner.y);
                 (heights.fold(f64::INFINITY, f64::min) - self.ground) / self.height
             });
             let lows: Vec<f64> = lows.collect();
@@ -179,7 +200,9 @@ impl<'a> Played<'a> {
             if foot.is_foot {
                 let turn = world[foot.node].rotation * self.rest[foot.node].rotation.inverse();
                 let tilt = (turn * DVec3::Y).angle_between(DVec3::Y).to_degrees();
-                totals.tilt.add((tilt - self.actor_foot(foot).tilt[frame]).abs());
+                totals
+                    .tilt
+                    .add((tilt - self.actor_foot(foot).tilt[frame]).abs());
             }
         }
         let lowest = |wanted: &dyn Fn(&Foot) -> bool| {
@@ -188,7 +211,9 @@ impl<'a> Played<'a> {
         };
         let moving = lowest(&|foot| self.actor_foot(foot).clearance[frame] > IN_AIR);
         if let (Some(standing), Some(moving)) = (lowest(&stands), moving) {
-            totals.lowest.add(f64::from(u8::from(standing > moving + EQUAL)));
+            totals
+                .lowest
+                .add(f64::from(u8::from(standing > moving + EQUAL)));
         }
         if self.feet.iter().any(stands) {
             // Somebody who kneels stands on more than feet.
@@ -211,8 +236,12 @@ impl<'a> Played<'a> {
             let height = |(a, b): &(DVec3, DVec3)| a.y + b.y;
             let low = pairs.iter().map(height).fold(f64::INFINITY, f64::min);
             // The mean of the points that are about as low as the lowest one.
-            let near = pairs.iter().filter(|pair| height(pair) < low + 0.004 * self.height);
-            let (sum, count) = near.fold((DVec3::ZERO, 0.0), |(sum, count), (a, b)| (sum + *b - *a, count + 1.0));
+            let near = pairs
+                .iter()
+                .filter(|pair| height(pair) < low + 0.004 * self.height);
+            let (sum, count) = near.fold((DVec3::ZERO, 0.0), |(sum, count), (a, b)| {
+                (sum + *b - *a, count + 1.0)
+            });
             let way = sum / count;
             let speed = way.with_y(0.0).length() / self.leg / self.clip.frame_time();
             speed - self.actor_foot(foot).speed[frame]
@@ -228,7 +257,9 @@ impl<'a> Played<'a> {
         if self.leg <= NO_LEG * self.height {
             return;
         }
-        let clearances: Vec<f64> = (0..heights.len()).map(|frame| self.actor.clearance(frame)).collect();
+        let clearances: Vec<f64> = (0..heights.len())
+            .map(|frame| self.actor.clearance(frame))
+            .collect();
         let mut frame = 0;
         while frame < heights.len() {
             let end = (frame..heights.len()).find(|at| clearances[*at] <= FLIES);
@@ -241,7 +272,11 @@ impl<'a> Played<'a> {
             let due = highest(&clearances);
             let own = highest(heights) * self.height / self.leg;
             if env::var("OKOSHI_EACH").is_ok() {
-                eprintln!("FLIGHT {}: due {due:.3} own {own:.3} leg/height {:.3}", self.clip.name, self.leg / self.height);
+                eprintln!(
+                    "FLIGHT {}: due {due:.3} own {own:.3} leg/height {:.3}",
+                    self.clip.name,
+                    self.leg / self.height
+                );
             }
             totals.flight.add((own / due - 1.0).abs() * 100.0);
             frame = end;
@@ -252,42 +287,84 @@ impl<'a> Played<'a> {
 /// The length of a leg from its joint, which is half its width below its top, to the sole, given the nodes of its first and last piece.
 fn length(model: &Model, rest: &[Transform], [top, sole]: [usize; 2]) -> f64 {
     let corners: Vec<DVec3> = model.corners(&[top], rest).collect();
-    let highest = corners.iter().map(|corner| corner.y).fold(f64::NEG_INFINITY, f64::max);
-    let lowest = corners.iter().map(|corner| corner.y).fold(f64::INFINITY, f64::min);
-    let near = corners.iter().filter(|corner| corner.y > highest - 0.2 * (highest - lowest));
+    let highest = corners
+        .iter()
+        .map(|corner| corner.y)
+        .fold(f64::NEG_INFINITY, f64::max);
+    let lowest = corners
+        .iter()
+        .map(|corner| corner.y)
+        .fold(f64::INFINITY, f64::min);
+    let near = corners
+        .iter()
+        .filter(|corner| corner.y > highest - 0.2 * (highest - lowest));
     let xs = near.map(|corner| corner.x);
-    let (left, right) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-    let hip = DVec3::new(f64::midpoint(left, right), highest - (right - left) / 2.0, 0.0);
-    let soles = model.corners(std::slice::from_ref(&sole), rest).map(|corner| corner.with_z(0.0));
+    let (left, right) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
+        (a.min(x), b.max(x))
+    });
+    let hip = DVec3::new(
+        f64::midpoint(left, right),
+        highest - (right - left) / 2.0,
+        0.0,
+    );
+    let soles = model
+        .corners(std::slice::from_ref(&sole), rest)
+        .map(|corner| corner.with_z(0.0));
     let end = soles.min_by(|a, b| a.y.total_cmp(&b.y)).expect("a sole");
     end.distance(hip)
 }
 
 /// The arms of a figure, with points of their meshes.
-fn arms(figure: &DrawnFigure, compiled: &Compiled, model: &Model, rest: &[Transform], trunk: &[usize]) -> Vec<Arm> {
+fn arms(
+    figure: &DrawnFigure,
+    compiled: &Compiled,
+    model: &Model,
+    rest: &[Transform],
+    trunk: &[usize],
+) -> Vec<Arm> {
     let mut parts: BTreeMap<Side, Vec<(LimbSegment, usize)>> = BTreeMap::new();
     for (id, choices) in &figure.parts {
-        if let Choice::Limb { class: Class::Arm, side, segment, pair: 0, splayed: false } = choices[0] {
+        if let Choice::Limb {
+            class: Class::Arm,
+            side,
+            segment,
+            pair: 0,
+            splayed: false,
+        } = choices[0]
+        {
             let part = part_of(compiled, id);
             let node = part.and_then(|part| model.named(&compiled.bindings.parts[part].name));
-            parts.entry(side).or_default().extend(node.map(|node| (segment, node)));
+            parts
+                .entry(side)
+                .or_default()
+                .extend(node.map(|node| (segment, node)));
         }
     }
     let arms = parts.into_iter().map(|(side, nodes)| {
-        let points = nodes.iter().filter(|(segment, _)| *segment != LimbSegment::Upper);
+        let points = nodes
+            .iter()
+            .filter(|(segment, _)| *segment != LimbSegment::Upper);
         let points = points.map(|(segment, node)| {
             let corners = &model.nodes[*node].corners;
             let top = rest[nodes[0].1].position;
             let far = |corner: &&DVec3| {
                 (rest[*node].position + rest[*node].rotation * **corner).distance(top)
             };
-            let farthest = corners.iter().map(|corner| far(&corner)).fold(0.0, f64::max);
-            let is_forearm = |corner: &&DVec3| *segment != LimbSegment::Whole || far(corner) > farthest / 2.0;
+            let farthest = corners
+                .iter()
+                .map(|corner| far(&corner))
+                .fold(0.0, f64::max);
+            let is_forearm =
+                |corner: &&DVec3| *segment != LimbSegment::Whole || far(corner) > farthest / 2.0;
             let own: Vec<DVec3> = corners.iter().filter(is_forearm).copied().collect();
             let step = own.len().div_ceil(POINTS).max(1);
             (*node, own.into_iter().step_by(step).collect())
         });
-        let mut arm = Arm { side, points: points.collect(), drawn: 0.0 };
+        let mut arm = Arm {
+            side,
+            points: points.collect(),
+            drawn: 0.0,
+        };
         arm.drawn = inside(model, rest, trunk, &arm);
         arm
     });
@@ -298,12 +375,17 @@ fn arms(figure: &DrawnFigure, compiled: &Compiled, model: &Model, rest: &[Transf
 fn inside(model: &Model, world: &[Transform], trunk: &[usize], arm: &Arm) -> f64 {
     let points = arm.points.iter().flat_map(|(node, points)| {
         let placed = world[*node];
-        points.iter().map(move |point| placed.position + placed.rotation * *point)
+        points
+            .iter()
+            .map(move |point| placed.position + placed.rotation * *point)
     });
     let (mut all, mut within) = (0.0, 0.0);
     for point in points {
         all += 1.0;
-        if trunk.iter().any(|node| model.is_inside(*node, world, point)) {
+        if trunk
+            .iter()
+            .any(|node| model.is_inside(*node, world, point))
+        {
             within += 1.0;
         }
     }
@@ -321,7 +403,9 @@ fn actor_holds_in(actor: &Actor, clip: &FigureClip, side: Side, frame: usize) ->
     let pose = &actor.poses[frame];
     let [a, b] = [left, right].map(|arm| pose[arm.upper].position);
     let own = if side == Side::Left { left } else { right };
-    let Some(hand) = own.end.or(own.lower) else { return false };
+    let Some(hand) = own.end.or(own.lower) else {
+        return false;
+    };
     let low = pose[hips].position;
     let spine = (a + b) / 2.0 - low;
     let across = (a - b).reject_from(spine);
@@ -343,16 +427,17 @@ fn measure_arms(arms: &[Arm], trunk: &[usize], played: &Played<'_>, totals: &mut
                 continue;
             }
             let share = inside(played.model, &world, trunk, arm);
-            totals.arms.add(f64::from(u8::from(share > arm.drawn + IN_TRUNK)));
+            totals
+                .arms
+                .add(f64::from(u8::from(share > arm.drawn + IN_TRUNK)));
         }
     }
 }
 
 /// The nodes of a figure's trunk.
 fn trunk(figure: &DrawnFigure, compiled: &Compiled, model: &Model) -> Vec<usize> {
-    let is_trunk = |choices: &[Choice]| {
-        matches!(choices[0], Choice::Trunk(Class::Body | Class::Hips))
-    };
+    let is_trunk =
+        |choices: &[Choice]| matches!(choices[0], Choice::Trunk(Class::Body | Class::Hips));
     let parts = figure.parts.iter().filter(|(_, choices)| is_trunk(choices));
     let nodes = parts.filter_map(|(id, _)| {
         let part = part_of(compiled, id)?;
@@ -369,7 +454,9 @@ fn measure(figure: &DrawnFigure, files: &[(String, Vec<u8>)], half: &mut Half) {
         resolver = resolver.with(&format!("{name}.bvh"), bytes.clone());
         words.push(format!("Motion \"{name}.bvh\""));
     }
-    let drawing = figure.drawing.replacen("Motion \"clip.bvh\"", &words.join(" "), 1);
+    let drawing = figure
+        .drawing
+        .replacen("Motion \"clip.bvh\"", &words.join(" "), 1);
     assert_ne!(drawing, figure.drawing, "{} plays nothing", figure.name);
     let compiled = compiled(&drawing, &resolver);
     let model = Model::read(&glb(&compiled));
@@ -424,5 +511,42 @@ fn figures_stand_fly_and_hold_their_arms_as_the_actor_does() {
     }
     for half in &halves {
         half.check();
+    }
+}
+
+#[test]
+fn zz_knees() {
+    use okoshi::internals::clips::{BuiltIn, Legs};
+    for which in [BuiltIn::Walk, BuiltIn::Run, BuiltIn::Trot, BuiltIn::Sneak] {
+        let clip = okoshi::internals::prepare::built_in(which, Legs::Two);
+        let actor = Actor::of(&clip);
+        let (leg, foot) = &actor.feet[0];
+        let c: Vec<String> = (0..clip.clip.frames)
+            .map(|f| {
+                let p = &actor.poses[f];
+                let [a, b, c] =
+                    [leg.upper, leg.lower.unwrap(), leg.end.unwrap()].map(|j| p[j].position);
+                format!(
+                    "{}{:.0}",
+                    if foot.stands[f] { "*" } else { "" },
+                    (b - a).angle_between(c - b).to_degrees()
+                )
+            })
+            .collect();
+        let h: Vec<String> = (0..clip.clip.frames)
+            .map(|f| {
+                format!(
+                    "{:.1}",
+                    actor.poses[f][clip.anatomy.hips.unwrap()].position.y
+                )
+            })
+            .collect();
+        eprintln!(
+            "{}: leg {:.1} knees {}\n     hips {}",
+            which.name(),
+            actor.leg,
+            c.join(" "),
+            h.join(" ")
+        );
     }
 }

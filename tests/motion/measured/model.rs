@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use gltf::animation::util::ReadOutputs;
 use glam::{DQuat, DVec3, Quat, Vec3};
+use gltf::animation::util::ReadOutputs;
 use okoshi::internals::mocap::Transform;
 
 /// A node with its mesh, in its own frame.
@@ -69,7 +69,9 @@ impl Model {
                     }
                     ReadOutputs::Rotations(turns) => {
                         let turns = turns.into_f32();
-                        keys.turns = turns.map(|turn| Quat::from_array(turn).as_dquat()).collect();
+                        keys.turns = turns
+                            .map(|turn| Quat::from_array(turn).as_dquat())
+                            .collect();
                     }
                     _ => panic!("a figure is moved and turned"),
                 }
@@ -86,9 +88,8 @@ impl Model {
     /// A node and what hangs on it.
     pub(super) fn with_children(&self, node: usize) -> Vec<usize> {
         let above = |node: &usize| self.nodes[*node].parent;
-        let is_below = |other: &usize| {
-            std::iter::successors(Some(*other), above).any(|other| other == node)
-        };
+        let is_below =
+            |other: &usize| std::iter::successors(Some(*other), above).any(|other| other == node);
         (0..self.nodes.len()).filter(is_below).collect()
     }
 
@@ -140,7 +141,9 @@ impl Model {
     /// Whether a point of the world is inside a node's mesh: the sum of the solid angles of its triangles (van Oosterom & Strackee
     /// 1983) is that of a whole sphere.
     pub(super) fn is_inside(&self, node: usize, world: &[Transform], point: DVec3) -> bool {
-        let Node { corners, triangles, .. } = &self.nodes[node];
+        let Node {
+            corners, triangles, ..
+        } = &self.nodes[node];
         let placed = world[node];
         let point = placed.rotation.inverse() * (point - placed.position);
         let angles = triangles.iter().map(|triangle| {
@@ -169,10 +172,12 @@ fn read_node(node: &gltf::Node<'_>, blob: &[u8]) -> Node {
         let reader = primitive.reader(|_| Some(blob));
         let first = own.corners.len() as u32;
         let corners = reader.read_positions().expect("positions");
-        own.corners.extend(corners.map(|at| Vec3::from(at).as_dvec3()));
+        own.corners
+            .extend(corners.map(|at| Vec3::from(at).as_dvec3()));
         let indices: Vec<u32> = reader.read_indices().expect("indices").into_u32().collect();
         let triangles = indices.chunks_exact(3);
-        own.triangles.extend(triangles.map(|t| [t[0] + first, t[1] + first, t[2] + first]));
+        own.triangles
+            .extend(triangles.map(|t| [t[0] + first, t[1] + first, t[2] + first]));
     }
     own
 }

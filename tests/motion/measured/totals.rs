@@ -53,7 +53,11 @@ impl Totals {
         [
             ("sole's tilt off the actor's, degrees", &self.tilt, 5.0),
             ("sole below the ground, % of the height", &self.sunk, 1.0),
-            ("lowest point off the ground, % of the height", &self.off_ground, 1.0),
+            (
+                "lowest point off the ground, % of the height",
+                &self.off_ground,
+                1.0,
+            ),
             ("planted foot above a moving one", &self.lowest, 0.0),
             ("height of flights off the actor's, %", &self.flight, 20.0),
             ("slide over the actor's, legs a second", &self.slide, 0.1),
@@ -68,7 +72,12 @@ impl fmt::Display for Totals {
             if values.0.is_empty() {
                 write!(f, "    –        ")?;
             } else {
-                write!(f, " {:5.1}%({:5.2})", values.within(limit), values.quantile(0.95))?;
+                write!(
+                    f,
+                    " {:5.1}%({:5.2})",
+                    values.within(limit),
+                    values.quantile(0.95)
+                )?;
             }
         }
         Ok(())
@@ -100,8 +109,15 @@ impl Half {
     pub(super) fn check(&self) {
         for ((name, values, limit), least) in self.0.rows().into_iter().zip(LEAST) {
             let share = values.within(limit);
-            assert!(share >= least, "{name}: only {share:.2} % are at most {limit}");
-            assert!(values.0.len() >= FEWEST, "{name}: only {} values", values.0.len());
+            assert!(
+                share >= least,
+                "{name}: only {share:.2} % are at most {limit}"
+            );
+            assert!(
+                values.0.len() >= FEWEST,
+                "{name}: only {} values",
+                values.0.len()
+            );
         }
     }
 }
