@@ -16,6 +16,7 @@ mod root_motion;
 mod rotations;
 mod soles;
 mod spline;
+mod stance;
 mod stepping;
 mod swing;
 mod turns;

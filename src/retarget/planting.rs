@@ -26,7 +26,7 @@ const WEAKER: f64 = 0.3;
 /// … and holds nothing where it pulls less than this.
 const WEAKEST: f64 = 0.05;
 /// Paths are smoothed by a Gaussian of this deviation, seconds: single frames may be wrong.
-const SMOOTHING: f64 = 0.02;
+const SMOOTHING: f64 = 0.03;
 /// A contact lasts: what a foot's velocity changes by in this time, seconds, counts as speed.
 const TURN: f64 = 0.015;
 /// Samples per second, at least; every frame has a whole number of them.

@@ -7,6 +7,7 @@ use super::contacts::{Foot, Walk};
 use super::kinematics::ForwardKinematics;
 use super::planting::Hold;
 use super::rotations::Rotations;
+use super::stance::Stance;
 use super::{Rig, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::JointId;
@@ -57,7 +58,8 @@ pub(super) fn root_motion(
     let mut before: Vec<Vec<Vec<DVec3>>> = Vec::new();
     // Per foot its steps on the ground, relative to the root.
     let mut steps = vec![vec![DVec3::ZERO]; walk.feet.len()];
-    let mut heights = Vec::with_capacity(frames);
+    let mut stances = Vec::with_capacity(frames);
+    let mut lowest = Vec::with_capacity(frames);
     for frame in 0..frames {
         kinematics.pose(rig, rotations, order, frame);
         let feet = Feet::of(rig, &kinematics, walk);
@@ -65,17 +67,26 @@ pub(super) fn root_motion(
             steps.push(rolled(before, now, ROLLING * legs[1]));
         }
         let mut holds = walk.feet.iter().map(|foot| foot.holds[frame].mean);
-        motion.grounded[frame] = lift(walk, frame) == 0.0 && holds.any(|held| held >= GROUNDED);
-        heights.push(match floor {
-            Some(floor) => (floor + root_height(walk, frame, &feet.lowest()))
-                .max(floor - surfaces.lowest(rig, &kinematics)),
-            None => start.y + (walk.hips[frame].y - walk.hips[0].y) * scale,
-        });
+        let stance = Stance::of(walk, frame, &feet.lowest());
+        motion.grounded[frame] = stance.lift == 0.0 && holds.any(|held| held >= GROUNDED);
+        stances.push(stance);
+        lowest.push(surfaces.lowest(rig, &kinematics));
         before = feet.0;
     }
     motion.path = travel(walk, &steps, scale, start);
-    for (place, height) in motion.path.iter_mut().zip(heights) {
-        place.y = height;
+    let hips = |frame: usize| (walk.hips[frame].y - walk.hips[0].y) * scale;
+    match floor {
+        Some(floor) => {
+            let places = motion.path.iter_mut().zip(stances.iter().zip(lowest));
+            for (place, (stance, lowest)) in places {
+                place.y = floor + stance.height().max(-lowest);
+            }
+        }
+        None => {
+            for (frame, place) in motion.path.iter_mut().enumerate() {
+                place.y = start.y + hips(frame);
+            }
+        }
     }
     motion
 }
@@ -101,33 +112,6 @@ impl Feet {
         };
         self.0.iter().map(lowest).collect()
     }
-}
-
-/// How far the lowest foot is above the ground in a frame.
-fn lift(walk: &Walk, frame: usize) -> f64 {
-    let lifts = walk.feet.iter().map(|foot| foot.lift[frame]);
-    lifts.fold(f64::INFINITY, f64::min)
-}
-
-/// How high above the ground the root is, given the heights of the feet relative to it. Feet in contact stand on the ground, as firmly
-/// as they are in contact; without any, the lowest foot is as high as the actor's.
-pub(super) fn root_height(walk: &Walk, frame: usize, lowest: &[f64]) -> f64 {
-    let heights = || lowest.iter().map(|low| -low);
-    let in_air = heights().fold(f64::NEG_INFINITY, f64::max);
-    let firmness = walk.feet.iter().map(|foot| foot.firm[frame]);
-    let most = firmness.clone().fold(0.0, f64::max);
-    let lift = lift(walk, frame);
-    if most <= 0.0 {
-        return lift + in_air;
-    }
-    let weighed = || heights().zip(firmness.clone().map(|firm| firm / most));
-    let (sum, weights) = weighed().fold((0.0, 0.0), |(sum, all), (height, weight)| {
-        (sum + height * weight, all + weight)
-    });
-    let mean = sum / weights;
-    let on_ground = weighed().map(|(height, weight)| mean + weight * (height - mean));
-    let on_ground = on_ground.fold(f64::NEG_INFINITY, f64::max);
-    lift + in_air + (on_ground - in_air) * most
 }
 
 /// Where the root goes, frame by frame. Feet are locked: one stays in place if the root moves by the opposite of its step. Where none

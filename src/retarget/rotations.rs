@@ -79,7 +79,13 @@ impl Rotations {
         Self {
             own: self.own.into_iter().map(|own| own.map(timed)).collect(),
             carrier: self.carrier,
-            turned: self.turned,
+            turned: {
+                let between = |a: f64, b: f64, t: f64| a + (b - a) * t;
+                let turned = self.turned.into_iter();
+                turned
+                    .map(|turned| Some(map.apply(&turned?, between)))
+                    .collect()
+            },
         }
     }
 

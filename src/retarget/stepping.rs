@@ -4,14 +4,13 @@
 //! drawn one would go through it, or hold the figure up in place of the foot that stands. Such a foot is levelled, as far as that helps;
 //! for the rest, the leg turns about its hip, outward and on in its direction, by the least angle that is enough.
 
-use std::f64::consts::FRAC_PI_3;
-
 use glam::{DQuat, DVec3};
 
 use super::contacts::Walk;
 use super::kinematics::ForwardKinematics;
-use super::root_motion::{Feet, root_height};
+use super::root_motion::Feet;
 use super::rotations::{Rotations, arc};
+use super::stance::Stance;
 use super::turns::Length;
 use super::{Follow, Rig, RigPart};
 use crate::labels::FigurePartId;
@@ -21,8 +20,12 @@ use crate::smoothing::envelope;
 const MARGIN: f64 = 0.006;
 /// How long a leg takes to make room, seconds.
 const EASE: f64 = 0.08;
+/// How long before and after a contact it is in its place, seconds.
+const BACK: f64 = 0.02;
 /// How far outward a leg turns, in leg lengths by which its foot is before or behind the hip.
 const OUTWARD: f64 = 0.25;
+/// The most by which a leg turns, degrees.
+const MOST: f64 = 20.0;
 /// Halvings of the range of an angle, to far less than a tenth of a degree.
 const HALVINGS: usize = 12;
 
@@ -44,7 +47,7 @@ pub(super) fn clear(
     for frame in 0..frames {
         kinematics.pose(rig, rotations, order, frame);
         let feet = Feet::of(rig, &kinematics, walk);
-        let height = root_height(walk, frame, &feet.lowest());
+        let height = Stance::of(walk, frame, &feet.lowest()).height();
         for (lacking, (_, part)) in lacking.iter_mut().zip(&standing) {
             let low = kinematics.lowest(rig, *part) + height;
             lacking[frame] = (MARGIN * leg - low).max(0.0);
@@ -54,8 +57,14 @@ pub(super) fn clear(
     let mut legs: Vec<Leg> = Vec::new();
     for ((foot, part), lacking) in standing.into_iter().zip(lacking) {
         let mut lifts = envelope(&lacking, reach, length.is_cycle);
-        for (lift, firm) in lifts.iter_mut().zip(&walk.feet[foot].firm) {
-            *lift *= 1.0 - firm;
+        // The leg is back in its place when its foot begins to hold the figure.
+        let holds = walk.feet[foot].firm.iter();
+        let holds: Vec<f64> = holds
+            .map(|firm| if *firm > 0.0 { 1.0 } else { 0.0 })
+            .collect();
+        let holds = envelope(&holds, length.frames_in(BACK), length.is_cycle);
+        for (lift, holds) in lifts.iter_mut().zip(holds) {
+            *lift *= 1.0 - holds;
         }
         if lifts.iter().any(|lift| *lift > 0.0) {
             legs.push(Leg::of(rig, part, lifts));
@@ -158,7 +167,10 @@ impl Leg {
             let turn = DQuat::from_axis_angle(axis, angle);
             lowest(points.iter().map(|point| turn * *point)) - before
         };
-        turns[0] = DQuat::from_axis_angle(axis, least(FRAC_PI_3, |angle| raised(angle) >= lift));
+        turns[0] = DQuat::from_axis_angle(
+            axis,
+            least(MOST.to_radians(), |angle| raised(angle) >= lift),
+        );
         turns
     }
 

@@ -39,6 +39,14 @@ pub(super) struct Length {
 }
 
 impl Length {
+    fn of(rotations: &Rotations, frames: usize, frame_time: f64) -> Self {
+        Self {
+            frames,
+            frame_time,
+            is_cycle: frames > 0 && swing::is_cycle(rotations, frames),
+        }
+    }
+
     /// The number of frames that is nearest to a time in seconds; 0 if frames take no time.
     pub(super) fn frames_in(&self, seconds: f64) -> usize {
         if self.frame_time > 0.0 && self.frame_time.is_finite() {
@@ -75,9 +83,14 @@ impl<'a> Turns<'a> {
             };
             let rest = rest_pose::choose(&mut source);
             let legs = root_motion::leg_lengths(&mut source);
+            let mut rotations = rotations::rotations(&mut source, &rest, &order, legs[0]);
+            let walk = Walk::of(&mut source, legs);
+            let length = Length::of(&rotations, clip.frames, clip.frame_time);
+            stepping::clear(rig, &order, &mut rotations, &walk, legs[1], &length);
+            room::open(rig, &order, &mut rotations, &length);
             Moving {
-                rotations: rotations::rotations(&mut source, &rest, &order, legs[0]),
-                walk: Walk::of(&mut source, legs),
+                rotations,
+                walk,
                 legs,
                 rest: rest.source,
             }
@@ -128,20 +141,6 @@ impl<'a> Turns<'a> {
             };
         };
         let mut rotations = moving.rotations;
-        let length = Length {
-            frames: self.frames,
-            frame_time: self.frame_time,
-            is_cycle: self.frames > 0 && swing::is_cycle(&rotations, self.frames),
-        };
-        stepping::clear(
-            self.rig,
-            &self.order,
-            &mut rotations,
-            &moving.walk,
-            moving.legs[1],
-            &length,
-        );
-        room::open(self.rig, &self.order, &mut rotations, &length);
         let root_motion =
             root_motion::root_motion(self.rig, &self.order, &rotations, &moving.walk, moving.legs);
         swing::swing(

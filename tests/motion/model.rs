@@ -150,7 +150,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
             let own = rest[node].rotation.inverse() * (turn * points);
             let away = angle(now[node].rotation * own, turn * body.drawn(&first, way));
             worst = worst.max((away - off).max(0.0));
-            moved += usize::from(off > 0.0);
+            moved += usize::from(off > 1.0);
             looked_at += 1;
             if let Some(copy) = names.get(&*format!("{name}.back")) {
                 // A copy is the mirror image of the original, in the plane of what both are attached to.
@@ -169,7 +169,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
     assert!(looked_at >= 4 * clip.frames, "only {looked_at} directions");
     // Most parts point where the motion says; the others have made room.
     assert!(
-        4 * moved <= looked_at,
+        2 * moved <= looked_at,
         "{moved} of {looked_at} have made room"
     );
     let is_beetle = compiled
