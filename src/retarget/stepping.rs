@@ -21,11 +21,11 @@ const MARGIN: f64 = 0.006;
 /// How long a leg takes to make room, seconds.
 const EASE: f64 = 0.08;
 /// How long before and after a contact it is in its place, seconds.
-const BACK: f64 = 0.02;
+const BACK: f64 = 0.06;
 /// How far outward a leg turns, in leg lengths by which its foot is before or behind the hip.
 const OUTWARD: f64 = 0.25;
 /// The most by which a leg turns, degrees.
-const MOST: f64 = 20.0;
+const MOST: f64 = 12.0;
 /// Halvings of the range of an angle, to far less than a tenth of a degree.
 const HALVINGS: usize = 12;
 
@@ -58,10 +58,16 @@ pub(super) fn clear(
     for ((foot, part), lacking) in standing.into_iter().zip(lacking) {
         let mut lifts = envelope(&lacking, reach, length.is_cycle);
         // The leg is back in its place when its foot begins to hold the figure.
-        let holds = walk.feet[foot].firm.iter();
-        let holds: Vec<f64> = holds
-            .map(|firm| if *firm > 0.0 { 1.0 } else { 0.0 })
-            .collect();
+        let firm = &walk.feet[foot].firm;
+        let holds = (0..frames).map(|frame| {
+            let near = &firm[frame.saturating_sub(1)..(frame + 2).min(frames)];
+            if near.iter().any(|firm| *firm > 0.0) {
+                1.0
+            } else {
+                0.0
+            }
+        });
+        let holds: Vec<f64> = holds.collect();
         let holds = envelope(&holds, length.frames_in(BACK), length.is_cycle);
         for (lift, holds) in lifts.iter_mut().zip(holds) {
             *lift *= 1.0 - holds;

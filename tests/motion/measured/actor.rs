@@ -31,10 +31,7 @@ pub(super) struct ActorFoot {
 pub(super) struct Actor {
     /// Per limb that is a leg.
     pub(super) feet: Vec<(Limb, ActorFoot)>,
-    /// The axis of its world that points up.
-    pub(super) up: DVec3,
-    /// The length of its legs, from hip to sole, in the clip's unit.
-    pub(super) leg: f64,
+    /// Its joints, frame by frame.
     pub(super) poses: Vec<Pose>,
 }
 
@@ -64,8 +61,6 @@ impl Actor {
             .map(|sole| sole.measured(clip, &poses, up, leg));
         Self {
             feet: legs.iter().copied().zip(feet).collect(),
-            up,
-            leg,
             poses,
         }
     }

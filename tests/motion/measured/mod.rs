@@ -271,13 +271,6 @@ impl<'a> Played<'a> {
             let highest = |values: &[f64]| values[frame..end].iter().copied().fold(0.0, f64::max);
             let due = highest(&clearances);
             let own = highest(heights) * self.height / self.leg;
-            if env::var("OKOSHI_EACH").is_ok() {
-                eprintln!(
-                    "FLIGHT {}: due {due:.3} own {own:.3} leg/height {:.3}",
-                    self.clip.name,
-                    self.leg / self.height
-                );
-            }
             totals.flight.add((own / due - 1.0).abs() * 100.0);
             frame = end;
         }
