@@ -38,6 +38,45 @@ pub(crate) fn smoothed(path: &[DVec3], deviation: f64) -> Vec<DVec3> {
     (0..=last).map(point).collect()
 }
 
+/// The smooth curve that is nowhere below some values and nowhere far above them: the greatest value within `reach` points, averaged
+/// over as many to both sides with the weights of a cosine bell. In a cycle, the last value is the first one again.
+pub(crate) fn envelope(values: &[f64], reach: usize, is_cycle: bool) -> Vec<f64> {
+    let period = values.len().saturating_sub(1);
+    let is_cycle = is_cycle && period > 0;
+    let reach = reach.min(period);
+    // Places are counted from one reach before the first value.
+    let around = |at: usize| {
+        let (from, to) = (at, at + 2 * reach + 1);
+        (from..to).filter_map(move |place| match is_cycle {
+            true => Some((place + period - reach % period) % period),
+            false => place.checked_sub(reach).filter(|place| *place <= period),
+        })
+    };
+    let greatest = |at: usize| {
+        around(at)
+            .map(|place| values[place])
+            .fold(f64::NEG_INFINITY, f64::max)
+    };
+    let greatest: Vec<f64> = (0..values.len()).map(greatest).collect();
+    let bell = |at: usize, place: usize| {
+        let apart = at.abs_diff(place);
+        let apart = if is_cycle {
+            apart.min(period.abs_diff(apart))
+        } else {
+            apart
+        };
+        1.0 + (std::f64::consts::PI * apart as f64 / (reach + 1) as f64).cos()
+    };
+    let mean = |at: usize| {
+        let weighed = around(at).map(|place| (greatest[place], bell(at, place)));
+        let (sum, weights) = weighed.fold((0.0, 0.0), |(sum, all), (value, weight)| {
+            (sum + value * weight, all + weight)
+        });
+        sum / weights
+    };
+    (0..values.len()).map(mean).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,6 +103,35 @@ mod tests {
         // Longer than the path.
         assert!(largest_difference(&smoothed(&steady[..5], 9.6), &steady[..5]) < 1e-9);
         assert_eq!(smoothed(&steady[..1], 9.6), &steady[..1]);
+    }
+
+    #[test]
+    fn an_envelope_is_above_its_values_and_smooth() {
+        let values: Vec<f64> = (0..60).map(|at| if at == 30 { 1.0 } else { 0.0 }).collect();
+        let curve = envelope(&values, 4, false);
+        assert!(
+            curve
+                .iter()
+                .zip(&values)
+                .all(|(curve, value)| curve >= value)
+        );
+        assert_eq!((curve[30], curve[21], curve[39]), (1.0, 0.0, 0.0));
+        let steps = curve.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        assert!(steps.fold(0.0, f64::max) < 0.3);
+        assert_eq!(envelope(&values, 0, false), values);
+        assert!(envelope(&[], 3, true).is_empty());
+        // Of a cycle, the end knows of the beginning.
+        let values: Vec<f64> = (0..=20)
+            .map(|at| if at % 20 == 1 { 1.0 } else { 0.0 })
+            .collect();
+        let curve = envelope(&values, 3, true);
+        assert!((curve[0] - curve[20]).abs() < 1e-12 && curve[18] > 0.0 && curve[10] == 0.0);
+        assert!(
+            curve
+                .iter()
+                .zip(&values)
+                .all(|(curve, value)| *curve >= value - 1e-12)
+        );
     }
 
     #[test]

@@ -155,7 +155,7 @@ impl Facing {
 }
 
 /// A segment of a limb.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LimbSegment {
     /// The whole limb, without a hand or foot that is a segment of its own.
     Whole,

@@ -65,7 +65,7 @@ impl Anatomy {
 }
 
 /// An arm or a leg of a skeleton.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limb {
     /// Arm or leg.
     pub class: Class,

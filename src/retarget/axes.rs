@@ -28,6 +28,8 @@ pub struct Landmarks {
     pub foot_tips: Option<[Tip; 2]>,
     /// Where the hands begin, or the arms end: the wrists.
     pub hands: Option<[JointId; 2]>,
+    /// All legs.
+    pub legs: Vec<Limb>,
     /// The axis of the clip's world that points up; `None` to find it.
     pub up: Option<UpAxis>,
 }
@@ -39,6 +41,10 @@ impl Landmarks {
             let [left, right] = limbs.map(|limb| limb.and_then(of));
             Some([left?, right?])
         }
+        let limbs = |class: Class| {
+            let limbs = anatomy.limbs.iter();
+            limbs.filter(|limb| limb.class == class).copied().collect()
+        };
         let [arms, legs] =
             [Class::Arm, Class::Leg].map(|class| Side::BOTH.map(|side| anatomy.limb(class, side)));
         Self {
@@ -54,6 +60,7 @@ impl Landmarks {
             toes: both(legs, |leg| leg.toe),
             foot_tips: both(legs, |leg| leg.end.and(leg.tip)),
             hands: both(arms, |arm| arm.end.or(arm.lower)),
+            legs: limbs(Class::Leg),
             up: None,
         }
     }

@@ -2,12 +2,14 @@
 
 use glam::DVec3;
 
-use super::Source;
-use super::axes::Landmarks;
-use super::planting::{Hold, Planting};
-use crate::labels::{FigurePartId, Tip};
+use super::planting::{CONTACT_HEIGHT, Hold, Planting, SOLE_HEIGHT};
+use super::soles::{FootEnd, Sole};
+use super::{Follow, Rig, Source};
+use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
-use crate::retarget::Drive;
+
+/// A foot whose sole is known is on the ground up to this height, in leg lengths: feet of actors that stand are not steadier.
+const STEADY: f64 = 0.0125;
 
 /// The walk of a clip, in the drawing's axes and the clip's unit.
 pub(super) struct Walk {
@@ -18,57 +20,75 @@ pub(super) struct Walk {
 
 /// A foot of the clip, and the parts of the figure that stand on it.
 pub(super) struct Foot {
-    drive: Drive,
+    pub(super) sole: Sole,
     pub(super) parts: Vec<FigurePartId>,
-    /// Per frame its height above its lowest height: that of its heel or of its toes, whichever is lower.
-    pub(super) clearance: Vec<f64>,
+    /// Per frame how high above the ground it is shown, in the figure's unit: as high as the lowest point of its sole.
+    pub(super) lift: Vec<f64>,
+    /// Per frame how firmly it is in contact with the ground, from 0 to 1.
+    pub(super) firm: Vec<f64>,
     /// Per frame how it holds the figure in place on the way from the frame before.
     pub(super) holds: Vec<Hold>,
 }
 
 impl Walk {
-    /// The walk of a clip whose legs are `leg` long.
-    pub(super) fn of(source: &mut Source<'_>, leg: f64) -> Self {
+    /// The walk of a clip on a rig, given the lengths of their legs without feet.
+    pub(super) fn of(source: &mut Source<'_>, [leg, own]: [f64; 2]) -> Self {
         let mut feet: Vec<Foot> = Vec::new();
         for (index, part) in source.rig.parts.iter_enumerated() {
             let Some(drive) = part.drive.filter(|_| part.is_leg && part.stands) else {
                 continue;
             };
-            let end = |drive: &Drive| (drive.joint, drive.tip);
-            match feet.iter_mut().find(|foot| end(&foot.drive) == end(&drive)) {
+            let end = FootEnd::of(source.landmarks, &drive);
+            match feet.iter_mut().find(|foot| foot.sole.end == end) {
                 Some(foot) => foot.parts.push(index),
                 None => feet.push(Foot {
-                    drive,
+                    sole: Sole::of(source, end, leg),
                     parts: vec![index],
-                    clearance: vec![f64::INFINITY; source.clip.frames],
+                    lift: Vec::new(),
+                    firm: Vec::new(),
                     holds: Vec::new(),
                 }),
             }
         }
-        let ends: Vec<Vec<Tip>> = feet
-            .iter()
-            .map(|foot| ground_points(source.landmarks, &foot.drive))
-            .collect();
         let to_drawing = source.axes.first.inverse();
         let mut hips = Vec::with_capacity(source.clip.frames);
-        let mut paths: Vec<Vec<Vec<DVec3>>> = ends
-            .iter()
-            .map(|ends| vec![Vec::with_capacity(source.clip.frames); ends.len()])
-            .collect();
+        let known = |foot: &Foot| {
+            if foot.sole.is_known() {
+                SOLE_HEIGHT
+            } else {
+                CONTACT_HEIGHT
+            }
+        };
+        let mut paths: Vec<(Vec<Vec<DVec3>>, f64)> =
+            feet.iter().map(|foot| (Vec::new(), known(foot))).collect();
         for frame in 0..source.clip.frames {
             let pose = source.poses.at(frame);
             hips.push(to_drawing * pose[source.landmarks.hips].position);
-            for (ends, paths) in ends.iter().zip(&mut paths) {
-                for (end, path) in ends.iter().zip(paths) {
-                    path.push(to_drawing * end.place(&source.clip.skeleton, pose));
+            for (foot, (paths, _)) in feet.iter().zip(&mut paths) {
+                let places = foot.sole.places(&source.clip.skeleton, pose);
+                paths.resize_with(places.len(), Vec::new);
+                for (path, place) in paths.iter_mut().zip(places) {
+                    path.push(to_drawing * place);
                 }
             }
         }
         let planting = Planting::of(&paths, source.clip.frame_time, leg);
+        let scale = height_scale(source.rig, &feet, [leg, own]);
         for (index, foot) in feet.iter_mut().enumerate() {
-            for (path, lowest) in paths[index].iter().zip(&planting.lowest[index]) {
-                foot.measure(path, *lowest);
-            }
+            let on_ground = if foot.sole.is_known() {
+                STEADY
+            } else {
+                CONTACT_HEIGHT
+            };
+            let clearance = |frame: usize| {
+                let points = paths[index].0.iter().zip(&planting.lowest[index]);
+                let heights = points.map(|(path, lowest)| path[frame].y - lowest);
+                heights.fold(f64::INFINITY, f64::min)
+            };
+            let frames = 0..source.clip.frames;
+            let lift =
+                frames.map(|frame| lifted(clearance(frame).max(0.0), on_ground * leg) * scale);
+            foot.lift = lift.collect();
         }
         let frames: Vec<f64> = (0..source.clip.frames).map(|frame| frame as f64).collect();
         Self {
@@ -82,8 +102,10 @@ impl Walk {
     /// The same walk, whose frames are at these places of the clip.
     fn held_at(mut self, places: &[f64]) -> Self {
         let holds = self.planting.holds(places);
-        for (foot, holds) in self.feet.iter_mut().zip(holds) {
+        let firmness = self.planting.firmness(places);
+        for (foot, (holds, firm)) in self.feet.iter_mut().zip(holds.into_iter().zip(firmness)) {
             foot.holds = holds;
+            foot.firm = firm;
         }
         self
     }
@@ -96,9 +118,10 @@ impl Walk {
         let places: Vec<f64> = places.map(|mix| mix.from as f64 + mix.t).collect();
         let between = |a: f64, b: f64, t: f64| a + (b - a) * t;
         let foot = |foot: &Foot| Foot {
-            drive: foot.drive,
+            sole: foot.sole.clone(),
             parts: foot.parts.clone(),
-            clearance: map.apply(&foot.clearance, between),
+            lift: map.apply(&foot.lift, between),
+            firm: Vec::new(),
             holds: Vec::new(),
         };
         Self {
@@ -110,27 +133,32 @@ impl Walk {
     }
 }
 
-/// The points of a clip's foot that touch the ground: ankle and toes, or the end of a leg without them.
-fn ground_points(landmarks: &Landmarks, drive: &Drive) -> Vec<Tip> {
-    let legs = [landmarks.thighs, landmarks.knees, landmarks.feet];
-    let side = |side: &usize| {
-        let mut joints = legs.iter().flatten().map(|pair| pair[*side]);
-        joints.any(|joint| joint == drive.joint)
+/// By how much heights in a clip are to be multiplied: legs down to the soles as long as these, given their lengths without feet.
+fn height_scale(rig: &Rig, feet: &[Foot], [leg, own]: [f64; 2]) -> f64 {
+    let mean = |drops: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = drops.fold((0.0, 0.0), |(sum, count), drop| (sum + drop, count + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
     };
-    let side = (0..2).find(side).filter(|_| drive.tip.is_some());
-    let ankle = side.and_then(|side| Some(Tip::Joint(landmarks.feet?[side])));
-    let toes = side.and_then(|side| Some(landmarks.foot_tips?[side]));
-    match (ankle, toes) {
-        (None, None) => vec![drive.tip.unwrap_or(Tip::Joint(drive.joint))],
-        (ankle, toes) => ankle.into_iter().chain(toes).collect(),
-    }
+    let clip = leg + mean(&mut feet.iter().map(|foot| foot.sole.drop));
+    let parts = feet.iter().flat_map(|foot| &foot.parts);
+    let drawn = own + mean(&mut parts.map(|part| drop_of(rig, *part)));
+    if clip > 0.0 { drawn / clip } else { 0.0 }
 }
 
-impl Foot {
-    /// Measures how far a point of the foot is above its lowest height.
-    fn measure(&mut self, path: &[DVec3], lowest: f64) {
-        for (clearance, point) in self.clearance.iter_mut().zip(path) {
-            *clearance = clearance.min(point.y - lowest);
-        }
-    }
+/// How far the lowest point of a part is below the end of its leg, as drawn.
+fn drop_of(rig: &Rig, part: FigurePartId) -> f64 {
+    let own = &rig.parts[part];
+    let is_foot = own.drive.is_some_and(|drive| drive.follow == Follow::Sole);
+    let leg = own
+        .parent
+        .filter(|parent| is_foot && rig.parts[*parent].is_leg);
+    let end = leg.map_or(own.tip, |leg| rig.parts[leg].tip);
+    let lowest = own.surface.iter().map(|point| point.y);
+    (end.y - lowest.fold(end.y, f64::min)).max(0.0)
+}
+
+/// The height at which a foot is shown that has this clearance in the clip. Up to a height it is on the ground, because nobody knows its
+/// sole exactly; from twice that height on it keeps its clearance.
+fn lifted(clearance: f64, on_ground: f64) -> f64 {
+    (2.0 * (clearance - on_ground)).max(0.0).min(clearance)
 }

@@ -54,6 +54,12 @@ impl ForwardKinematics {
         }
     }
 
+    /// The height of the lowest point of a part's surface.
+    pub(super) fn lowest(&self, rig: &Rig, part: FigurePartId) -> f64 {
+        let heights = self.surface(rig, part).map(|point| point.y);
+        heights.fold(f64::INFINITY, f64::min)
+    }
+
     /// The points of a part's surface.
     pub(super) fn surface<'a>(
         &self,

@@ -11,9 +11,13 @@ mod kinematics;
 mod matching;
 mod planting;
 mod rest_pose;
+mod room;
 mod root_motion;
 mod rotations;
+mod soles;
 mod spline;
+mod stance;
+mod stepping;
 mod swing;
 mod turns;
 
@@ -75,6 +79,10 @@ pub struct RigPart {
     pub tip: DVec3,
     /// Points around its surface and around what moves with it, which the ground holds up.
     pub surface: Vec<DVec3>,
+    /// Points around its own solid, if it is a piece of an arm that makes room, or a part of the trunk, of which that stays out.
+    pub outline: Vec<DVec3>,
+    /// Whether it is a piece of such an arm.
+    pub is_arm: bool,
     /// Whether it is the end of a leg, on which the figure stands.
     pub stands: bool,
     /// The joint that drives it.
@@ -108,6 +116,9 @@ pub struct RetargetedClip {
     pub translations: TiVec<FigurePartId, Option<Vec<DVec3>>>,
     /// Per frame whether a foot is in contact with the ground, and none takes over from another.
     pub grounded: Vec<bool>,
+    /// Per part by how much it is turned in each frame to keep an arm out of the trunk or a foot out of the ground, radians; `None`
+    /// if it points where the motion says in all of them.
+    pub turned: TiVec<FigurePartId, Option<Vec<f64>>>,
     /// The rest pose from which the clip's rotations were measured.
     pub rest: RestSource,
 }

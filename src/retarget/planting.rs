@@ -15,14 +15,20 @@ pub(super) const CONTACT_HEIGHT: f64 = 0.08;
 const CONTACT_SPEED: f64 = 0.6;
 /// The lowest height of a point is this quantile of its heights.
 const LOWEST: f64 = 0.02;
+/// What it is lower than if it is known to be on the sole.
+pub(super) const SOLE_HEIGHT: f64 = 0.03;
 /// At this many times the height or the speed of a contact, nothing is left of it.
 const RELEASE: f64 = 1.5;
 /// Of two feet that could take over, one that is slower by this, in leg lengths per second, gets e times as much.
 const PREFERENCE: f64 = 0.1;
+/// The foot that holds the figure lets go where it pulls less than this share of what another one does …
+const WEAKER: f64 = 0.3;
+/// … and holds nothing where it pulls less than this.
+const WEAKEST: f64 = 0.05;
 /// Paths are smoothed by a Gaussian of this deviation, seconds: single frames may be wrong.
-const SMOOTHING: f64 = 0.04;
+const SMOOTHING: f64 = 0.03;
 /// A contact lasts: what a foot's velocity changes by in this time, seconds, counts as speed.
-const TURN: f64 = 0.03;
+const TURN: f64 = 0.015;
 /// Samples per second, at least; every frame has a whole number of them.
 const SAMPLES: f64 = 240.0;
 /// The most samples of a frame.
@@ -36,6 +42,8 @@ pub(super) struct Planting {
     /// Per foot its share: 0 in the air, 1 if it alone holds the figure. Linear from one sample to the next; the sum of all shares is
     /// at most 1.
     shares: Vec<Vec<f64>>,
+    /// Per foot how firmly it is in contact, from 0 to 1.
+    firmness: Vec<Vec<f64>>,
     /// Per foot the lowest heights of its points.
     pub(super) lowest: Vec<Vec<f64>>,
 }
@@ -78,8 +86,9 @@ struct Contact {
 }
 
 impl Planting {
-    /// The planting of feet, each of which touches the ground at points with these paths, frame by frame. `leg` is the length of a leg.
-    pub(super) fn of(feet: &[Vec<Vec<DVec3>>], frame_time: f64, leg: f64) -> Self {
+    /// The planting of feet, each of which touches the ground at points with these paths, frame by frame, below a height in leg
+    /// lengths. `leg` is the length of a leg.
+    pub(super) fn of(feet: &[(Vec<Vec<DVec3>>, f64)], frame_time: f64, leg: f64) -> Self {
         let is_timed = frame_time > 0.0 && frame_time.is_finite();
         let rate = if is_timed {
             (frame_time * SAMPLES).ceil().clamp(1.0, MAX_SAMPLES) as usize
@@ -93,15 +102,19 @@ impl Planting {
         };
         let mut lowest_heights = Vec::with_capacity(feet.len());
         let mut contacts = Vec::with_capacity(feet.len());
-        for foot in feet {
+        for (foot, height) in feet {
             let paths: Vec<Vec<DVec3>> = foot.iter().map(|path| sampled(path, rate)).collect();
             let paths: Vec<Vec<DVec3>> = paths
                 .iter()
                 .map(|path| smoothed(path, SMOOTHING / time))
                 .collect();
-            let lowest: Vec<f64> = paths.iter().map(|path| lowest(path)).collect();
+            let lowest: Vec<f64> = paths
+                .iter()
+                .map(|path| lowest(path.iter().map(|point| point.y)))
+                .collect();
             let points = paths.iter().zip(&lowest);
-            let points = points.map(|(path, lowest)| point_contacts(path, *lowest, time, leg));
+            let points =
+                points.map(|(path, lowest)| point_contacts(path, [*lowest, *height], time, leg));
             contacts.push(points.reduce(firmer).unwrap_or_default());
             lowest_heights.push(lowest);
         }
@@ -109,6 +122,12 @@ impl Planting {
             rate,
             shares: if is_timed && leg > 0.0 {
                 shares(&contacts)
+            } else {
+                vec![Vec::new(); feet.len()]
+            },
+            firmness: if is_timed && leg > 0.0 {
+                let firmness = |own: &Vec<Contact>| own.iter().map(|own| own.firmness).collect();
+                contacts.iter().map(firmness).collect()
             } else {
                 vec![Vec::new(); feet.len()]
             },
@@ -128,6 +147,17 @@ impl Planting {
         };
         self.shares.iter().map(holds).collect()
     }
+
+    /// Per foot how firmly it is in contact at these places, likewise.
+    pub(super) fn firmness(&self, places: &[f64]) -> Vec<Vec<f64>> {
+        let at = |firmness: &Vec<f64>| {
+            let places = places.iter();
+            places
+                .map(|place| value(firmness, place * self.rate as f64))
+                .collect()
+        };
+        self.firmness.iter().map(at).collect()
+    }
 }
 
 /// A path with this many points per frame, straight from frame to frame.
@@ -139,9 +169,9 @@ fn sampled(path: &[DVec3], rate: usize) -> Vec<DVec3> {
     steps.chain(path.last().copied()).collect()
 }
 
-/// The lowest height of a path: a low quantile of its heights, because single frames may be wrong.
-fn lowest(path: &[DVec3]) -> f64 {
-    let mut heights: Vec<f64> = path.iter().map(|point| point.y).collect();
+/// The lowest of some heights: a low quantile, because single frames may be wrong.
+pub(super) fn lowest(heights: impl Iterator<Item = f64>) -> f64 {
+    let mut heights: Vec<f64> = heights.collect();
     heights.sort_by(f64::total_cmp);
     match heights.len() {
         0 => 0.0,
@@ -149,8 +179,14 @@ fn lowest(path: &[DVec3]) -> f64 {
     }
 }
 
-/// How firmly a point is in contact, sample by sample. `time` is the time between samples.
-fn point_contacts(path: &[DVec3], lowest: f64, time: f64, leg: f64) -> Vec<Contact> {
+/// How firmly a point is in contact, sample by sample, given its lowest height, and up to which height above it, in leg lengths, it is so.
+/// `time` is the time between samples.
+fn point_contacts(
+    path: &[DVec3],
+    [lowest, contact_height]: [f64; 2],
+    time: f64,
+    leg: f64,
+) -> Vec<Contact> {
     let contact = |sample: usize| {
         let [before, after] = [sample.saturating_sub(1), (sample + 1).min(path.len() - 1)];
         let passed = (after - before).max(1) as f64 * time;
@@ -159,7 +195,7 @@ fn point_contacts(path: &[DVec3], lowest: f64, time: f64, leg: f64) -> Vec<Conta
         let change = (path[before] + path[after] - 2.0 * path[sample]).length();
         let speed = speed.hypot(change / (time * time * leg) * TURN);
         let height = (path[sample].y - lowest) / leg;
-        let firmness = within(height / CONTACT_HEIGHT) * within(speed / CONTACT_SPEED);
+        let firmness = within(height / contact_height) * within(speed / CONTACT_SPEED);
         Contact {
             firmness,
             pull: firmness * (-speed / PREFERENCE).exp(),
@@ -190,14 +226,20 @@ fn shares(feet: &[Vec<Contact>]) -> Vec<Vec<f64>> {
     let mut holder: Option<usize> = None;
     for sample in 0..samples {
         let contact = |foot: usize| feet[foot][sample];
-        let pulling = |foot: &usize| contact(*foot).pull > 0.0;
+        let strongest = (0..feet.len())
+            .map(|foot| contact(foot).pull)
+            .fold(0.0, f64::max);
+        let pulling = |foot: &usize| contact(*foot).pull > WEAKEST * strongest;
         holder = holder.filter(pulling).or_else(|| {
             let pulling = (0..feet.len()).filter(pulling);
             pulling.max_by(|a, b| contact(*a).pull.total_cmp(&contact(*b).pull))
         });
         let all = (0..feet.len()).map(contact);
         let firmest = all.clone().map(|own| own.firmness).fold(0.0, f64::max);
-        let held = holder.map_or(0.0, |foot| contact(foot).firmness);
+        let held = holder.map_or(0.0, |foot| {
+            let share = contact(foot).pull / strongest;
+            contact(foot).firmness * ease((share - WEAKEST) / (WEAKER - WEAKEST))
+        });
         let pull: f64 = all.map(|own| own.pull).sum();
         let others = pull - holder.map_or(0.0, |foot| contact(foot).pull);
         for (foot, shares) in shares.iter_mut().enumerate() {
@@ -213,16 +255,19 @@ fn shares(feet: &[Vec<Contact>]) -> Vec<Vec<f64>> {
     shares
 }
 
+/// The value at a place of a list of samples, linear between them; 0 if it is empty.
+fn value(samples: &[f64], place: f64) -> f64 {
+    let Some(last) = samples.len().checked_sub(1) else {
+        return 0.0;
+    };
+    let sample = (place as usize).min(last);
+    let [start, end] = [sample, (sample + 1).min(last)].map(|sample| samples[sample]);
+    start + (end - start) * (place - sample as f64).clamp(0.0, 1.0)
+}
+
 /// The share of a foot from one place to another, in samples.
 fn hold(shares: &[f64], from: f64, to: f64) -> Hold {
-    let Some(last) = shares.len().checked_sub(1) else {
-        return Hold::default();
-    };
-    let at = |place: f64| {
-        let sample = (place as usize).min(last);
-        let [start, end] = [sample, (sample + 1).min(last)].map(|sample| shares[sample]);
-        start + (end - start) * (place - sample as f64).clamp(0.0, 1.0)
-    };
+    let at = |place: f64| value(shares, place);
     let way = to - from;
     if way.is_nan() || way <= 0.0 {
         return Hold {
@@ -254,9 +299,9 @@ mod tests {
         let point = |place: [f64; 2]| DVec3::new(place[1], place[0], 0.0);
         let path = |foot: &&dyn Fn(f64) -> [f64; 2]| {
             let places = (0..=96).map(|frame| point(foot(f64::from(frame) / 48.0)));
-            vec![places.collect()]
+            (vec![places.collect()], CONTACT_HEIGHT)
         };
-        let paths: Vec<Vec<Vec<DVec3>>> = feet.iter().map(path).collect();
+        let paths: Vec<(Vec<Vec<DVec3>>, f64)> = feet.iter().map(path).collect();
         Planting::of(&paths, 1.0 / 48.0, 1.0)
     }
 

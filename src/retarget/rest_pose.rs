@@ -53,7 +53,7 @@ impl RestPose {
             Follow::Change => {
                 drive.tip.is_none() && carries_shoulders(drive.joint, skeleton, landmarks)
             }
-            Follow::Direction => false,
+            Follow::Direction | Follow::Sole => false,
         };
         match self.lean {
             Some(lean) if is_trunk => lean * self.axes,

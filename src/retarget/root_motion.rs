@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::axes::Landmarks;
-use super::contacts::Walk;
+use super::contacts::{Foot, Walk};
 use super::kinematics::ForwardKinematics;
-use super::planting::{CONTACT_HEIGHT, Hold};
+use super::planting::Hold;
 use super::rotations::Rotations;
+use super::stance::Stance;
 use super::{Rig, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::JointId;
@@ -57,42 +58,60 @@ pub(super) fn root_motion(
     let mut before: Vec<Vec<Vec<DVec3>>> = Vec::new();
     // Per foot its steps on the ground, relative to the root.
     let mut steps = vec![vec![DVec3::ZERO]; walk.feet.len()];
-    let mut heights = Vec::with_capacity(frames);
+    let mut stances = Vec::with_capacity(frames);
+    let mut lowest = Vec::with_capacity(frames);
     for frame in 0..frames {
         kinematics.pose(rig, rotations, order, frame);
-        let feet: Vec<Vec<Vec<DVec3>>> = walk
-            .feet
-            .iter()
-            .map(|foot| {
-                let parts = foot.parts.iter();
-                parts
-                    .map(|part| kinematics.surface(rig, *part).collect())
-                    .collect()
-            })
-            .collect();
-        for (steps, (before, now)) in steps.iter_mut().zip(before.iter().zip(&feet)) {
+        let feet = Feet::of(rig, &kinematics, walk);
+        for (steps, (before, now)) in steps.iter_mut().zip(before.iter().zip(&feet.0)) {
             steps.push(rolled(before, now, ROLLING * legs[1]));
         }
-        let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
-        let clearance = clearance.fold(f64::INFINITY, f64::min);
-        let lifted = lifted(clearance, legs[0]) * scale;
         let mut holds = walk.feet.iter().map(|foot| foot.holds[frame].mean);
-        motion.grounded[frame] = lifted == 0.0 && holds.any(|held| held >= GROUNDED);
-        heights.push(match floor {
-            Some(floor) => {
-                let lowest = feet.iter().flatten().flatten().map(|point| point.y);
-                (floor + lifted - lowest.fold(f64::INFINITY, f64::min))
-                    .max(floor - surfaces.lowest(rig, &kinematics))
-            }
-            None => start.y + (walk.hips[frame].y - walk.hips[0].y) * scale,
-        });
-        before = feet;
+        let stance = Stance::of(walk, frame, &feet.lowest());
+        motion.grounded[frame] = stance.lift == 0.0 && holds.any(|held| held >= GROUNDED);
+        stances.push(stance);
+        lowest.push(surfaces.lowest(rig, &kinematics));
+        before = feet.0;
     }
     motion.path = travel(walk, &steps, scale, start);
-    for (place, height) in motion.path.iter_mut().zip(heights) {
-        place.y = height;
+    let hips = |frame: usize| (walk.hips[frame].y - walk.hips[0].y) * scale;
+    match floor {
+        Some(floor) => {
+            let places = motion.path.iter_mut().zip(stances.iter().zip(lowest));
+            for (place, (stance, lowest)) in places {
+                place.y = floor + stance.height().max(-lowest);
+            }
+        }
+        None => {
+            for (frame, place) in motion.path.iter_mut().enumerate() {
+                place.y = start.y + hips(frame);
+            }
+        }
     }
     motion
+}
+
+/// The feet of a figure in a pose: per foot of the clip, and per part that stands on it, the points of the part's surface.
+pub(super) struct Feet(Vec<Vec<Vec<DVec3>>>);
+
+impl Feet {
+    pub(super) fn of(rig: &Rig, kinematics: &ForwardKinematics, walk: &Walk) -> Self {
+        let foot = |foot: &Foot| {
+            let parts = foot.parts.iter();
+            let surfaces = parts.map(|part| kinematics.surface(rig, *part).collect());
+            surfaces.collect()
+        };
+        Self(walk.feet.iter().map(foot).collect())
+    }
+
+    /// Per foot the height of its lowest point.
+    pub(super) fn lowest(&self) -> Vec<f64> {
+        let lowest = |foot: &Vec<Vec<DVec3>>| {
+            let heights = foot.iter().flatten().map(|point| point.y);
+            heights.fold(f64::INFINITY, f64::min)
+        };
+        self.0.iter().map(lowest).collect()
+    }
 }
 
 /// Where the root goes, frame by frame. Feet are locked: one stays in place if the root moves by the opposite of its step. Where none
@@ -189,13 +208,6 @@ impl Surfaces {
     }
 }
 
-/// The height at which a foot is shown that has this clearance in the clip. Up to the contact height it is on the ground,
-/// because a heel that rises lifts the end of a leg; from twice that height on it keeps its clearance.
-fn lifted(clearance: f64, leg: f64) -> f64 {
-    let low = CONTACT_HEIGHT * leg;
-    (2.0 * (clearance - low)).max(0.0).min(clearance)
-}
-
 /// Whether a drive is that of a foot, rather than that of a whole leg or its lower half.
 fn is_foot(landmarks: &Landmarks, drive: &Drive) -> bool {
     landmarks
@@ -246,7 +258,7 @@ pub(super) fn leg_lengths(source: &mut Source<'_>) -> [f64; 2] {
     }
 }
 
-/// The length of the leg that ends with a part.
+/// The length of the leg that ends with a part, from joint to joint: pieces reach into each other.
 fn leg_length(rig: &Rig, landmarks: &Landmarks, end: FigurePartId) -> f64 {
     let above = |part: &FigurePartId| {
         let parent = rig.parts[*part].parent?;
@@ -254,11 +266,16 @@ fn leg_length(rig: &Rig, landmarks: &Landmarks, end: FigurePartId) -> f64 {
         let is_moving = above.drive.is_some() || above.shared.is_some();
         (above.is_leg && is_moving).then_some(parent)
     };
-    std::iter::successors(Some(end), above)
+    let pieces = std::iter::successors(Some(end), above)
         // Parents that form a cycle have no top.
         .take(rig.parts.len())
         .map(|part| &rig.parts[part])
-        .filter(|part| part.drive.is_none_or(|drive| !is_foot(landmarks, &drive)))
-        .map(|part| (part.tip - part.joint).length())
-        .sum()
+        .filter(|part| part.drive.is_none_or(|drive| !is_foot(landmarks, &drive)));
+    let points: Vec<DVec3> = pieces
+        .enumerate()
+        .flat_map(|(index, piece)| [(index == 0).then_some(piece.tip), Some(piece.joint)])
+        .flatten()
+        .collect();
+    let bones = points.windows(2);
+    bones.map(|pair| pair[0].distance(pair[1])).sum()
 }

@@ -5,6 +5,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::axes::Axes;
 use super::rest_pose::RestPose;
+use super::soles::{FootEnd, Sole, foot_axes};
 use super::{Rig, RigPart, SharedTurn, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
@@ -18,6 +19,8 @@ pub(super) struct Rotations {
     own: TiVec<FigurePartId, Option<Vec<DQuat>>>,
     /// Per part the nearest ancestor (or itself) that turns on its own, and the part's rotation in that ancestor's frame.
     carrier: TiVec<FigurePartId, (Option<FigurePartId>, DQuat)>,
+    /// Per part by how much it was turned further in each frame, radians; `None` if it was not.
+    pub(super) turned: TiVec<FigurePartId, Option<Vec<f64>>>,
 }
 
 impl Rotations {
@@ -70,6 +73,18 @@ impl Rotations {
         }
     }
 
+    /// Turns a part further, in every frame by a rotation in the drawing's axes.
+    pub(super) fn turn(&mut self, part: FigurePartId, turns: impl Iterator<Item = DQuat>) {
+        let Some(own) = &mut self.own[part] else {
+            return;
+        };
+        let turned = self.turned[part].get_or_insert_with(|| vec![0.0; own.len()]);
+        for ((own, turned), turn) in own.iter_mut().zip(turned).zip(turns) {
+            *own = (turn * *own).normalize();
+            *turned += turn.angle_between(DQuat::IDENTITY);
+        }
+    }
+
     fn carry(&mut self, rig: &Rig, order: &[FigurePartId]) {
         for part in order {
             let drawn = rig.parts[*part].node.rotation;
@@ -91,6 +106,13 @@ impl Rotations {
         Self {
             own: self.own.into_iter().map(|own| own.map(timed)).collect(),
             carrier: self.carrier,
+            turned: {
+                let between = |a: f64, b: f64, t: f64| a + (b - a) * t;
+                let turned = self.turned.into_iter();
+                turned
+                    .map(|turned| Some(map.apply(&turned?, between)))
+                    .collect()
+            },
         }
     }
 
@@ -163,13 +185,20 @@ pub(super) fn rotations(
     source: &mut Source<'_>,
     rest: &RestPose,
     order: &[FigurePartId],
+    leg: f64,
 ) -> Rotations {
     let count = source.rig.parts.len();
-    let means = mean_references(source);
+    let mut known = mean_references(source);
+    for part in order {
+        let drive = source.rig.parts[*part].drive;
+        if let Some(drive) = drive.filter(|drive| drive.follow == Follow::Sole) {
+            known[*part] = Some(Reference::on_sole(source, *part, &drive, leg));
+        }
+    }
     let solver = |part: &FigurePartId| {
         let drive = source.rig.parts[*part].drive?;
-        let reference = match means[*part] {
-            Some(mean) => mean,
+        let reference = match known[*part] {
+            Some(known) => known,
             None => {
                 let axes = rest.axes_for(&drive, &source.clip.skeleton, source.landmarks);
                 Reference::of(source.clip, &drive, axes, &rest.pose)
@@ -194,6 +223,7 @@ pub(super) fn rotations(
     let mut rotations = Rotations {
         own,
         carrier: ti_vec![(None, DQuat::IDENTITY); count],
+        turned: ti_vec![None; count],
     };
     rotations.carry(source.rig, order);
     rotations.share(source.rig, order);
@@ -210,6 +240,17 @@ struct Reference {
 }
 
 impl Reference {
+    /// Where a foot stands flat, as the drawn foot does, with its toes ahead.
+    fn on_sole(source: &mut Source<'_>, part: FigurePartId, drive: &Drive, leg: f64) -> Self {
+        let end = FootEnd::of(source.landmarks, drive);
+        let flat = Sole::of(source, end, leg).flat;
+        let drawn = foot_axes(DVec3::Y, drawn_toes(source.rig, part));
+        Self {
+            turn: (flat * drawn.inverse()).normalize(),
+            direction: None,
+        }
+    }
+
     /// A pose as the reference, in which the body has these axes.
     fn of(clip: &Clip, drive: &Drive, axes: DQuat, pose: &TiSlice<JointId, Transform>) -> Self {
         let direction = drive.direction(&clip.skeleton, pose);
@@ -252,6 +293,33 @@ fn mean_references(source: &mut Source<'_>) -> TiVec<FigurePartId, Option<Refere
         })
     };
     sums.into_iter().map(|sum| sum.and_then(mean)).collect()
+}
+
+/// The level direction in which a foot is drawn: where the figure faces, or to a side if the foot reaches more to that side of its leg
+/// than ahead of it.
+fn drawn_toes(rig: &Rig, part: FigurePartId) -> DVec3 {
+    /// The share of a foot's width that is more on one side of the leg than on the other, from which on it points to that side.
+    const ASIDE: f64 = 0.35;
+
+    let ahead = rig.facing.turn() * DVec3::Z;
+    let own = &rig.parts[part];
+    let leg = own.parent.map(|parent| &rig.parts[parent]);
+    let ankle = match leg.filter(|leg| leg.is_leg) {
+        Some(leg) if !rig.facing.is_profile() => leg.tip,
+        _ => return ahead,
+    };
+    let reach = |way: DVec3| {
+        let reaches = own.surface.iter().map(|point| (*point - ankle).dot(way));
+        reaches.fold(0.0, f64::max)
+    };
+    let [left, right] = [DVec3::NEG_X, DVec3::X].map(reach);
+    let before = reach(ahead) - reach(-ahead);
+    let aside = right - left;
+    if aside.abs() > ASIDE * (left + right) && aside.abs() > before {
+        DVec3::X * aside.signum()
+    } else {
+        ahead
+    }
 }
 
 /// Computes the rotations of one part.

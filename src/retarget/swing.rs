@@ -85,7 +85,7 @@ fn meter(rig: &Rig) -> f64 {
 }
 
 /// Whether a clip ends as it begins, so that it may be repeated.
-fn is_cycle(rotations: &Rotations, frames: usize) -> bool {
+pub(super) fn is_cycle(rotations: &Rotations, frames: usize) -> bool {
     let mut turns = rotations.all();
     turns.all(|turns| turns[0].angle_between(turns[frames - 1]) < CYCLE.to_radians())
 }

@@ -10,8 +10,8 @@ use super::axes::Axes;
 use super::contacts::Walk;
 use super::rotations::{self, Rotations};
 use super::{
-    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, Source, kinematics, rest_pose,
-    root_motion, swing,
+    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, Source, kinematics, rest_pose, room,
+    root_motion, stepping, swing,
 };
 use crate::labels::FigurePartId;
 use crate::mocap::Clip;
@@ -27,6 +27,34 @@ pub struct Turns<'a> {
     moving: Option<Moving>,
     frames: usize,
     frame_time: f64,
+}
+
+/// How long turns are.
+pub(super) struct Length {
+    pub(super) frames: usize,
+    /// Seconds from one frame to the next.
+    frame_time: f64,
+    /// Whether they end as they begin.
+    pub(super) is_cycle: bool,
+}
+
+impl Length {
+    fn of(rotations: &Rotations, frames: usize, frame_time: f64) -> Self {
+        Self {
+            frames,
+            frame_time,
+            is_cycle: frames > 0 && swing::is_cycle(rotations, frames),
+        }
+    }
+
+    /// The number of frames that is nearest to a time in seconds; 0 if frames take no time.
+    pub(super) fn frames_in(&self, seconds: f64) -> usize {
+        if self.frame_time > 0.0 && self.frame_time.is_finite() {
+            (seconds / self.frame_time).round() as usize
+        } else {
+            0
+        }
+    }
 }
 
 struct Moving {
@@ -55,9 +83,14 @@ impl<'a> Turns<'a> {
             };
             let rest = rest_pose::choose(&mut source);
             let legs = root_motion::leg_lengths(&mut source);
+            let mut rotations = rotations::rotations(&mut source, &rest, &order, legs[0]);
+            let walk = Walk::of(&mut source, legs);
+            let length = Length::of(&rotations, clip.frames, clip.frame_time);
+            stepping::clear(rig, &order, &mut rotations, &walk, legs[1], &length);
+            room::open(rig, &order, &mut rotations, &length);
             Moving {
-                rotations: rotations::rotations(&mut source, &rest, &order),
-                walk: Walk::of(&mut source, legs[0]),
+                rotations,
+                walk,
                 legs,
                 rest: rest.source,
             }
@@ -103,6 +136,7 @@ impl<'a> Turns<'a> {
                 rotations: ti_vec![None; count],
                 translations: ti_vec![None; count],
                 grounded: vec![false; self.frames],
+                turned: ti_vec![None; count],
                 rest: RestSource::default(),
             };
         };
@@ -121,6 +155,7 @@ impl<'a> Turns<'a> {
             rotations: self.node_rotations(&rotations),
             translations: self.node_translations(&rotations, &root_motion.path),
             grounded: root_motion.grounded,
+            turned: rotations.turned,
             rest: moving.rest,
         }
     }

@@ -35,10 +35,12 @@ pub(super) fn add(
             parts[*child].parent = Some(chain[bend.node_at(joint)]);
         }
         // What is near the ground moves with the bone that it is on.
-        let surface = std::mem::take(&mut parts[index].surface);
-        for point in surface {
-            let bone = chain[bend.node_at(point.truncate())];
-            parts[bone].surface.push(point);
+        let bone = |point: &DVec3| chain[bend.node_at(point.truncate())];
+        for point in std::mem::take(&mut parts[index].surface) {
+            parts[bone(&point)].surface.push(point);
+        }
+        for point in std::mem::take(&mut parts[index].outline) {
+            parts[bone(&point)].outline.push(point);
         }
         if let Some(last) = chain.last()
             && std::mem::take(&mut parts[index].stands)
@@ -83,6 +85,8 @@ fn add_chain(
             joint: position,
             tip: position,
             surface: Vec::new(),
+            outline: Vec::new(),
+            is_arm: base.is_arm,
             stands: false,
             drive: drives
                 .get(node.joint)

@@ -107,6 +107,13 @@ impl FigureClip {
         &self.retargeted.grounded
     }
 
+    /// By how much a part is turned in a frame to make room for an arm or a foot, degrees.
+    pub fn turned(&self, part: PartId, frame: usize) -> f64 {
+        let index = self.order.iter().position(|own| *own == (part, 0));
+        let turned = index.and_then(|index| self.retargeted.turned.raw.get(index)?.as_ref());
+        turned.map_or(0.0, |turned| turned[frame].to_degrees())
+    }
+
     /// The speed of every frame of the motion: the SSD of the points by which it is limited, in the square of drawing units.
     pub fn speeds(&self) -> Vec<f64> {
         self.measured.poses().speeds()
@@ -244,7 +251,7 @@ pub(super) fn part_drives(
         joint: matched.drive.map(|drive| drive.joint),
         tip: matched.drive.and_then(|drive| match drive.follow {
             Follow::Direction => drive.tip,
-            Follow::Change | Follow::Trunk { .. } => None,
+            Follow::Change | Follow::Trunk { .. } | Follow::Sole => None,
         }),
         why: if swings(*part) {
             format!("{}; it swings", matched.why)

@@ -13,7 +13,7 @@ use crate::geometry::{Frame, bounds_of, y_up};
 use crate::labels::{Carry, Class, Detail, Facing, Figure, FigurePart, FigurePartId};
 use crate::memo::exact;
 use crate::mocap::Transform;
-use crate::retarget::{Drive, Matching};
+use crate::retarget::{Drive, Follow, Matching};
 use crate::retarget::{Rig, RigPart, SharedTurn};
 use crate::svg::Drawing;
 
@@ -161,9 +161,20 @@ pub(super) fn rig(
 ) -> Rig {
     let is_leg = |part: FigurePartId| {
         let matched = &matching.parts[part];
-        let is_chain = matched.drive.is_some_and(|drive| drive.tip.is_some());
+        let is_chain = matched
+            .drive
+            .is_some_and(|drive| drive.tip.is_some() || drive.follow == Follow::Sole);
         let class = matched.label.as_ref().map(|label| label.class);
         is_chain && class == Some(Class::Leg)
+    };
+    let class = |part: FigurePartId| matching.parts[part].label.as_ref().map(|label| label.class);
+    let follow = |part: FigurePartId| matching.parts[part].drive.map(|drive| drive.follow);
+    let is_trunk = |part: FigurePartId| matches!(class(part), Some(Class::Body | Class::Hips));
+    // An arm that keeps its drawn pose, or whose string says that it points as the actor's, makes no room.
+    let is_arm = |part: FigurePartId| {
+        class(part) == Some(Class::Arm)
+            && follow(part).is_none_or(|follow| follow == Follow::Direction)
+            && figure.parts[part].carry.is_none()
     };
     let mut continues = ti_vec![false; group.parts.len()];
     for (index, part) in figure.parts.iter_enumerated() {
@@ -207,6 +218,12 @@ pub(super) fn rig(
             joint,
             tip: joint + way,
             surface: surface_of(index),
+            outline: if is_arm(index) || is_trunk(index) {
+                surface::outermost(context, std::iter::once((group.parts[index], depth)))
+            } else {
+                Vec::new()
+            },
+            is_arm: is_arm(index),
             stands,
             drive: matching.parts[index].drive,
             is_leg: is_leg(index),
@@ -272,7 +289,9 @@ impl RestNodes {
 
 exact! {
     Rig { parts, facing }
-    RigPart { parent, is_rooted, node, joint, tip, surface, stands, drive, is_leg, swing, inside, shared }
+    RigPart {
+        parent, is_rooted, node, joint, tip, surface, outline, is_arm, stands, drive, is_leg, swing, inside, shared
+    }
     SharedTurn { between, share }
     Transform { rotation, position }
 }

@@ -15,6 +15,7 @@ use std::sync::Arc;
 use std::{env, fs};
 
 use okoshi::compile::Compiled;
+use okoshi::internals::bind::PartId;
 use okoshi::internals::labels::{Anatomy, Class, Limb, LimbSegment, Side, Tip, label_clip};
 use okoshi::internals::mocap::bvh::{self, Decimals};
 use okoshi::internals::mocap::{Clip, JointId, Skeleton};
@@ -30,16 +31,16 @@ const FRAMES: usize = 64;
 const LEAST: [f64; 2] = [99.0, 95.0];
 
 /// A drawing and what drives its parts.
-struct DrawnFigure {
-    name: String,
-    drawing: String,
+pub(crate) struct DrawnFigure {
+    pub(crate) name: String,
+    pub(crate) drawing: String,
     /// Per part its id and the choices that are right.
-    parts: Vec<(String, Vec<Choice>)>,
+    pub(crate) parts: Vec<(String, Vec<Choice>)>,
 }
 
 /// What a part is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Choice {
+pub(crate) enum Choice {
     FollowsParent,
     Trunk(Class),
     Limb {
@@ -103,7 +104,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/motion/figures")
 }
 
-fn figures() -> Vec<DrawnFigure> {
+pub(crate) fn figures() -> Vec<DrawnFigure> {
     let files = fs::read_dir(folder()).expect("the figures");
     let mut paths: Vec<PathBuf> = files.map(|file| file.expect("a file").path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "svg"));
@@ -193,7 +194,7 @@ fn is_right(choice: Choice, found: Found, anatomy: &Anatomy, whole: bool) -> boo
             let Some(limb) = anatomy.limb(class, side) else {
                 return found.is_none();
             };
-            if whole && segment == LimbSegment::End {
+            if whole && segment == LimbSegment::End && class == Class::Arm {
                 return found.is_none();
             }
             let bone = bone(limb, segment);
@@ -220,8 +221,8 @@ fn bone(limb: &Limb, segment: LimbSegment) -> (Option<JointId>, Option<JointId>)
     }
 }
 
-/// What drives the part with an id, the reason, and its index in the bindings.
-fn found(compiled: &Compiled, id: &str) -> (Found, String) {
+/// The main part with the id of a shape or group; `None` if that is a detail of another part.
+pub(crate) fn part_of(compiled: &Compiled, id: &str) -> Option<PartId> {
     let drawing = &compiled.drawing;
     let inside = |mut group: GroupId| {
         loop {
@@ -240,7 +241,12 @@ fn found(compiled: &Compiled, id: &str) -> (Found, String) {
         shape.element.id.as_deref() == Some(id) || inside(shape.group)
     });
     let main = own.find(|(index, part)| part.main == *index);
-    let Some((part, _)) = main else {
+    main.map(|(part, _)| part)
+}
+
+/// What drives the part with an id, and the reason.
+fn found(compiled: &Compiled, id: &str) -> (Found, String) {
+    let Some(part) = part_of(compiled, id) else {
         return (None, "a detail of another part".to_owned());
     };
     match compiled.clips.iter().find_map(|clip| clip.part_drive(part)) {

@@ -10,6 +10,7 @@ mod common;
 mod cli;
 mod figures;
 mod limited;
+mod measured;
 mod model;
 mod performance;
 mod performed;

@@ -129,7 +129,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
         world(&compiled.scene, &still, 0)
     };
     let mut worst = 0.0_f64;
-    let (mut looked_at, mut splayed) = (0, 0);
+    let (mut looked_at, mut splayed, mut moved) = (0, 0, 0);
     for frame in 0..clip.frames {
         let pose = clip.pose(frame);
         let now = world(&compiled.scene, full, frame);
@@ -139,6 +139,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
                 continue;
             };
             let node = names[name];
+            let off = figure_clip.turned(drive.part, frame);
             // What points like the chain: the part's axis, or if it keeps its drawn pose the mean of the chain; in the node's own frame.
             let points = if drive.why.contains("keeps its drawn pose") {
                 splayed += 1;
@@ -147,10 +148,9 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
                 axis(compiled, drive.part)
             };
             let own = rest[node].rotation.inverse() * (turn * points);
-            worst = worst.max(angle(
-                now[node].rotation * own,
-                turn * body.drawn(&first, way),
-            ));
+            let away = angle(now[node].rotation * own, turn * body.drawn(&first, way));
+            worst = worst.max((away - off).max(0.0));
+            moved += usize::from(off > 1.0);
             looked_at += 1;
             if let Some(copy) = names.get(&*format!("{name}.back")) {
                 // A copy is the mirror image of the original, in the plane of what both are attached to.
@@ -167,6 +167,11 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
         }
     }
     assert!(looked_at >= 4 * clip.frames, "only {looked_at} directions");
+    // Most parts point where the motion says; the others have made room.
+    assert!(
+        2 * moved <= looked_at,
+        "{moved} of {looked_at} have made room"
+    );
     let is_beetle = compiled
         .bindings
         .parts

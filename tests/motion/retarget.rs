@@ -196,6 +196,7 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
     let retargeted = retarget(clip, rig, landmarks);
     let body = Body::of(clip, landmarks, rig.facing);
     let first = clip.pose(0);
+    let at_first = placed(rig, &retargeted, 0);
     let (rest, at_rest) = match retargeted.rest {
         RestSource::Offsets => (
             clip.skeleton.offset_pose(),
@@ -204,6 +205,10 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
         RestSource::Frame(frame) => (clip.pose(frame), Body::of(clip, landmarks, rig.facing)),
     };
     let size = rig.parts.iter().map(|part| part.tip.y).fold(0.0, f64::max);
+    let first_room = |part: FigurePartId| {
+        let turned = retargeted.turned[part].as_ref();
+        turned.map_or(0.0, |turned| turned[0].to_degrees())
+    };
     let mut worst = Worst::default();
     for frame in 0..clip.frames {
         let pose = clip.pose(frame);
@@ -223,13 +228,26 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
                 continue;
             };
             worst.checked += 1;
+            let turned = retargeted.turned[index]
+                .as_ref()
+                .map_or(0.0, |turned| turned[frame]);
+            let room = turned.to_degrees();
             match (drive.follow, direction(clip, &pose, drive)) {
                 (Follow::Direction, Some(way)) => {
                     let axis = part.node.rotation.inverse() * (part.tip - part.joint);
                     let off = angle(placed[index].rotation * axis, body.drawn(&first, way));
-                    worst.limbs = worst.limbs.max(off);
+                    worst.limbs = worst.limbs.max(off - room);
                 }
                 (Follow::Direction, None) => worst.checked -= 1,
+                // A foot turns by as much as its joint, from the first frame on.
+                (Follow::Sole, _) => {
+                    let change = pose[drive.joint].rotation * first[drive.joint].rotation.inverse();
+                    let drawn = body.turn(&first);
+                    let due = drawn * change * drawn.inverse() * at_first[index].rotation;
+                    worst.bodies = worst
+                        .bodies
+                        .max(apart(placed[index].rotation, due) - room - first_room(index));
+                }
                 (Follow::Trunk { hips, shoulders }, _) => {
                     let lean = |pose: &Pose| {
                         let joints = [hips, shoulders[0], shoulders[1]];
@@ -246,7 +264,7 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
                     let turned = placed[index].rotation * part.node.rotation.inverse();
                     let mean = body.mean(clip, |pose| direction(clip, pose, drive));
                     let off = angle(turned * mean, body.drawn(&first, way));
-                    worst.limbs = worst.limbs.max(off);
+                    worst.limbs = worst.limbs.max(off - room);
                 }
                 (Follow::Change, None) => {
                     // C₀ᵀ R(k) R(r)ᵀ C_r · D

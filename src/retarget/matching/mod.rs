@@ -84,6 +84,9 @@ pub enum Follow {
         /// The joints where the arms begin.
         shoulders: [JointId; 2],
     },
+    /// It turns with the joint, from where the foot of the motion stands flat on the ground, and its toes point where the motion's do:
+    /// feet. While the motion's foot stands flat, the drawn sole is flat, and only turns about the vertical.
+    Sole,
 }
 
 impl Drive {
@@ -99,6 +102,7 @@ impl Drive {
                 hips,
                 shoulders: [left, right],
             } => (place(left) + place(right)) / 2.0 - place(hips),
+            Follow::Sole => return None,
             Follow::Direction | Follow::Change => {
                 self.tip?.place(skeleton, pose) - place(self.joint)
             }
@@ -184,6 +188,7 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
     let names = Names::new(skeleton);
     let mut parts = TiVec::with_capacity(labels.len());
     let mut lacking = Vec::new();
+    let ground = standing_height(figure);
     let matcher = Matcher::new(skeleton, anatomy, figure, &labels);
     for ((part, label), splayed) in labels.into_iter_enumerated().zip(splayed) {
         let bones = &figure.parts[part].bones;
@@ -202,7 +207,8 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
         let (drive, why) = match found {
             Ok((drive, mut why)) => {
                 let carry = figure.parts[part].carry;
-                let (drive, how) = carried(drive, carry, splayed);
+                let stands = figure.parts[part].bounds[0].y <= ground;
+                let (drive, how) = carried(drive, carry, splayed, stands);
                 why += how;
                 if !is_bone {
                     why += &matcher.way(&drive);
@@ -218,7 +224,7 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
         let carry = figure.parts[part].carry;
         let bones: Vec<Option<Drive>> = bones
             .into_iter()
-            .map(|drive| Some(carried(drive?, carry, splayed).0))
+            .map(|drive| Some(carried(drive?, carry, splayed, false).0))
             .collect();
         let why = match bones.iter().flatten().next() {
             Some(drive) => {
@@ -247,19 +253,50 @@ pub(crate) fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anato
     }
 }
 
+/// Up to which height the lowest point of a foot is on the ground: legs on the far side are drawn higher.
+fn standing_height(figure: &Figure) -> f64 {
+    /// The share of the figure's height.
+    const STANDS: f64 = 0.08;
+
+    let (low, high) = figure
+        .parts
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), part| {
+            (low.min(part.bounds[0].y), high.max(part.bounds[1].y))
+        });
+    low + STANDS * (high - low)
+}
+
 /// The drive of a part with what it takes over from its joint, and the reason if that is unusual. Only what points along a bone
 /// has a choice: it does what `Carry` says, else it takes over the change if it is splayed.
-fn carried(drive: Drive, carry: Option<Carry>, splayed: bool) -> (Drive, &'static str) {
-    let change = Drive {
-        follow: Follow::Change,
-        ..drive
-    };
+fn carried(
+    drive: Drive,
+    carry: Option<Carry>,
+    splayed: bool,
+    stands: bool,
+) -> (Drive, &'static str) {
+    let as_if = |follow: Follow| Drive { follow, ..drive };
+    let change = as_if(Follow::Change);
     match (drive.follow, carry, splayed) {
         (Follow::Direction, Some(Carry::Change), _) => (
             change,
             "; its string says `Carry change`, so it keeps its drawn pose",
         ),
-        (Follow::Direction, None, true) => (change, "; it is splayed, so it keeps its drawn pose"),
+        (Follow::Direction | Follow::Sole, None, true) => {
+            (change, "; it is splayed, so it keeps its drawn pose")
+        }
+        (Follow::Sole, Some(Carry::Change), _) => (
+            change,
+            "; its string says `Carry change`, so it keeps its drawn pose",
+        ),
+        (Follow::Sole, None, false) if !stands && drive.tip.is_some() => (
+            as_if(Follow::Direction),
+            "; it does not stand in the drawing",
+        ),
+        (Follow::Sole, Some(Carry::Direction), _) if drive.tip.is_some() => (
+            as_if(Follow::Direction),
+            "; its string says `Carry direction`",
+        ),
         (Follow::Direction, Some(Carry::Direction), true) => {
             (drive, "; its string says `Carry direction`")
         }
@@ -400,8 +437,9 @@ impl<'a> Matcher<'a> {
     ) -> Result<(Drive, String), String> {
         let why = &label.why;
         let own = label.side.ok_or_else(|| why.clone())?;
+        let is_foot = (label.class, label.segment) == (Class::Leg, LimbSegment::End);
         let is_last = matches!(label.segment, LimbSegment::End | LimbSegment::Beyond);
-        if is_last && self.whole.contains(&(label.class, label.side, label.pair)) {
+        if is_last && !is_foot && self.whole.contains(&(label.class, label.side, label.pair)) {
             return Err(format!("{why}; it follows a limb of one piece"));
         }
         // The pairs of the skeleton from the hind end on, and again and again for further pairs, with their sides swapped.
@@ -439,6 +477,7 @@ impl<'a> Matcher<'a> {
             };
         }
         let follow = match tip {
+            _ if is_foot => Follow::Sole,
             Some(_) => Follow::Direction,
             None => Follow::Change,
         };
@@ -457,6 +496,9 @@ impl<'a> Matcher<'a> {
                     "; it turns like the line from `{name}` to {}",
                     self.tip(tip)
                 )
+            }
+            (Follow::Sole, _) => {
+                format!("; its sole turns with `{name}`, flat where that stands flat")
             }
             (Follow::Trunk { .. }, _) => format!(
                 "; it turns with `{name}` and leans with the line from the hips to the shoulders"

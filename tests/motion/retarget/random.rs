@@ -131,6 +131,8 @@ fn rig(clip: &Clip, (parts, facing): (Vec<PartSpec>, Facing)) -> Rig {
             joint,
             tip,
             surface: if is_rooted { vec![] } else { vec![tip, joint] },
+            outline: Vec::new(),
+            is_arm: false,
             stands,
             drive,
             is_leg: stands,

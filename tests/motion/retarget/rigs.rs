@@ -57,6 +57,8 @@ pub(crate) fn part(
         joint,
         tip,
         surface: Vec::new(),
+        outline: Vec::new(),
+        is_arm: false,
         stands: false,
         drive: None,
         is_leg: false,
@@ -111,11 +113,12 @@ impl Builder {
                 joint: *joint,
                 tip: *tip,
                 follow: match tip {
+                    _ if is_leg && index == 2 => Follow::Sole,
                     Some(_) => Follow::Direction,
                     None => Follow::Change,
                 },
             });
-            own.is_leg = is_leg && tip.is_some();
+            own.is_leg = is_leg;
             if is_leg && index + 1 == bones.len() {
                 own.stands = true;
                 own.surface = match pieces {

@@ -1,0 +1,183 @@
+//! A model as other programs get it: the vertices of a GLB, moved by its clips.
+
+use std::collections::BTreeMap;
+
+use glam::{DQuat, DVec3, Quat, Vec3};
+use gltf::animation::util::ReadOutputs;
+use okoshi::internals::mocap::Transform;
+
+/// A node with its mesh, in its own frame.
+pub(super) struct Node {
+    pub(super) parent: Option<usize>,
+    local: Transform,
+    pub(super) corners: Vec<DVec3>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// The keys of a node in a clip, one per frame.
+#[derive(Default)]
+struct Keys {
+    places: Vec<DVec3>,
+    turns: Vec<DQuat>,
+}
+
+/// A model.
+pub(super) struct Model {
+    pub(super) nodes: Vec<Node>,
+    names: BTreeMap<String, usize>,
+    /// Per clip its name, and the keys of nodes.
+    clips: BTreeMap<String, BTreeMap<usize, Keys>>,
+    /// The nodes, parents before children.
+    order: Vec<usize>,
+}
+
+impl Model {
+    pub(super) fn read(glb: &[u8]) -> Self {
+        let file = gltf::Gltf::from_slice(glb).expect("a GLB");
+        let blob = file.blob.as_deref().expect("its data");
+        let mut model = Self {
+            nodes: Vec::new(),
+            names: BTreeMap::new(),
+            clips: BTreeMap::new(),
+            order: Vec::new(),
+        };
+        for node in file.nodes() {
+            let name = node.name().unwrap_or_default().to_owned();
+            model.names.entry(name).or_insert(node.index());
+            model.nodes.push(read_node(&node, blob));
+        }
+        for node in file.nodes() {
+            for child in node.children() {
+                model.nodes[child.index()].parent = Some(node.index());
+            }
+        }
+        let scene = file.default_scene().expect("a scene");
+        let mut stack: Vec<gltf::Node<'_>> = scene.nodes().collect();
+        while let Some(node) = stack.pop() {
+            model.order.push(node.index());
+            stack.extend(node.children());
+        }
+        for clip in file.animations() {
+            let name = clip.name().unwrap_or_default().to_owned();
+            let nodes = model.clips.entry(name).or_default();
+            for channel in clip.channels() {
+                let reader = channel.reader(|_| Some(blob));
+                let keys = nodes.entry(channel.target().node().index()).or_default();
+                match reader.read_outputs().expect("values") {
+                    ReadOutputs::Translations(places) => {
+                        keys.places = places.map(|at| Vec3::from(at).as_dvec3()).collect();
+                    }
+                    ReadOutputs::Rotations(turns) => {
+                        let turns = turns.into_f32();
+                        keys.turns = turns
+                            .map(|turn| Quat::from_array(turn).as_dquat())
+                            .collect();
+                    }
+                    _ => panic!("a figure is moved and turned"),
+                }
+            }
+        }
+        model
+    }
+
+    /// The node of a name.
+    pub(super) fn named(&self, name: &str) -> Option<usize> {
+        self.names.get(name).copied()
+    }
+
+    /// A node and what hangs on it.
+    pub(super) fn with_children(&self, node: usize) -> Vec<usize> {
+        let above = |node: &usize| self.nodes[*node].parent;
+        let is_below =
+            |other: &usize| std::iter::successors(Some(*other), above).any(|other| other == node);
+        (0..self.nodes.len()).filter(is_below).collect()
+    }
+
+    /// The transforms of the nodes at rest.
+    pub(super) fn at_rest(&self) -> Vec<Transform> {
+        self.placed(|node| self.nodes[node].local)
+    }
+
+    /// The transforms of the nodes in a frame of a clip.
+    pub(super) fn at(&self, clip: &str, frame: usize) -> Vec<Transform> {
+        let keys = &self.clips[clip];
+        self.placed(|node| {
+            let mut local = self.nodes[node].local;
+            if let Some(keys) = keys.get(&node) {
+                local.position = keys.places.get(frame).copied().unwrap_or(local.position);
+                local.rotation = keys.turns.get(frame).copied().unwrap_or(local.rotation);
+            }
+            local
+        })
+    }
+
+    fn placed(&self, local: impl Fn(usize) -> Transform) -> Vec<Transform> {
+        let mut world: Vec<Transform> = (0..self.nodes.len()).map(&local).collect();
+        for node in &self.order {
+            if let Some(parent) = self.nodes[*node].parent {
+                let (above, own) = (world[parent], world[*node]);
+                world[*node] = Transform {
+                    rotation: above.rotation * own.rotation,
+                    position: above.position + above.rotation * own.position,
+                };
+            }
+        }
+        world
+    }
+
+    /// The corners of some nodes' meshes in the world.
+    pub(super) fn corners<'a>(
+        &'a self,
+        nodes: &'a [usize],
+        world: &'a [Transform],
+    ) -> impl Iterator<Item = DVec3> + 'a {
+        nodes.iter().flat_map(|node| {
+            let placed = world[*node];
+            let corners = self.nodes[*node].corners.iter();
+            corners.map(move |corner| placed.position + placed.rotation * *corner)
+        })
+    }
+
+    /// Whether a point of the world is inside a node's mesh: the sum of the solid angles of its triangles (van Oosterom & Strackee
+    /// 1983) is that of a whole sphere.
+    pub(super) fn is_inside(&self, node: usize, world: &[Transform], point: DVec3) -> bool {
+        let Node {
+            corners, triangles, ..
+        } = &self.nodes[node];
+        let placed = world[node];
+        let point = placed.rotation.inverse() * (point - placed.position);
+        let angles = triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|corner| corners[corner as usize] - point);
+            let [x, y, z] = [a, b, c].map(DVec3::length);
+            let volume = a.dot(b.cross(c));
+            let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+            2.0 * volume.atan2(below)
+        });
+        angles.sum::<f64>() > 2.0 * std::f64::consts::PI
+    }
+}
+
+fn read_node(node: &gltf::Node<'_>, blob: &[u8]) -> Node {
+    let (place, turn, _) = node.transform().decomposed();
+    let mut own = Node {
+        parent: None,
+        local: Transform {
+            rotation: Quat::from_array(turn).as_dquat(),
+            position: Vec3::from(place).as_dvec3(),
+        },
+        corners: Vec::new(),
+        triangles: Vec::new(),
+    };
+    for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
+        let reader = primitive.reader(|_| Some(blob));
+        let first = own.corners.len() as u32;
+        let corners = reader.read_positions().expect("positions");
+        own.corners
+            .extend(corners.map(|at| Vec3::from(at).as_dvec3()));
+        let indices: Vec<u32> = reader.read_indices().expect("indices").into_u32().collect();
+        let triangles = indices.chunks_exact(3);
+        own.triangles
+            .extend(triangles.map(|t| [t[0] + first, t[1] + first, t[2] + first]));
+    }
+    own
+}
