@@ -28,7 +28,7 @@ const WEAKEST: f64 = 0.05;
 /// Paths are smoothed by a Gaussian of this deviation, seconds: single frames may be wrong.
 const SMOOTHING: f64 = 0.03;
 /// A contact lasts: what a foot's velocity changes by in this time, seconds, counts as speed.
-const TURN: f64 = 0.015;
+const TURN: f64 = 0.02;
 /// Samples per second, at least; every frame has a whole number of them.
 const SAMPLES: f64 = 240.0;
 /// The most samples of a frame.

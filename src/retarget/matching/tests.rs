@@ -85,7 +85,7 @@ fn limbs_in_pieces_follow_their_bones() {
         "-",
         "RightHip > RightKnee",
         "RightKnee > RightAnkle",
-        "RightAnkle > RightToes",
+        "RightAnkle",
         "LeftHip > LeftKnee",
         "LeftKnee > LeftAnkle",
         "RightShoulder > RightWrist",
@@ -131,7 +131,7 @@ fn a_dog_trots() {
         "Head",
         "-",
         "RightHip > RightAnkle",
-        "-",
+        "RightAnkle",
         "LeftHip > LeftKnee",
         "LeftKnee > LeftAnkle",
     ];
