@@ -11,8 +11,8 @@ use super::bones;
 use super::diagnostics::{self, MatchProblems};
 use super::figure_clip::{self, FigureClip};
 use super::figures::FigureGroup;
-use super::moves::{Moves, Role, Roles};
 use super::holding;
+use super::moves::{Moves, Role, Roles};
 use super::performed::{self, Channels, Performed};
 use super::rigging::{self, RestNodes};
 use super::tracks::AnimatedNodes;
@@ -162,12 +162,28 @@ impl<'a> ClipBuilder<'a> {
         figure: Figure,
         roles: Roles,
     ) -> (MatchedFigure, Arc<PreparedClip>) {
+        if let Some(root) = roles.better_root(which, group.rooted(), &figure) {
+            let group = group.clone().rooted_at(group.parts[root]);
+            let figure = rigging::drawn_figure(self.context, &group);
+            let roles = Roles::find(&figure, root);
+            return self.moved_about(which, group, figure, roles);
+        }
+        self.moved_about(which, group.clone(), figure, roles)
+    }
+
+    fn moved_about(
+        &self,
+        which: BuiltIn,
+        group: FigureGroup,
+        figure: Figure,
+        roles: Roles,
+    ) -> (MatchedFigure, Arc<PreparedClip>) {
         let moves = Moves::new(which, roles);
         let parts = &self.context.bindings.parts;
         let matching = moves.matching(|part| parts[group.parts[part]].name.clone());
         let motion = prepare::of_parts(&Role::NAMES, moves.frames());
         let matched = MatchedFigure {
-            group: group.clone(),
+            group,
             figure,
             matching,
             moves: Some(Arc::new(moves)),

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::Context;
 use super::builder::MatchedFigure;
-use crate::anatomy;
 use super::figures::FigureGroup;
 use super::moves::Roles;
+use crate::anatomy;
 use crate::bind::PartId;
 use crate::clips::BuiltIn;
 use crate::diagnostic::{Code, Diagnostic, listed};
@@ -171,17 +171,16 @@ impl Misfit {
 }
 
 /// Reports the figures that lack what one clip moves.
-pub(super) fn report_misfits(
-    figures: &[Misfit],
-    span: Span,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+pub(super) fn report_misfits(figures: &[Misfit], span: Span, diagnostics: &mut Vec<Diagnostic>) {
     let Some(first) = figures.first() else {
         return;
     };
     let (which, fitting) = (first.which.name(), first.fitting.name());
     let (whose, effect) = match figures {
-        [_] => (format!("the figure of `{}`", first.name), "it moves as one piece"),
+        [_] => (
+            format!("the figure of `{}`", first.name),
+            "it moves as one piece",
+        ),
         _ => {
             let names = figures.iter().map(|figure| format!("`{}`", figure.name));
             let whose = format!("the figures of {}", listed(names));

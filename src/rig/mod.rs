@@ -45,15 +45,15 @@ use crate::svg::Drawing;
 pub(crate) use bends::bends;
 use builder::{ClipBuilder, Requested};
 use diagnostics::MatchProblems;
-use limbless::Misfit;
-use moves::Roles;
 pub(crate) use effects::{Performance, PerformedMark};
 pub(crate) use facings::{FigureFacing, facings, seen};
 pub use figure_clip::FigureClip;
 pub(crate) use figure_clip::{PartDrive, originals};
 pub(crate) use figures::FigureGroup;
 pub(crate) use figures::find as find_figures;
+use limbless::Misfit;
 use motion_files::MotionFiles;
+use moves::Roles;
 use performances::Performances;
 pub(crate) use performed::Performed;
 pub(crate) use rigging::RestNode;
@@ -174,9 +174,10 @@ pub(crate) fn add_clips(
                     let motion = builder.built_in(which, &figure);
                     (builder.match_figure(group, figure, &motion), motion)
                 }
-                (Motion::File(motion), None) => {
-                    (builder.match_figure(group, figure, motion), Arc::clone(motion))
-                }
+                (Motion::File(motion), None) => (
+                    builder.match_figure(group, figure, motion),
+                    Arc::clone(motion),
+                ),
                 (_, None) => continue,
             };
             let Some(matched) = matched else {
@@ -190,6 +191,10 @@ pub(crate) fn add_clips(
                 break;
             }
             let performance = builder.performance(request, &matched.group);
+            if let Some(request) = performance.as_ref().filter(|_| matched.moves.is_some()) {
+                diagnostics.push(diagnostics::unperformed(request, link));
+            }
+            let performance = performance.filter(|_| matched.moves.is_none());
             let performance = performance.and_then(|request| {
                 let tracks = performances.get(&request, resolver, memo, diagnostics)?;
                 let found = builder.perform(request, &tracks, &matched, &motion, diagnostics);

@@ -56,8 +56,17 @@ impl Moves {
                 follow: Follow::Change,
             });
             let why = match role {
-                Some(role) => format!("`{}` is {}: {}", names(part), self.roles.why(part), role.does()),
-                None => format!("`{}` has no motion of its own in `{}`", names(part), self.which.name()),
+                Some(role) => format!(
+                    "`{}` is {}: {}",
+                    names(part),
+                    self.roles.why(part),
+                    role.does()
+                ),
+                None => format!(
+                    "`{}` has no motion of its own in `{}`",
+                    names(part),
+                    self.which.name()
+                ),
             };
             MatchedPart {
                 label: self.roles.labels[part].clone(),

@@ -129,7 +129,9 @@ pub(super) fn body(which: BuiltIn, roles: &Roles, time: f64) -> DQuat {
         }
         BuiltIn::Float => roll(2.5 * (time * TAU).cos()),
         BuiltIn::Sway if roles.is_potted => DQuat::IDENTITY,
-        BuiltIn::Sway => roll(2.5 * wave) * DQuat::from_rotation_x((1.0 * (time * TAU).cos()).to_radians()),
+        BuiltIn::Sway => {
+            roll(2.5 * wave) * DQuat::from_rotation_x((1.0 * (time * TAU).cos()).to_radians())
+        }
         _ => DQuat::IDENTITY,
     }
 }

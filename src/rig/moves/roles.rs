@@ -14,6 +14,8 @@ use crate::labels::{
 const LOW: f64 = 0.2;
 /// A wheel that is seen from its side is at most this much longer than wide.
 const ROUND: f64 = 1.4;
+/// The middles of a wheel and its rim are at most this share of the wheel's radius apart.
+const CONCENTRIC: f64 = 0.3;
 /// So many legs under a head are tentacles: those of an octopus.
 const MANY_LEGS: usize = 7;
 /// Without a name of a tail, a fin is one if it begins in this share of the figure's length behind its front.
@@ -103,8 +105,9 @@ impl Roles {
         let labeled = label_drawn(figure);
         let none = [DVec2::INFINITY, DVec2::NEG_INFINITY];
         let bounds = figure.parts.iter().map(|part| part.bounds);
-        let [low, high] =
-            bounds.fold(none, |[low, high], [from, to]| [low.min(from), high.max(to)]);
+        let [low, high] = bounds.fold(none, |[low, high], [from, to]| {
+            [low.min(from), high.max(to)]
+        });
         let facing = labeled.facing.facing;
         let names = || figure.parts.iter().map(|part| part.name.as_str());
         let mut roles = Self {
@@ -127,6 +130,7 @@ impl Roles {
             let role = roles.role(part, index, figure, legs_are_tentacles);
             roles.parts[index] = roles.actor(part, index, role, facing);
         }
+        roles.inner_discs();
         roles.fins_as_tails();
         roles.depths(figure);
         roles.is_potted = roles.stands_in_pot(figure);
@@ -147,7 +151,9 @@ impl Roles {
         let is_round = size.max_element() <= ROUND * size.min_element();
         let is_low = low.y <= self.low.y + LOW * self.height();
         if anatomy::is_rolling(&part.name) {
-            let is_inner = part.parent.is_some_and(|above| anatomy::is_rolling(&figure.parts[above].name));
+            let is_inner = part
+                .parent
+                .is_some_and(|above| anatomy::is_rolling(&figure.parts[above].name));
             let rolls = is_low && !is_inner && (is_round || !self.facing.facing.is_profile());
             return rolls.then_some(Role::Wheel);
         }
@@ -216,13 +222,35 @@ impl Roles {
         }
     }
 
+    /// A rim turns with the wheel in which it lies, about the same axle.
+    fn inner_discs(&mut self) {
+        let wheels: Vec<Actor> = self.parts.iter().copied().collect();
+        let wheels = wheels
+            .iter()
+            .filter(|wheel| wheel.role == Some(Role::Wheel));
+        let mut wheels: Vec<&Actor> = wheels.collect();
+        wheels.sort_by(|a, b| b.radius.total_cmp(&a.radius));
+        for actor in &mut self.parts {
+            let around =
+                |wheel: &&&Actor| wheel.center.distance(actor.center) < CONCENTRIC * wheel.radius;
+            let outer = wheels.iter().find(around);
+            if let Some(outer) = outer.filter(|_| actor.role == Some(Role::Wheel)) {
+                (actor.radius, actor.center) = (outer.radius, outer.center);
+            }
+        }
+    }
+
     /// Where no name says tail, the fins at the rear end are one.
     fn fins_as_tails(&mut self) {
         if self.has(Role::Tail) || !self.facing.facing.is_profile() {
             return;
         }
         let forward = self.forward.x;
-        let front = if forward > 0.0 { self.high.x } else { self.low.x };
+        let front = if forward > 0.0 {
+            self.high.x
+        } else {
+            self.low.x
+        };
         let length = self.length();
         for actor in self.parts.iter_mut() {
             let behind = (front - actor.center.x) * forward;
@@ -297,7 +325,11 @@ impl Roles {
     /// The clip that fits the figure.
     pub(in crate::rig) fn fitting(&self) -> BuiltIn {
         let named_legs = self.has(Role::Leg) && self.is_alive;
-        let legs = self.parts.iter().filter(|actor| actor.role == Some(Role::Leg)).count();
+        let legs = self
+            .parts
+            .iter()
+            .filter(|actor| actor.role == Some(Role::Leg))
+            .count();
         match () {
             () if self.has(Role::Wheel) => BuiltIn::Drive,
             () if self.has(Role::Tentacle) => BuiltIn::Float,
@@ -311,12 +343,37 @@ impl Roles {
         }
     }
 
+    /// Which of the parts that may be the root should be: what stands lowest in what sways, else not a wheel, which rolls.
+    pub(in crate::rig) fn better_root(
+        &self,
+        which: BuiltIn,
+        rooted: impl Iterator<Item = FigurePartId>,
+        figure: &Figure,
+    ) -> Option<FigurePartId> {
+        let area = |part: &FigurePartId| {
+            let [low, high] = figure.parts[*part].bounds;
+            (high - low).element_product()
+        };
+        let lowest = |part: &FigurePartId| figure.parts[*part].bounds[0].y;
+        let found = match which {
+            BuiltIn::Sway => rooted.min_by(|a, b| lowest(a).total_cmp(&lowest(b))),
+            _ if self.parts[self.root].role == Some(Role::Wheel) => rooted
+                .filter(|part| self.parts[*part].role != Some(Role::Wheel))
+                .max_by(|a, b| area(a).total_cmp(&area(b))),
+            _ => None,
+        };
+        found.filter(|part| *part != self.root)
+    }
+
     /// What a clip needs that the figure does not have: `wheels`.
     pub(in crate::rig) fn lacks(&self, which: BuiltIn) -> Option<&'static str> {
         let (has, what) = match which {
             BuiltIn::Drive => (self.has(Role::Wheel), "wheels"),
             BuiltIn::Fly => (self.has(Role::Wing), "wings"),
-            BuiltIn::Swim => (self.has(Role::Fin) || self.has(Role::Tail), "fins and no tail"),
+            BuiltIn::Swim => (
+                self.has(Role::Fin) || self.has(Role::Tail),
+                "fins and no tail",
+            ),
             BuiltIn::Float => (self.has(Role::Tentacle), "tentacles"),
             _ => return None,
         };
@@ -334,7 +391,11 @@ impl Roles {
             Role::Leg,
         ];
         let kinds = kinds.into_iter().filter_map(|role| {
-            let count = self.parts.iter().filter(|actor| actor.role == Some(role)).count();
+            let count = self
+                .parts
+                .iter()
+                .filter(|actor| actor.role == Some(role))
+                .count();
             let name = Role::NAMES[role as usize];
             match count {
                 0 => None,
