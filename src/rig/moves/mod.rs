@@ -71,6 +71,7 @@ impl Moves {
             MatchedPart {
                 label: self.roles.labels[part].clone(),
                 splayed: false,
+                bones: Vec::default(),
                 drive,
                 why,
             }
@@ -87,7 +88,8 @@ impl Moves {
         if part == self.roles.root {
             return Some(Role::Body);
         }
-        let role = self.roles.parts[part].role?;
+        // The bones inside of a part that bends follow after the parts of the figure.
+        let role = self.roles.parts.get(part)?.role?;
         poses::moves(self.which, role).then_some(role)
     }
 
