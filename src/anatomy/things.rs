@@ -114,6 +114,36 @@ pub(crate) fn is_supple(name: &str) -> bool {
     has_word(name, SUPPLE)
 }
 
+/// Words for fins; katakana words are written in hiragana here.
+const FINS: &str = "fin flipper fluke ひれ 鰭 胸びれ 背びれ 尾びれ";
+/// Words for the arms of squids, jellyfish and octopuses.
+const TENTACLES: &str = "tentacle 触手 しょくしゅ";
+/// Words for wheels that do not roll.
+const UNROLLED: &str = "steering spare water ferris はんどる 予備 水車 観覧車";
+/// Words for what grows, and stands in the wind.
+const PLANTS: &str = "plant flower stem stalk leaf petal tree trunk branch twig bush grass flag pole sunflower tulip rose 花 はな 茎 くき 葉 木 き 草 枝 \
+     旗 はた";
+
+/// Whether a name is that of a fin.
+pub(crate) fn is_fin(name: &str) -> bool {
+    has_word(name, FINS)
+}
+
+/// Whether a name is that of a tentacle.
+pub(crate) fn is_tentacle(name: &str) -> bool {
+    has_word(name, TENTACLES)
+}
+
+/// Whether a name is that of a wheel on which something may roll.
+pub(crate) fn is_rolling(name: &str) -> bool {
+    is_disc(name) && !has_word(name, UNROLLED)
+}
+
+/// Whether a name is that of something which sways in the wind.
+pub(crate) fn is_plant(name: &str) -> bool {
+    has_word(name, PLANTS)
+}
+
 /// Words for what is thin and limp; katakana words are written in hiragana here.
 const SHEETS: &str = "cape cloak wing leaf petal flag banner paper veil curtain sail kite page cloth towel blanket マント まんと 翼 つばさ \
      羽 はね 羽根 旗 はた 葉 葉っぱ 花びら 紙 べーる かーてん 帆 布 ぬの";

@@ -59,6 +59,7 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Result<Outcome, Failure
         is_in_place: arguments.in_place,
     };
     let (opening, prepared) = match built_in(arguments) {
+        Some(which) if which.moves_parts() => return Err(needs_a_figure(which).into()),
         Some(which) => {
             let clip = prepare::built_in(which, arguments.legs);
             (describe(&clip.clip), clip.change(&options))
@@ -124,6 +125,14 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Result<Outcome, Failure
 /// The clip that comes along that the argument names; a file of that name is `./walk`.
 fn built_in(arguments: &Motion) -> Option<BuiltIn> {
     arguments.motion.to_str().and_then(BuiltIn::from_name)
+}
+
+/// Why a clip that moves the parts of a figure cannot be written.
+fn needs_a_figure(which: BuiltIn) -> String {
+    let word = which.name();
+    format!(
+        "`{word}` moves the parts of a figure and has no skeleton: write `Motion {word}` in a drawing, and build that"
+    )
 }
 
 /// Reads the motion file; failures are reported.

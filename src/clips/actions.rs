@@ -31,7 +31,7 @@ pub(super) fn poses(clip: BuiltIn, body: &Body) -> Option<Vec<Pose>> {
         BuiltIn::Dance => (48, dance),
         BuiltIn::Punch => (48, punch),
         BuiltIn::Jump => (40, jump),
-        BuiltIn::Walk | BuiltIn::Run | BuiltIn::Trot | BuiltIn::Sneak => return None,
+        _ => return None,
     };
     let mut poses: Vec<Pose> = (0..=frames).map(|frame| pose(body, frame as f64)).collect();
     lower(body, &mut poses, REACH[usize::from(body.legs.len() > 4)]);

@@ -1,4 +1,5 @@
-//! Built-in clips: walks, runs and a few actions, made by rules, for two, four and six legs.
+//! Built-in clips: walks, runs and a few actions, made by rules, for two, four and six legs. Those that move the parts of a figure, such
+//! as wheels, are in `rig`, because they need one.
 //!
 //! A gait is made as an animator blocks it: the feet first, planted on the ground and carried to the next step, then the hips over
 //! them, then what follows from these: chest, arms and head. Legs reach their feet by inverse kinematics, and the body is as high as
@@ -8,6 +9,7 @@ mod actions;
 mod body;
 mod curves;
 mod gaits;
+mod parts;
 mod pose;
 mod steps;
 #[cfg(test)]
@@ -21,6 +23,7 @@ use crate::mocap::Clip;
 use crate::mocap::resample::FPS;
 use body::Body;
 use gaits::Gait;
+pub(crate) use parts::still;
 
 /// A built-in clip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -43,11 +46,23 @@ pub enum BuiltIn {
     Dance,
     /// A jab and a punch.
     Punch,
+    /// Rolling on wheels.
+    Drive,
+    /// Flying with wings.
+    Fly,
+    /// Swimming with fins and a tail.
+    Swim,
+    /// Hopping as one body.
+    Hop,
+    /// Floating with tentacles.
+    Float,
+    /// Swaying in the wind.
+    Sway,
 }
 
 impl BuiltIn {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 15] = [
         Self::Walk,
         Self::Run,
         Self::Trot,
@@ -57,6 +72,12 @@ impl BuiltIn {
         Self::Wave,
         Self::Dance,
         Self::Punch,
+        Self::Drive,
+        Self::Fly,
+        Self::Swim,
+        Self::Hop,
+        Self::Float,
+        Self::Sway,
     ];
 
     /// The word for it.
@@ -71,12 +92,26 @@ impl BuiltIn {
             Self::Wave => "wave",
             Self::Dance => "dance",
             Self::Punch => "punch",
+            Self::Drive => "drive",
+            Self::Fly => "fly",
+            Self::Swim => "swim",
+            Self::Hop => "hop",
+            Self::Float => "float",
+            Self::Sway => "sway",
         }
     }
 
     /// Whether it is a way to walk.
     pub(crate) fn is_gait(self) -> bool {
         matches!(self, Self::Walk | Self::Run | Self::Trot | Self::Sneak)
+    }
+
+    /// Whether it moves the parts of a figure by what they are, and not by the joints of a body: it exists on a figure only.
+    pub fn moves_parts(self) -> bool {
+        matches!(
+            self,
+            Self::Drive | Self::Fly | Self::Swim | Self::Hop | Self::Float | Self::Sway
+        )
     }
 
     /// The clip of a word.
@@ -125,7 +160,7 @@ impl Legs {
     }
 }
 
-/// A clip, centimetres, 24 frames a second; +y is up, and the body travels to +z. Its last frame is the first one again, as far
+/// A clip of a body, without frames for what moves the parts of a figure. Centimetres, 24 frames a second; +y is up, and the body travels to +z. Its last frame is the first one again, as far
 /// ahead as it has travelled.
 pub(crate) fn clip(which: BuiltIn, legs: Legs) -> (Clip, Anatomy) {
     let body = Body::on(legs);

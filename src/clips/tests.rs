@@ -6,11 +6,12 @@ use super::body::{Body, Leg};
 use super::*;
 use crate::mocap::{self, JointId};
 
-/// Every clip, with its poses.
+/// Every clip of a body, with its poses.
 fn all() -> impl Iterator<Item = (String, BuiltIn, Body, Vec<mocap::Pose>)> {
     let pairs = Legs::ALL
         .into_iter()
-        .flat_map(|legs| BuiltIn::ALL.map(|which| (legs, which)));
+        .flat_map(|legs| BuiltIn::ALL.map(|which| (legs, which)))
+        .filter(|(_, which)| !which.moves_parts());
     pairs.map(|(legs, which)| {
         let (clip, _) = clip(which, legs);
         let poses = (0..clip.frames).map(|frame| clip.pose(frame)).collect();

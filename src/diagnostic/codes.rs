@@ -567,14 +567,16 @@ codes! {
     /// Film the puppet from the front, and cut the clip to one action: `okoshi track CLIP --range 1:48`. Or name the frames that
     /// belong together, that of the track first: `Perform "hands.json" 31 44`.
     OddPerformance = "W329", "performance with an unexpected effect";
-    /// A gait such as `walk` is played by a figure in which no legs are found, or any motion by one without limbs: it glides.
+    /// A gait such as `walk` is played by a figure in which no legs are found, or any motion by one without limbs: it glides. Or a
+    /// clip moves wheels, wings, fins or tentacles, and the figure has none.
     ///
     /// ```text
     /// Ghost$Motion walk
     /// ```
     ///
     /// Name the parts on which it stands after what they are, such as `Lleg@Ghost` and `Rleg@Ghost`, or say which joints drive
-    /// them with `Bone`. `okoshi inspect` tells what each part is taken for.
+    /// them with `Bone`. Or write the clip that fits what the figure has, or `Motion` alone, which finds it. `okoshi inspect` tells
+    /// what each part is taken for.
     NoLimbs = "W330", "motion without limbs";
     /// The motion takes a part off what it hangs on, because it turns about a point that lies beside one of the two. Over the
     /// clip, the gap between them grows by more than 3 % of the figure's height.

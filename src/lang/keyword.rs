@@ -316,7 +316,7 @@ mod tests {
         assert_eq!(
             Keyword::Motion.usages()[..2],
             [
-                "Motion [-il] \"file\" [up]",
+                "Motion [-il] [\"file\" [up]]",
                 "Motion [-il] \"file\" clip [up]"
             ]
         );

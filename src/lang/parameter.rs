@@ -159,7 +159,8 @@ mod tests {
                 Some(("Perform", "motion-key")),
             ),
             ("$Motion walk", 0, Some(("Motion", "clip"))),
-            ("$Motion walk", 1, None),
+            ("$Motion walk", 1, Some(("Motion", "name"))),
+            ("$Motion walk stroll", 2, None),
         ] {
             assert_eq!(name(string, index), expected, "{string} {index}");
         }

@@ -105,7 +105,7 @@ impl Shape {
     }
 }
 
-/// `Motion [-il] "file" [clip] [up]`, `Motion [-il] walk`
+/// `Motion [-il] "file" [clip] [up]`, `Motion [-il] walk [name]`, `Motion [-il]`
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     /// The motion.
@@ -127,6 +127,8 @@ pub enum MotionSource {
     File(String),
     /// A clip that comes along, by its word in the table.
     BuiltIn(String),
+    /// The clip that comes along and fits the figure.
+    Fitting,
 }
 
 /// `Mark color`

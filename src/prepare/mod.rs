@@ -84,6 +84,15 @@ pub struct PreparedClip {
 /// A built-in clip. It has 24 frames a second, no lead-in, and is a loop.
 pub fn built_in(which: BuiltIn, legs: Legs) -> PreparedClip {
     let (clip, anatomy) = clips::clip(which, legs);
+    repeated(clip, anatomy)
+}
+
+/// The clip of a figure whose parts are moved without a skeleton: joints of these names, which stand still for so many frames.
+pub(crate) fn of_parts(names: &[&str], frames: usize) -> PreparedClip {
+    repeated(clips::still(names, frames), Anatomy::default())
+}
+
+fn repeated(clip: Clip, anatomy: Anatomy) -> PreparedClip {
     PreparedClip {
         positions: clip.positions(),
         clip,

@@ -12,6 +12,7 @@ use super::diagnostics::{self, MatchProblems};
 use super::figure_clip::{self, FigureClip};
 use super::figures::FigureGroup;
 use super::holding;
+use super::moves::{Moves, Role, Roles};
 use super::performed::{self, Channels, Performed};
 use super::rigging::{self, RestNodes};
 use super::tracks::AnimatedNodes;
@@ -67,6 +68,8 @@ pub(super) struct MatchedFigure {
     pub(super) group: FigureGroup,
     pub(super) figure: Figure,
     pub(super) matching: Matching,
+    /// The clip, where it moves parts by what they are and not by joints.
+    pub(super) moves: Option<Arc<Moves>>,
 }
 
 /// A clip that a string asks for.
@@ -126,6 +129,7 @@ impl<'a> ClipBuilder<'a> {
                 group,
                 figure,
                 matching,
+                moves: None,
             }
         };
         let mut found = matched(group.clone(), figure);
@@ -149,6 +153,43 @@ impl<'a> ClipBuilder<'a> {
         found.matching.problems.extend(bent);
         self.problems.add(&found.group, &found.matching);
         Some(found)
+    }
+
+    /// A figure with the clip that moves its parts, and how long that is.
+    pub(super) fn moved(
+        &self,
+        which: BuiltIn,
+        group: &FigureGroup,
+        figure: Figure,
+        roles: Roles,
+    ) -> (MatchedFigure, Arc<PreparedClip>) {
+        if let Some(root) = roles.better_root(which, group.rooted(), &figure) {
+            let group = group.clone().rooted_at(group.parts[root]);
+            let figure = rigging::drawn_figure(self.context, &group);
+            let roles = Roles::find(&figure, root);
+            return self.moved_about(which, group, figure, roles);
+        }
+        self.moved_about(which, group.clone(), figure, roles)
+    }
+
+    fn moved_about(
+        &self,
+        which: BuiltIn,
+        group: FigureGroup,
+        figure: Figure,
+        roles: Roles,
+    ) -> (MatchedFigure, Arc<PreparedClip>) {
+        let moves = Moves::new(which, roles);
+        let parts = &self.context.bindings.parts;
+        let matching = moves.matching(|part| parts[group.parts[part]].name.clone());
+        let motion = prepare::of_parts(&Role::NAMES, moves.frames());
+        let matched = MatchedFigure {
+            group,
+            figure,
+            matching,
+            moves: Some(Arc::new(moves)),
+        };
+        (matched, Arc::new(motion))
     }
 
     /// What a performance does to a clip of a figure; `None` if no part of it has a mark of the tracks.
@@ -296,6 +337,9 @@ impl<'a> ClipBuilder<'a> {
         rig: &Arc<Rig>,
         performance: Option<&FoundPerformance<'_>>,
     ) -> Arc<RetargetedClip> {
+        if let Some(moves) = &matched.moves {
+            return Arc::new(moves.play(rig, request.is_in_place));
+        }
         let ratios = performance.map(|found| found.channels.ratios(&found.plan, matched));
         let ratios = ratios.unwrap_or_default();
         let plan = performance.map(|found| &found.plan);

@@ -216,6 +216,16 @@ pub(super) fn mark_problem(
     }
 }
 
+/// A performance of a clip that moves parts by what they are.
+pub(super) fn unperformed(request: &PerformanceRequest<'_>, clip: &str) -> Diagnostic {
+    let message = format!(
+        "`Perform \"{}\"` has no effect on `{clip}`, which has no joints that a mark could perform",
+        request.file
+    );
+    Diagnostic::new(Code::MarkMismatch, request.span, message)
+        .help("perform a motion of a body, such as a file or `Motion wave`, or leave `Perform` out")
+}
+
 /// Marks of a track that no part of the drawing has.
 pub(super) fn unused_marks(names: &[&str], span: Span) -> Diagnostic {
     let (which, verb) = match names {

@@ -37,6 +37,11 @@ impl FigureGroup {
         self.touching.iter().any(|(rooted, _)| *rooted == part)
     }
 
+    /// The parts without a parent by their strings.
+    pub(super) fn rooted(&self) -> impl Iterator<Item = FigurePartId> {
+        self.touching.iter().map(|(rooted, _)| *rooted)
+    }
+
     /// The same figure with another root, which must be a part without a parent by its string.
     pub(super) fn rooted_at(mut self, part: PartId) -> Self {
         let Some(root) = self.parts.position(|own| *own == part) else {

@@ -16,6 +16,7 @@ mod limbless;
 mod measured;
 mod missing_files;
 mod motion_files;
+mod moves;
 mod performances;
 mod performed;
 mod rigging;
@@ -50,7 +51,9 @@ pub use figure_clip::FigureClip;
 pub(crate) use figure_clip::{PartDrive, originals};
 pub(crate) use figures::FigureGroup;
 pub(crate) use figures::find as find_figures;
+use limbless::Misfit;
 use motion_files::MotionFiles;
+use moves::Roles;
 use performances::Performances;
 pub(crate) use performed::Performed;
 pub(crate) use rigging::RestNode;
@@ -87,6 +90,8 @@ enum Motion {
     File(Arc<PreparedClip>),
     /// A built-in one: which clip it is depends on the figure.
     BuiltIn(BuiltIn),
+    /// The built-in one that fits the figure.
+    Fitting,
 }
 
 /// Adds the clips that strings ask for to the scene, and returns what they are. `nodes` are the scene's first nodes, parents before
@@ -123,15 +128,19 @@ pub(crate) fn add_clips(
         let (link, motion) = match request.source {
             MotionSource::File(link) => {
                 let motion = files.get(link, request, resolver, memo, diagnostics);
-                (link, motion.map(Motion::File))
+                (link.as_str(), motion.map(Motion::File))
             }
-            MotionSource::BuiltIn(word) => (word, BuiltIn::from_name(word).map(Motion::BuiltIn)),
+            MotionSource::BuiltIn(word) => {
+                (word.as_str(), BuiltIn::from_name(word).map(Motion::BuiltIn))
+            }
+            MotionSource::Fitting => ("", Some(Motion::Fitting)),
         };
         let Some(motion) = motion else {
             continue;
         };
         let mut is_played = false;
         let mut limbless = Vec::new();
+        let mut misfits = Vec::new();
         for group in groups
             .iter()
             .filter(|group| group.is_addressed_by(request.part))
@@ -143,21 +152,49 @@ pub(crate) fn add_clips(
                 break;
             }
             let figure = rigging::drawn_figure(context, group);
-            let motion = match &motion {
-                Motion::File(motion) => Arc::clone(motion),
-                Motion::BuiltIn(which) => builder.built_in(*which, &figure),
+            let roles = group.parts.position(|part| *part == group.root);
+            let roles = Roles::find(&figure, roles.unwrap_or(FigurePartId::from(0)));
+            let fitting = roles.fitting();
+            let which = match &motion {
+                Motion::File(_) => None,
+                Motion::BuiltIn(which) => Some(*which),
+                Motion::Fitting => Some(fitting),
             };
-            let Some(matched) = builder.match_figure(group, figure, &motion) else {
+            let link: &str = match which {
+                Some(which) => which.name(),
+                None => link,
+            };
+            let (matched, motion) = match (&motion, which) {
+                (_, Some(which)) if which.moves_parts() => {
+                    misfits.extend(Misfit::find(context, group, which, &roles));
+                    let (matched, motion) = builder.moved(which, group, figure, roles);
+                    (Some(matched), motion)
+                }
+                (_, Some(which)) => {
+                    let motion = builder.built_in(which, &figure);
+                    (builder.match_figure(group, figure, &motion), motion)
+                }
+                (Motion::File(motion), None) => (
+                    builder.match_figure(group, figure, motion),
+                    Arc::clone(motion),
+                ),
+                (_, None) => continue,
+            };
+            let Some(matched) = matched else {
                 continue;
             };
             is_played = true;
-            limbless.extend(limbless::find(context, request, &matched));
+            limbless.extend(limbless::find(context, which, &matched, fitting));
             keys = keys.saturating_add(motion.clip.frames.saturating_mul(group.parts.len()));
             if keys > MAX_KEYS {
                 diagnostics.push(diagnostics::too_many_keys(request.span));
                 break;
             }
             let performance = builder.performance(request, &matched.group);
+            if let Some(request) = performance.as_ref().filter(|_| matched.moves.is_some()) {
+                diagnostics.push(diagnostics::unperformed(request, link));
+            }
+            let performance = performance.filter(|_| matched.moves.is_none());
             let performance = performance.and_then(|request| {
                 let tracks = performances.get(&request, resolver, memo, diagnostics)?;
                 let found = builder.perform(request, &tracks, &matched, &motion, diagnostics);
@@ -179,6 +216,7 @@ pub(crate) fn add_clips(
             builder.add_clip(requested, &matched, &motion, scene, diagnostics);
         }
         limbless::report(&limbless, link, request.span, diagnostics);
+        limbless::report_misfits(&misfits, request.span, diagnostics);
         if !is_played {
             diagnostics.push(diagnostics::idle_motion(request.span, link));
         }

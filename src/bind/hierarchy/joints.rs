@@ -89,7 +89,7 @@ impl Joints<'_> {
             }
         }
         // A wheel rolls about its axle.
-        if self.context.matched.is_first_look && anatomy::is_disc(self.names.of(index)) {
+        if anatomy::is_disc(self.names.of(index)) {
             return measure.center;
         }
         let candidates = [start, end, measure.center];

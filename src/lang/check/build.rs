@@ -295,12 +295,13 @@ fn has_flag(attribute: &Attribute, letter: char) -> bool {
 
 /// The value of `Motion`.
 fn motion(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Motion> {
-    let (first, others) = values.split_first()?;
-    let source = match first {
-        ArgumentValue::Text(file) => MotionSource::File(file.clone()),
-        ArgumentValue::Word(word) => MotionSource::BuiltIn(word.clone()),
+    let source = match values.first() {
+        None => MotionSource::Fitting,
+        Some(ArgumentValue::Text(file)) => MotionSource::File(file.clone()),
+        Some(ArgumentValue::Word(word)) => MotionSource::BuiltIn(word.clone()),
         _ => return None,
     };
+    let others = values.get(1..).unwrap_or_default();
     let clip = others.iter().find_map(|value| match value {
         ArgumentValue::Text(clip) => Some(clip.clone()),
         _ => None,

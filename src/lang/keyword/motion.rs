@@ -17,6 +17,10 @@ static NAMED_CLIP: [Parameter; 3] = [
     parameter("clip", Takes::Text, "the name of the clip"),
     UP,
 ];
+static OWN_CLIP: [Parameter; 2] = [
+    choice("clip", &vocabulary::CLIPS, "a clip that comes along"),
+    parameter("name", Takes::Text, "the name of the clip"),
+];
 static FRAMES: [Parameter; 2] = [
     number("omit", Bounds::COUNT, "drawings to leave out"),
     number("hold", Bounds::COUNT, "frames to hold"),
@@ -174,13 +178,9 @@ pub(super) static FOLLOW: Row = Row {
 
 pub(super) static MOTION: Row = Row {
     forms: &[
-        Form::new(&FILE_CLIP, &[1, 2]),
+        Form::new(&FILE_CLIP, &[0, 1, 2]),
         Form::new(&NAMED_CLIP, &[2, 3]),
-        Form::one(&choice(
-            "clip",
-            &vocabulary::CLIPS,
-            "a clip that comes along",
-        )),
+        Form::new(&OWN_CLIP, &[1, 2]),
     ],
     flags: &[
         flag('i', "in place: the figure does not travel over the ground"),
@@ -193,9 +193,10 @@ pub(super) static MOTION: Row = Row {
     summary: "a motion for the figure",
     long: "The figure plays a motion-capture file (BVH), or one of the clips that come along: \
            `walk`, `run` and so on, without quotes. The motion's joints are matched with the \
-           parts. In the string of a figure's root part, `Motion` applies to that figure; in a `%` \
-           string, to all figures. Several `Motion` give several clips; a word behind the file \
-           names the clip. An axis at the end says which way is up in the file: \
+           parts. `Motion` alone plays the clip that fits what the figure has: legs walk, wheels roll, \
+           wings fly, fins swim, tentacles float, one body hops, and plants sway. In the string of a figure's root part, `Motion` applies to that figure; in a `%` \
+           string, to all figures. Several `Motion` give several clips; a word behind the file, \
+           or behind the clip that comes along, names the clip. An axis at the end says which way is up in the file: \
            `Motion \"crawl.bvh\" crawl +z`.\n\n\
            `-i` keeps the figure in place, `-l` makes a loop of the motion: `Motion -il walk`.",
     example: "Lbody$Motion \"kick.bvh\" kick",

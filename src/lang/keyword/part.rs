@@ -112,7 +112,7 @@ pub(super) static ORIGIN: Row = Row {
         Form::one(&choice("where", &vocabulary::ORIGIN, "the point")),
         Form::new(&POINT, &[2]),
     ],
-    default: "the part's centre or one of its two ends, whichever is nearest to the parent's centre; of a limb the end at its parent",
+    default: "the part's centre or one of its two ends, whichever is nearest to the parent's centre; of a limb the end at its parent, of a wheel its centre",
     summary: "the point about which the part turns",
     long: "A part turns about its origin: an arm about the shoulder, a wheel about its hub. okoshi \
            guesses the origin from the parent; a limb by its name, such as `Rarm` or `Tail`, turns about \

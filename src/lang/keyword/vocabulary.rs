@@ -102,7 +102,7 @@ pub(crate) static AXES: [Word; 6] = [
 ];
 
 /// The clips of `Motion` that come along.
-pub(crate) static CLIPS: [Word; 9] = [
+pub(crate) static CLIPS: [Word; 15] = [
     word(
         "walk",
         "a walk; on four legs each hind foot is followed by the fore foot of its side",
@@ -118,6 +118,12 @@ pub(crate) static CLIPS: [Word; 9] = [
         "punch",
         "a jab with the left hand and a punch with the right one",
     ),
+    word("drive", "rolling on wheels"),
+    word("fly", "flying with wings"),
+    word("swim", "swimming with fins and a tail"),
+    word("hop", "hops of one body"),
+    word("float", "floating with tentacles"),
+    word("sway", "swaying in the wind"),
 ];
 
 /// A function of expressions, as the reference describes it.

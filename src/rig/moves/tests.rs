@@ -1,0 +1,203 @@
+//! Laws of the clips that move the parts of a figure.
+
+use glam::{DQuat, DVec3};
+
+use super::super::FigureClip;
+use crate::compile::{Compiled, Options, compile};
+use crate::labels::FigurePartId;
+use crate::resolver::MemoryResolver;
+
+const CAR: &str = r##"<rect x="60" y="120" width="280" height="60" inkscape:label="car body"/>
+<rect x="140" y="80" width="120" height="45" inkscape:label="cabin"/>
+<circle cx="110" cy="190" r="40" inkscape:label="rear wheel"/>
+<circle cx="110" cy="190" r="20" inkscape:label="rear rim"/>
+<circle cx="290" cy="200" r="30" inkscape:label="front wheel"/>
+<circle cx="335" cy="130" r="8" inkscape:label="headlight"/>"##;
+const BIRD: &str = r##"<ellipse cx="200" cy="150" rx="35" ry="50" inkscape:label="body"/>
+<circle cx="200" cy="90" r="28" inkscape:label="head"/>
+<circle cx="190" cy="88" r="4" inkscape:label="left eye"/><circle cx="210" cy="88" r="4" inkscape:label="right eye"/>
+<path d="M170,125 L30,140 L172,160 Z" inkscape:label="wing 1"/>
+<path d="M230,125 L370,140 L228,160 Z" inkscape:label="wing 2"/>"##;
+const FISH: &str = r##"<ellipse cx="180" cy="150" rx="100" ry="45" inkscape:label="body"/>
+<path d="M270,150 L340,100 L340,200 Z" inkscape:label="tail fin"/>
+<path d="M160,165 L200,205 L170,205 Z" inkscape:label="side fin"/>
+<circle cx="110" cy="140" r="8" inkscape:label="eye"/>"##;
+const FLOWER: &str = r##"<rect x="196" y="100" width="8" height="180" inkscape:label="stem"/>
+<path d="M200,190 L130,140 L195,160 Z" inkscape:label="leaf"/>
+<circle cx="200" cy="90" r="30" inkscape:label="flower"/>"##;
+const SLIME: &str = r##"<ellipse cx="200" cy="180" rx="90" ry="60" inkscape:label="body"/>
+<circle cx="170" cy="170" r="8" inkscape:label="eye 1"/><circle cx="230" cy="170" r="8" inkscape:label="eye 2"/>"##;
+const SQUID: &str = r##"<ellipse cx="200" cy="100" rx="70" ry="60" inkscape:label="head"/>
+<path d="M150,140 L140,260 L160,260 Z" inkscape:label="tentacle 1"/>
+<path d="M200,150 L190,260 L210,260 Z" inkscape:label="tentacle 2"/>
+<path d="M250,140 L240,260 L260,260 Z" inkscape:label="tentacle 3"/>"##;
+const DOG: &str = r##"<rect x="100" y="120" width="180" height="60" inkscape:label="body"/>
+<circle cx="80" cy="110" r="35" inkscape:label="head"/>
+<rect x="110" y="170" width="20" height="90" inkscape:label="near front leg"/>
+<rect x="140" y="170" width="20" height="90" inkscape:label="far front leg"/>
+<rect x="220" y="170" width="20" height="90" inkscape:label="near hind leg"/>
+<rect x="250" y="170" width="20" height="90" inkscape:label="far hind leg"/>"##;
+const BOX: &str = r##"<rect x="100" y="120" width="180" height="60"/>"##;
+
+const ALL: [(&str, &str); 8] = [
+    (CAR, "drive"),
+    (BIRD, "fly"),
+    (FISH, "swim"),
+    (FLOWER, "sway"),
+    (SLIME, "hop"),
+    (SQUID, "float"),
+    (DOG, "walk"),
+    (BOX, "sway"),
+];
+
+fn playing(figure: &str, motion: &str) -> Compiled {
+    let drawing = format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="400" height="300"><text x="5" y="295" font-size="6">%{motion}</text>{figure}</svg>"##
+    );
+    compile(&drawing, &Options::default(), &MemoryResolver::default())
+}
+
+fn part(compiled: &Compiled, clip: &FigureClip, name: &str) -> FigurePartId {
+    let is_called = |part: &crate::bind::PartId| compiled.bindings.parts[*part].name == name;
+    clip.order.position(is_called).expect(name)
+}
+
+/// The angle of a rotation, radians, −π to π, about an axis.
+fn angle(rotation: DQuat, axis: DVec3) -> f64 {
+    let shorter = 1.0_f64.copysign(rotation.w);
+    2.0 * f64::atan2(shorter * rotation.xyz().dot(axis), shorter * rotation.w)
+}
+
+#[test]
+fn a_figure_plays_what_it_has() {
+    for (figure, word) in ALL {
+        let compiled = playing(figure, "Motion");
+        let names: Vec<&str> = compiled.clips.iter().map(|clip| &*clip.name).collect();
+        assert_eq!(names, [word], "{figure}");
+    }
+}
+
+#[test]
+fn every_clip_ends_as_it_begins() {
+    for (figure, word) in ALL.into_iter().filter(|(_, word)| *word != "walk") {
+        let compiled = playing(figure, "Motion");
+        let clip = &compiled.clips[0].retargeted;
+        let whole = clip.rotations.iter().flatten();
+        for turns in whole {
+            let seam = turns[0].angle_between(turns[turns.len() - 1]);
+            // Of a wheel the whole turns are many.
+            assert!(seam < 1e-6 || word == "drive", "{word}: {seam}");
+        }
+        let ways = clip.translations.iter().flatten();
+        let ways: Vec<DVec3> = ways.map(|way| way[way.len() - 1] - way[0]).collect();
+        for way in &ways {
+            assert!(way.distance(ways[0]) < 1e-9 && way.y.abs() < 1e-9, "{word}");
+        }
+        let stays = playing(figure, "Motion -i");
+        for way in stays.clips[0].retargeted.translations.iter().flatten() {
+            assert!(
+                way[way.len() - 1].distance(way[0]) < 1e-9,
+                "{word} in place"
+            );
+        }
+    }
+}
+
+#[test]
+fn wheels_turn_by_distance_over_radius() {
+    let compiled = playing(CAR, "Motion drive");
+    let clip = &compiled.clips[0];
+    let motion = &clip.retargeted;
+    let body = part(&compiled, clip, "car body");
+    let places = motion.translations[body].as_ref().expect("a root");
+    for (name, radius) in [("rear wheel", 40.0), ("front wheel", 30.0)] {
+        let wheel = part(&compiled, clip, name);
+        let turns = motion.rotations[wheel].as_ref().expect(name);
+        for frame in 1..places.len() {
+            let step = places[frame] - places[frame - 1];
+            let turn = turns[frame] * turns[frame - 1].inverse();
+            // To the right a wheel turns clockwise; the body does not turn.
+            let rolled = angle(turn, DVec3::NEG_Z) * radius;
+            assert!(step.x > 1.0, "{name} {step}");
+            assert!(
+                (rolled - step.x).abs() < 0.01 * step.x,
+                "{name} {rolled} {step}"
+            );
+        }
+    }
+    let heights = motion.translations[body].iter().flatten().map(|at| at.y);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+        (low.min(y), high.max(y))
+    });
+    assert!(high > low && high - low < 2.0, "sprung by {}", high - low);
+}
+
+#[test]
+fn wings_beat_together() {
+    let compiled = playing(BIRD, "Motion fly");
+    let clip = &compiled.clips[0];
+    let motion = &clip.retargeted;
+    let turns = |name: &str| {
+        let wing = part(&compiled, clip, name);
+        let turns = motion.rotations[wing].as_ref().expect(name);
+        let turns = turns.iter().map(|turn| *turn * turns[0].inverse());
+        turns
+            .map(|turn| angle(turn, DVec3::Z))
+            .collect::<Vec<f64>>()
+    };
+    // From where both are highest, the one on the drawing's right goes down clockwise, the other one its mirror image.
+    let (left, right) = (turns("wing 2"), turns("wing 1"));
+    for (left, right) in left.iter().zip(&right) {
+        assert!(
+            (left + right).abs() < 1e-6 && *left < 1e-9,
+            "{left} {right}"
+        );
+    }
+    let lowest = left.iter().copied().fold(0.0, f64::min);
+    assert!((-1.4..-1.0).contains(&lowest), "{lowest}");
+}
+
+#[test]
+fn a_hop_stays_where_it_lands() {
+    let compiled = playing(SLIME, "Motion hop");
+    let clip = &compiled.clips[0];
+    let root = clip
+        .retargeted
+        .translations
+        .iter()
+        .flatten()
+        .next()
+        .expect("a root");
+    let grounded = clip.grounded();
+    assert!(grounded[..6].iter().all(|grounded| *grounded) && !grounded[12]);
+    let highest = root.iter().map(|at| at.y).fold(0.0_f64, f64::max);
+    assert!(highest - root[0].y > 20.0);
+}
+
+#[test]
+fn what_does_not_fit_names_what_does() {
+    for (figure, motion, lacks, fits) in [
+        (CAR, "Motion walk", "no legs", "`Motion drive`"),
+        (SLIME, "Motion drive", "no wheels", "`Motion hop`"),
+        (CAR, "Motion fly", "no wings", "`Motion drive`"),
+        (BIRD, "Motion swim", "no fins", "`Motion fly`"),
+        (DOG, "Motion float", "no tentacles", "`Motion walk`"),
+    ] {
+        let compiled = playing(figure, motion);
+        let found = compiled
+            .diagnostics
+            .iter()
+            .find(|found| found.message.contains(lacks));
+        let found = found.unwrap_or_else(|| panic!("{motion}: {:?}", compiled.diagnostics));
+        let help = found.help.as_deref().unwrap_or_default();
+        assert!(help.contains(fits), "{motion}: {help}");
+    }
+}
+
+#[test]
+fn own_clips_take_a_name() {
+    let compiled = playing(CAR, "Motion drive cruise Motion Limited 0 4");
+    let names: Vec<&str> = compiled.clips.iter().map(|clip| &*clip.name).collect();
+    assert_eq!(names, ["cruise", "drive"]);
+    assert!(compiled.clips[1].drawings() < compiled.clips[1].frames());
+}
