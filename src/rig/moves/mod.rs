@@ -135,6 +135,7 @@ impl Moves {
             poses::is_grounded(self.which, (frame % self.cycle) as f64 / self.cycle as f64)
         });
         RetargetedClip {
+            turned: rotations.iter().map(|_| None).collect(),
             rotations,
             translations,
             grounded: grounded.collect(),
