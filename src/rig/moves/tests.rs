@@ -58,7 +58,9 @@ fn playing(figure: &str, motion: &str) -> Compiled {
 }
 
 fn part(compiled: &Compiled, clip: &FigureClip, name: &str) -> FigurePartId {
-    let is_called = |part: &crate::bind::PartId| compiled.bindings.parts[*part].name == name;
+    let is_called = |(part, bone): &(crate::bind::PartId, usize)| {
+        *bone == 0 && compiled.bindings.parts[*part].name == name
+    };
     clip.order.position(is_called).expect(name)
 }
 
