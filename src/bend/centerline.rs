@@ -9,6 +9,8 @@ use crate::geometry::{Outline, y_up};
 
 /// The distance of the line's points, in widths.
 const SPACING: f64 = 0.25;
+/// It has no more points than this: a hair a thousand times as long as wide is coarser.
+const MAX_POINTS: f64 = 256.0;
 /// How often each point is drawn towards its neighbours: steps of the grid disappear.
 const PASSES: usize = 8;
 /// A line that is as near to a straight one as this, in widths, is straight.
@@ -106,7 +108,7 @@ impl Centerline {
             return None;
         }
         let inner = whole - 2.0 * clip;
-        let count = (inner / (SPACING * width)).ceil().max(2.0) as usize;
+        let count = (inner / (SPACING * width)).ceil().clamp(2.0, MAX_POINTS) as usize;
         let mut line = resampled(way, clip, inner, count);
         for _ in 0..PASSES {
             smooth(&mut line);

@@ -674,15 +674,16 @@ codes! {
     /// `%Shape default -20 20`. If the part is meant to be hidden, leave it as it is. The fix is not offered for copies
     /// (`-s`, `-d`), which need their depths.
     Buried = "H412", "depth hides or detaches a part";
-    /// An arm is drawn in one piece, so it is always stretched, while the motion bends the elbow most of the time. In half of its
+    /// An arm is one rigid piece, because it is too short to bend inside or its string says `Bend 0`. So it is always stretched, while
+    /// the motion bends the elbow most of the time. In half of its
     /// frames, the hand is more than a quarter of the arm's length away from where it should be.
     ///
     /// ```text
-    /// Rarm@Ubody
+    /// Rarm@Ubody$Bend 0
     /// ```
     ///
-    /// Split the arm into two shapes at the elbow, the second attached to the first: `Rarm@Ubody` and `Rforearm@Rarm`. Or leave
-    /// it as it is.
+    /// Let the arm bend, with `Bend 1`. Or split it into two shapes at the elbow, the second attached to the first:
+    /// `Rarm@Ubody` and `Rforearm@Rarm`. Or leave it as it is.
     BentArm = "H413", "arm in one piece where the motion bends the elbow";
     /// The drawing has no string, but words that could be names of its parts. They are read as names only if every text of
     /// the drawing is a single word, no word is there twice, and each lies on its shape or at most one letter beside it, or is
