@@ -17,7 +17,7 @@ const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" heigh
   <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
   <rect x="90" y="30" width="60" height="10" fill="#0000cc" id="arm"/>
   <text x="50" y="44" font-size="5">Body</text>
-  <text x="120" y="39" font-size="5">Arm@Body$Shape roundv</text>
+  <text x="120" y="39" font-size="5">Arm@Body$Shape roundv Bend 0</text>
 </svg>
 "##;
 
@@ -575,9 +575,10 @@ fn inspect_as_json() {
     assert_eq!(parts[2]["kind"], "legend");
     let expected = serde_json::json!({
         "name": "Arm", "named_by": "string", "parent": "Body", "kind": "main", "element": "arm",
-        "string": { "line": 5, "column": 38, "text": "Arm@Body$Shape roundv", "bound_by": "nearest" },
+        "string": { "line": 5, "column": 38, "text": "Arm@Body$Shape roundv Bend 0", "bound_by": "nearest" },
         "center": [120.0, 35.0], "ends": [[150.0, 35.0], [90.0, 35.0]], "origin": [90.0, 35.0], "axis": [1.0, 0.0], "depth": 0.0,
         "attributes": {
+            "Bend": { "value": "0", "from": "own" },
             "Color": { "value": "0 0 0.8", "from": "builtin" },
             "Metallic": { "value": "1", "from": "legend" },
             "Shape": { "value": "roundv", "from": "own" },
