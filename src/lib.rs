@@ -11,7 +11,7 @@
 //!   <rect x="40" y="40" width="20" height="40" fill="#c30"/>
 //!   <rect x="58" y="45" width="30" height="8" fill="#fc9"/>
 //!   <text x="45" y="60">Body</text>
-//!   <text x="70" y="50">Arm@Body$Shape roundv</text>
+//!   <text x="70" y="50">Arm@Body$Shape roundv Bend 0</text>
 //! </svg>"##;
 //! let compiled = compile(drawing, &Options::default(), &MemoryResolver::default());
 //! assert!(compiled.diagnostics.is_empty());

@@ -35,7 +35,10 @@ pub(crate) fn bends(
         .filter(|figure| figure.has_names || is_moving);
     let labels = bodies.filter(|figure| !figure.found.is_vehicle);
     let labels = labels.flat_map(|figure| &figure.labels);
-    let labels: FxHashMap<PartId, &Label> = labels.map(|(part, label)| (*part, label)).collect();
+    // What is spread, such as the legs of a spider, keeps its drawn pose.
+    let hanging = labels.filter(|(_, _, is_splayed)| !is_splayed);
+    let labels: FxHashMap<PartId, &Label> =
+        hanging.map(|(part, label, _)| (*part, label)).collect();
     let parts_of_node = bindings.parts_of_nodes();
     let bend = |index: PartId| {
         let part = &bindings.parts[index];

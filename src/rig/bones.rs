@@ -143,13 +143,18 @@ fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartI
         let end = end.extend(joint.z);
         parts[*part].tip = match own {
             // Its node points along the bone.
-            Some(node) if is_bone => {
-                let axis = DQuat::from_rotation_z(node.angle) * DVec3::Y;
-                joint + axis * (end - joint).dot(axis).max(0.0)
-            }
+            Some(_) if is_bone => along(parts[*part].node.rotation, joint, end),
+            // So does that of a part which is drawn straight.
+            None if bend.is_straight() => along(parts[*part].node.rotation, joint, end),
             _ => end,
         };
     }
+}
+
+/// The place on a node's axis that is as far along it as another one.
+fn along(rotation: DQuat, joint: DVec3, end: DVec3) -> DVec3 {
+    let axis = rotation * DVec3::Y;
+    joint + axis * (end - joint).dot(axis).max(0.0)
 }
 
 /// The bones of a part of a rig: the part itself, and those inside it from its joint to its far end.

@@ -20,8 +20,8 @@ pub(crate) struct FigureFacing {
     pub root: PartId,
     /// All its parts that are in the hierarchy.
     pub parts: Vec<PartId>,
-    /// What those of them are that have a label.
-    pub labels: Vec<(PartId, Label)>,
+    /// What those of them are that have a label, and whether they are limbs that the figure spreads.
+    pub labels: Vec<(PartId, Label, bool)>,
     /// Those of them that are limbs.
     pub limbs: Vec<PartId>,
     /// Those of them that belong to a face that shows both eyes, which its figure has only once.
@@ -90,10 +90,10 @@ pub(crate) fn facings(drawing: &Drawing, bindings: &Bindings) -> Vec<FigureFacin
 fn labels_of(
     parts: &TiSlice<FigurePartId, PartId>,
     labeled: &LabeledFigure,
-) -> Vec<(PartId, Label)> {
-    let labels = parts.iter().zip(&labeled.labels);
+) -> Vec<(PartId, Label, bool)> {
+    let labels = labeled.labels.iter_enumerated();
     labels
-        .filter_map(|(part, label)| Some((*part, label.clone()?)))
+        .filter_map(|(place, label)| Some((parts[place], label.clone()?, labeled.splayed[place])))
         .collect()
 }
 

@@ -249,7 +249,8 @@ pub(super) fn part_drives(
     let drives = drives.map(|(part, matched)| PartDrive {
         part: *part,
         joint: matched.drive.map(|drive| drive.joint),
-        tip: matched.drive.and_then(|drive| match drive.follow {
+        // The far end of the whole part, if it bends.
+        tip: matched.end_drive().and_then(|drive| match drive.follow {
             Follow::Direction => drive.tip,
             Follow::Change | Follow::Trunk { .. } | Follow::Sole => None,
         }),

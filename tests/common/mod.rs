@@ -244,11 +244,15 @@ pub(crate) fn check_laws(nodes: &[Node]) -> Result<(), String> {
             .iter()
             .filter(solid)
             .partition(|primitive| closed(primitive).is_ok());
-        // Of shapes that are translucent together, what they hide of each other is left out.
-        let (open, _): (Vec<&Primitive>, Vec<&Primitive>) = open
-            .into_iter()
-            .partition(|primitive| !primitive.is_translucent);
-        // The primitives of a landscape's materials are closed together.
+        // The primitives of a landscape's materials are closed together. Of shapes that are translucent together, what they hide of
+        // each other is left out.
+        let open: Vec<&Primitive> = match closed_together(&open) {
+            Ok(()) => open,
+            Err(_) => {
+                let opaque = open.into_iter().filter(|one| !one.is_translucent);
+                opaque.collect()
+            }
+        };
         closed_together(&open).map_err(|error| format!("`{}`: {error}", node.name))?;
         let volumes = closed.iter().map(|one| (volume(one), extent(one)));
         let together = open.iter().map(|one| volume(one)).sum();

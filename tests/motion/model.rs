@@ -305,21 +305,39 @@ fn a_key_for_each_drawing() {
     assert!(limited >= 2, "only {limited} limited clips");
 }
 
-/// The corners of all nodes' meshes, each in its node's frame.
-fn corners(scene: &Scene) -> Vec<(NodeId, Vec<DVec3>)> {
-    let nodes = scene.nodes.iter_enumerated();
-    let corners = nodes.filter_map(|(id, node)| {
-        let patches = scene.meshes[node.mesh?].primitives.iter();
-        let patches = patches.flat_map(|primitive| &primitive.patches);
-        let corners = patches.flat_map(|patch| {
+/// A corner of a mesh in the frames of the nodes that move it, each with its weight.
+type Corner = Vec<(NodeId, DVec3, f64)>;
+
+/// The corners of all nodes' meshes.
+fn corners(scene: &Scene) -> Vec<Corner> {
+    let rest = world(scene, &Animation::default(), 0);
+    let mut corners = Vec::new();
+    for (id, node) in scene.nodes.iter_enumerated() {
+        let Some(mesh) = node.mesh else { continue };
+        let patches = scene.meshes[mesh].primitives.iter();
+        for patch in patches.flat_map(|primitive| &primitive.patches) {
             let surface = patch.surface();
-            let corners = surface.positions.iter();
-            let corners = corners.map(|corner| DVec3::from(corner.map(f64::from)));
-            corners.collect::<Vec<DVec3>>()
-        });
-        Some((id, corners.collect()))
-    });
-    corners.collect()
+            for (number, corner) in surface.positions.iter().enumerate() {
+                let own = DVec3::from(corner.map(f64::from));
+                let Some(influence) = surface.influences.get(number) else {
+                    corners.push(vec![(id, own, 1.0)]);
+                    continue;
+                };
+                let placed = rest[id].rotation * own + rest[id].position;
+                let first = f64::from(influence.first);
+                let weights = influence.joints.into_iter().zip([first, 1.0 - first]);
+                let moved = weights.filter(|(_, weight)| *weight > 0.0);
+                let moved = moved.map(|(joint, weight)| {
+                    let bone = usize::from(joint).checked_sub(1);
+                    let bone = bone.map_or(id, |bone| node.bones[bone]);
+                    let local = rest[bone].rotation.inverse() * (placed - rest[bone].position);
+                    (bone, local, weight)
+                });
+                corners.push(moved.collect());
+            }
+        }
+    }
+    corners
 }
 
 /// Soles stand on the ground, and nothing else is below it.
@@ -330,10 +348,12 @@ fn nothing_sinks_into_the_ground() {
         let compiled = compiled(&text(name));
         let corners = corners(&compiled.scene);
         let extent = |nodes: &TiVec<NodeId, Transform>| {
-            let heights = corners.iter().flat_map(|(node, corners)| {
-                let placed = nodes[*node];
-                let height = move |corner: &DVec3| (placed.rotation * *corner + placed.position).y;
-                corners.iter().map(height)
+            let heights = corners.iter().map(|corner| {
+                let moved = corner.iter().map(|(node, local, weight)| {
+                    let placed = nodes[*node];
+                    weight * (placed.rotation * *local + placed.position).y
+                });
+                moved.sum::<f64>()
             });
             heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
                 (low.min(y), high.max(y))

@@ -294,7 +294,7 @@ fn the_camera_keeps_the_joint_in_the_middle() {
         let name = ["punch", "boxing", "wave", "dance"][round % 4];
         let limited = if round < 4 { "" } else { " Limited 3 18" };
         let compiled = perform(
-            &format!("%Axes +z +y -x Motion {motion} Perform \"hands.csv\"{limited}"),
+            &format!("%Bend 0 Axes +z +y -x Motion {motion} Perform \"hands.csv\"{limited}"),
             &red,
             &green,
         );

@@ -186,6 +186,7 @@ impl<'a> File<'a> {
             "VEC2" => 2,
             "VEC3" => 3,
             "VEC4" => 4,
+            "MAT4" => 16,
             _ => return None,
         };
         let size = components

@@ -460,9 +460,11 @@ fn measure(figure: &DrawnFigure, files: &[(String, Vec<u8>)], half: &mut Half) {
         resolver = resolver.with(&format!("{name}.bvh"), bytes.clone());
         words.push(format!("Motion \"{name}.bvh\""));
     }
-    let drawing = figure
-        .drawing
-        .replacen("Motion \"clip.bvh\"", &words.join(" "), 1);
+    let drawing = figure.drawing.replacen(
+        "Motion \"clip.bvh\"",
+        &format!("Bend 0 {}", words.join(" ")),
+        1,
+    );
     assert_ne!(drawing, figure.drawing, "{} plays nothing", figure.name);
     let compiled = compiled(&drawing, &resolver);
     let model = Model::read(&glb(&compiled));
