@@ -40,7 +40,6 @@ pub(crate) struct Centerline {
     length: f64,
     /// The mean width of the outline across it.
     width: f64,
-    is_straight: bool,
     /// For a line that curls, about how far along it the places in and near the outline are.
     ways: Option<Ways>,
 }
@@ -105,7 +104,7 @@ impl Centerline {
         let whole = length(way);
         let width = area / whole;
         let clip = CLIP * width;
-        if !(whole > 2.0 * clip + SPACING * width) {
+        if whole.is_nan() || whole <= 2.0 * clip + SPACING * width {
             return None;
         }
         let inner = whole - 2.0 * clip;
@@ -116,8 +115,7 @@ impl Centerline {
         }
         let [from, to] = [line[0], line[count]];
         let is_near = |point: &DVec2| off(from, to, *point) < STRAIGHT * width;
-        let is_straight = line.iter().all(is_near);
-        if is_straight {
+        if line.iter().all(is_near) {
             let place = |number: usize| from.lerp(to, number as f64 / count as f64);
             line = (0..=count).map(place).collect();
         }
@@ -145,7 +143,6 @@ impl Centerline {
             spacing,
             length: inner + clip,
             width,
-            is_straight,
             ways: None,
         };
         let joint = centerline.along(joint).clamp(-clip, inner / 2.0);
@@ -157,11 +154,6 @@ impl Centerline {
     /// From the joint to the far end.
     pub(crate) fn length(&self) -> f64 {
         self.length
-    }
-
-    /// Whether it is straight.
-    pub(super) fn is_straight(&self) -> bool {
-        self.is_straight
     }
 
     /// The mean width of the outline.
@@ -226,7 +218,6 @@ impl Centerline {
             spacing: self.spacing * scale,
             length: self.length * scale,
             width: self.width * scale,
-            is_straight: self.is_straight,
             ways: self.ways.as_ref().map(|ways| Ways {
                 to_outline: ways.to_outline * map.inverse(),
                 scale: ways.scale * scale,

@@ -136,11 +136,6 @@ impl Bend {
         self.nodes.iter().filter(|node| node.joint == 0).count()
     }
 
-    /// Whether the part is drawn straight.
-    pub(crate) fn is_straight(&self) -> bool {
-        self.line.is_straight()
-    }
-
     /// The end of the centreline.
     pub(crate) fn tip(&self) -> DVec2 {
         self.line.at(self.line.length())

@@ -246,7 +246,7 @@ impl<'a> Figures<'a> {
     fn bones(&self, main: PartId, world: &WorldTransform) -> Option<Arc<Bones>> {
         let bend = self.context.bends[main].as_deref()?;
         let frame = self.frames[main].node;
-        let to_frame = DAffine2::from_scale(DVec2::splat(world.scale)) * frame.from_plane();
+        let to_frame = DAffine2::from_scale(DVec2::splat(world.scale)) * frame.plane_to_local();
         Some(Arc::new(Bones::new(bend, to_frame)))
     }
 

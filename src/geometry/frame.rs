@@ -49,7 +49,7 @@ impl Frame {
     }
 
     /// The map from the plane to this frame.
-    pub(crate) fn from_plane(self) -> DAffine2 {
+    pub(crate) fn plane_to_local(self) -> DAffine2 {
         DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.origin)
     }
 

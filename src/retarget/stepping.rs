@@ -41,6 +41,12 @@ pub(super) fn clear(
     let frames = length.frames;
     let standing = walk.feet.iter().enumerate();
     let standing = standing.flat_map(|(foot, own)| own.parts.iter().map(move |part| (foot, *part)));
+    // What keeps its drawn pose, such as a spider's leg, is not turned any further.
+    let keeps_pose = |part: FigurePartId| {
+        let drive = rig.parts[part].drive;
+        drive.is_some_and(|drive| drive.follow == Follow::Change)
+    };
+    let standing = standing.filter(|(_, part)| !keeps_pose(*part));
     let standing: Vec<(usize, FigurePartId)> = standing.collect();
     let mut lacking = vec![vec![0.0; frames]; standing.len()];
     let mut kinematics = ForwardKinematics::new(rig);

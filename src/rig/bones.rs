@@ -144,11 +144,19 @@ fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartI
         parts[*part].tip = match own {
             // Its node points along the bone.
             Some(_) if is_bone => along(parts[*part].node.rotation, joint, end),
-            // So does that of a part which is drawn straight.
-            None if bend.is_straight() => along(parts[*part].node.rotation, joint, end),
+            // So does that of a part which is not drawn bent.
+            None if is_along(parts[*part].node.rotation, end - joint) => {
+                along(parts[*part].node.rotation, joint, end)
+            }
             _ => end,
         };
     }
+}
+
+/// Whether a way leads along a node's axis, but for a few degrees.
+fn is_along(rotation: DQuat, way: DVec3) -> bool {
+    const FEW: f64 = 5.0;
+    (rotation * DVec3::Y).angle_between(way) < FEW.to_radians()
 }
 
 /// The place on a node's axis that is as far along it as another one.

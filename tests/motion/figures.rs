@@ -287,7 +287,10 @@ fn count(
             for (id, choices) in &figure.parts {
                 let (found, why) = found(&compiled, id);
                 let fits = |choice: &Choice| {
-                    is_right(*choice, found, &anatomy, is_whole(&figure.parts, *choice))
+                    // A hand follows an arm of one piece, and its own joint if that bends.
+                    let is_whole = is_whole(&figure.parts, *choice);
+                    is_right(*choice, found, &anatomy, false)
+                        || is_whole && is_right(*choice, found, &anatomy, true)
                 };
                 all += 1;
                 if choices.iter().any(fits) {
