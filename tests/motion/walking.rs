@@ -125,7 +125,7 @@ fn distance_squared(point: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
 }
 
 /// The same for parts that bend: a thigh swings farther than a whole leg, and takes one off that hardly overlaps the body.
-const MAX_BENT_GROWTH: f64 = 0.055;
+const MAX_BENT_GROWTH: f64 = 0.06;
 
 /// A part that turns, and what it hangs on.
 struct Pair {
