@@ -58,8 +58,13 @@ function* positions({ json, rest }, primitive) {
 export function extent(model) {
   const least = [Infinity, Infinity, Infinity]
   const most = [-Infinity, -Infinity, -Infinity]
-  walk(model.json, (node, _, world) => {
-    for (const primitive of model.json.meshes?.[node.mesh]?.primitives ?? []) {
+  const { nodes, skins, meshes } = model.json
+  const worlds = new Map()
+  walk(model.json, (node, _, world) => worlds.set(node, world))
+  for (const [node, own] of worlds) {
+    // The mesh of a part that bends is in the frame of its first bone.
+    const world = node.skin === undefined ? own : worlds.get(nodes[skins[node.skin].joints[0]])
+    for (const primitive of meshes?.[node.mesh]?.primitives ?? []) {
       for (const point of positions(model, primitive)) {
         world(point).forEach((value, axis) => {
           least[axis] = Math.min(least[axis], value)
@@ -67,7 +72,7 @@ export function extent(model) {
         })
       }
     }
-  })
+  }
   return most.map((value, axis) => value - least[axis])
 }
 
