@@ -458,11 +458,6 @@ impl<'a> Matcher<'a> {
             ));
         };
         let segment = half(label, 0, self.bends[part]);
-        let segment = if label.segment == LimbSegment::Whole {
-            segment
-        } else {
-            label.segment
-        };
         let (joint, tip) = bone(limb, segment).ok_or_else(|| {
             format!(
                 "{why}; the motion has no {}",
