@@ -87,7 +87,7 @@ fn the_middle_of_the_lower_edge_is_the_origin() {
 fn what_bends_is_a_chain_of_nodes_and_so_is_its_copy() {
     let elements = [
         rect([40, 40, 20, 20], "Body$"),
-        rect([60, 45, 60, 10], "Arm@Body$Shape -d roundv Offset 9"),
+        rect([60, 45, 60, 10], "Arm@Body$Shape -d roundv Offset 9 Bend 1"),
         rect([118, 45, 12, 10], "Hand@Arm$"),
     ];
     let scene = drawing(&elements.concat()).scene;

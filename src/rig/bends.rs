@@ -51,7 +51,8 @@ pub(crate) fn bends(
             None if part.parent.is_some() => joints(part, labels.get(&index).copied()),
             None => 0,
         };
-        if joints == 0 || bindings.profile(drawing, index).is_none() {
+        let profile = bindings.profile(drawing, index)?;
+        if joints == 0 || asked.is_none() && !profile.is_flexible() {
             return None;
         }
         let outline = outline(bindings, index, &parts_of_node[index]);

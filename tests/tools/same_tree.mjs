@@ -2,7 +2,8 @@
 // `node same_tree.mjs TREES.json`, where the inspection of a/b.glb is a/b.json.
 //
 // Every main part must be a node with the parent that inspect gives it, and every node must be a main part, a copy of
-// one (`Name.back`), or part of a terrain or a billboard, whose inner nodes inspect does not list.
+// one (`Name.back`), a bone inside such a part, or part of a terrain or a billboard, whose inner nodes inspect does not
+// list. What hangs on a part that bends may hang on a bone of it.
 
 import { readFileSync } from "node:fs";
 
@@ -21,7 +22,16 @@ const withoutBack = (name) => name.replace(/(\.back)+$/, "");
 
 function differences(nodes, inspection) {
   const found = [];
-  const parents = new Map(nodes.map(({ name, parent }) => [name, parent]));
+  const owners = new Map(nodes.filter((node) => node.bone_of !== null).map((node) => [node.name, node.bone_of]));
+  // The nodes but for bones inside parts, each with what it hangs on.
+  const parents = new Map(
+    nodes.filter(({ name }) => !owners.has(name)).map(({ name, parent }) => [name, owners.get(parent) ?? parent]),
+  );
+  for (const { name, parent, bone_of: owner } of nodes) {
+    if (owner !== null && parent !== owner && owners.get(parent) !== owner) {
+      found.push(`bone ${name} of ${owner} hangs on ${parent}`);
+    }
+  }
   const expected = new Map(
     inspection.parts
       .filter(({ kind }) => kind === "main")

@@ -97,6 +97,11 @@ impl Profile {
         }
     }
 
+    /// Whether a limb of this kind is expected to bend: slabs and soft shapes are, what is turned on a lathe or cut to a point is hard.
+    pub fn is_flexible(&self) -> bool {
+        matches!(self, Self::Default(_) | Self::Inflate(_))
+    }
+
     /// A tube along the stroke of a line of this width, drawing units.
     pub fn cord(width: f64) -> Self {
         Self::Inflate(inflate::Inflate::cord(width))

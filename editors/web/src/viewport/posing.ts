@@ -1,7 +1,7 @@
 // Turns limbs with the pointer and with keys.
 
 import { Quaternion, Vector3, type Object3D } from "three";
-import { nodeName } from "./model";
+import { nodeName, sharesOf } from "./model";
 import type { Hit } from "./picking";
 import type { Pose } from "./pose";
 import type { View } from "./view";
@@ -88,9 +88,12 @@ export class Posing {
     this.drag = again ? { ...this.drag, node: again } : null;
   }
 
+  /** Where a node turns. Of nodes that share a turn it is the middle one: the last is beyond the joint, and moves as it turns. */
   private joint(node: Object3D): Vector3 {
-    node.updateWorldMatrix(true, false);
-    return new Vector3().setFromMatrixPosition(node.matrixWorld);
+    let middle = node;
+    for (let number = 0; number < (sharesOf(node) - 1) / 2 && middle.parent; number++) middle = middle.parent;
+    middle.updateWorldMatrix(true, false);
+    return new Vector3().setFromMatrixPosition(middle.matrixWorld);
   }
 
   private onScreen(node: Object3D): { x: number; y: number } {
