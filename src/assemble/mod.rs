@@ -215,6 +215,7 @@ fn build(
             let facings = rig::facings(drawing, bindings);
             let seen = rig::seen(bindings, &facings);
             let bends = rig::bends(drawing, bindings, &facings);
+            found.extend(rig::idle_bends(drawing, bindings, &bends));
             let bent = bends.clone();
             let figures = Figures::lay_out(drawing, bindings, seen, bent, &world, memo, &mut found);
             (figures, facings, bends)

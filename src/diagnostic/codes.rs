@@ -588,6 +588,14 @@ codes! {
     /// Draw the two so that they overlap where the part turns, attach the part to what it touches, or choose the point with
     /// `Origin`.
     ComesOff = "W331", "part that comes off";
+    /// `Bend` gives a part joints inside it, but this one has no room for them, or no solid. So `Bend` has no effect.
+    ///
+    /// ```text
+    /// a ball with the string Ball@Hand$Bend 2
+    /// ```
+    ///
+    /// Write `Bend` in the string of the part that should bend, which must be longer than it is wide, or delete it.
+    IdleBend = "W332", "bend without effect";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

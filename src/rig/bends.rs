@@ -4,15 +4,17 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::facings::FigureFacing;
 use crate::anatomy::{self, Term};
 use crate::bend::{Bend, Centerline};
-use crate::bind::{Bindings, Part, PartId, PartKind};
+use crate::bind::{Bindings, Part, PartId, PartKind, SetBy};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{self, Outline, area, y_up};
 use crate::index::par_keys;
 use crate::labels::{Class, Label, LimbSegment};
+use crate::lang::keyword::Keyword;
 use crate::svg::Drawing;
 
 /// A part that is at least this much longer than it is wide bends without a string that says so.
@@ -69,6 +71,38 @@ pub(crate) fn bends(
         .map(bend)
         .collect::<Vec<_>>()
         .into()
+}
+
+/// Reports each `Bend` in a string whose part has no joints inside nevertheless. `bends` are those of the main parts.
+pub(crate) fn idle_bends(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    bends: &TiSlice<PartId, Option<Arc<Bend>>>,
+) -> Vec<Diagnostic> {
+    let idle = |(index, part): (PartId, &Part)| {
+        let source = bindings.setting(index, Keyword::Bend)?;
+        let joints = bindings.attributes(index).bend().unwrap_or(0);
+        let is_idle = part.kind == PartKind::Main && joints > 0 && bends[index].is_none();
+        if source.from != SetBy::Own || !is_idle {
+            return None;
+        }
+        let (reason, help) = if bindings.profile(drawing, index).is_none() {
+            (
+                "has no solid",
+                "delete it, or write `Bend` in the string of the shape that should bend",
+            )
+        } else {
+            (
+                "is too short for a joint",
+                "draw it longer than it is wide, or delete `Bend`",
+            )
+        };
+        let name = &part.name;
+        let message = format!("`Bend` has no effect: `{name}` {reason}");
+        let span = bindings.span_of(&source);
+        Some(Diagnostic::new(Code::IdleBend, span, message).help(help))
+    };
+    bindings.parts.iter_enumerated().filter_map(idle).collect()
 }
 
 /// How many joints a part has inside by its name and by what it is of its figure.

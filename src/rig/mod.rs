@@ -42,7 +42,7 @@ use crate::resolver::Resolver;
 use crate::scene::{NodeId, Scene, WorldTransform};
 use crate::svg::Drawing;
 
-pub(crate) use bends::bends;
+pub(crate) use bends::{bends, idle_bends};
 use builder::{ClipBuilder, Requested};
 use diagnostics::MatchProblems;
 pub(crate) use effects::{Performance, PerformedMark};
