@@ -102,9 +102,13 @@ impl Centerline {
 
     fn through(way: &[DVec2], area: f64, joint: DVec2) -> Option<Self> {
         let whole = length(way);
+        // A way of one point has no length; one that is not finite leads nowhere.
+        if !(whole > 0.0 && whole.is_finite()) {
+            return None;
+        }
         let width = area / whole;
         let clip = CLIP * width;
-        if whole.is_nan() || whole <= 2.0 * clip + SPACING * width {
+        if whole <= 2.0 * clip + SPACING * width {
             return None;
         }
         let inner = whole - 2.0 * clip;

@@ -60,12 +60,7 @@ fn bent(outline: &Outline, kind: &str, bend: impl Fn(Centerline) -> Bend) -> Ben
 }
 
 /// A part whose joint is at a place of the drawing.
-fn bent_at(
-    outline: &Outline,
-    joint: DVec2,
-    kind: &str,
-    bend: impl Fn(Centerline) -> Bend,
-) -> Bent {
+fn bent_at(outline: &Outline, joint: DVec2, kind: &str, bend: impl Fn(Centerline) -> Bend) -> Bent {
     let bend = bend(Centerline::new(outline, y_up(joint)).unwrap());
     let solid = solid(outline, kind);
     let source = BentSurface {
@@ -315,8 +310,8 @@ fn limbs_of_clip_art() {
         };
         let compiled = compile(&text, &Default::default(), &MemoryResolver::default());
         let parts = &compiled.bindings.parts;
-        let middle = parts.iter().map(|part| part.measure.center).sum::<DVec2>()
-            / parts.len().max(1) as f64;
+        let middle =
+            parts.iter().map(|part| part.measure.center).sum::<DVec2>() / parts.len().max(1) as f64;
         for part in parts {
             let is_plain = matches!(&part.outline.polygons[..], [one] if one.rings.len() == 1);
             let ends = part.measure.ends;
@@ -401,4 +396,16 @@ fn round_shapes_have_no_middle_line() {
     let line = Centerline::new(&ball, DVec2::new(0.0, 20.0));
     assert!(line.is_none_or(|line| line.length() < 2.0 * line.width()));
     assert!(Centerline::new(&Outline::default(), DVec2::ZERO).is_none());
+    // A frame so thin that of its grid a single cell is left.
+    let thin = |inset: f64| {
+        [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)].map(|(x, y): (f64, f64)| {
+            DVec2::new(x.clamp(inset, 100.0 - inset), y.clamp(inset, 100.0 - inset))
+        })
+    };
+    let frame = Outline {
+        polygons: vec![Polygon {
+            rings: vec![thin(0.0).to_vec(), thin(0.05).into_iter().rev().collect()],
+        }],
+    };
+    assert!(Centerline::new(&frame, DVec2::ZERO).is_none());
 }
