@@ -237,7 +237,10 @@ clip_art() {
   else
     node $tools/clip_art.mjs "$target/clip-art"
   fi
-  LOOK_DIR=$(realpath "$target/clip-art") cargo test --locked --test as_drawn -- --ignored --nocapture survey
+  export LOOK_DIR
+  LOOK_DIR=$(realpath "$target/clip-art")
+  cargo test --locked --test as_drawn -- --ignored --nocapture survey
+  cargo test --locked --lib -- --ignored --nocapture limbs_of_clip_art
 }
 
 # Emoji with names alone, from all sides. The pictures to look at are in the folder's index.html.
