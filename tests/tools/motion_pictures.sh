@@ -67,17 +67,21 @@ clip examples/motion/beetle.svg walk 8,12 160x120 8
 clip examples/motion/ant.svg dance 0,8 130x170 10
 clip examples/motion/bird.svg walk 8,8 160x130 8
 clip examples/motion/spider.svg walk 20,14 160x120 8
-# moves CLIP SIZE STRIP: a clip of the parade, which moves parts without a skeleton.
-moves() {
-  want parade || return 0
-  sed -E 's/Motion</Motion -i</' examples/motion/parade.svg > "$room/parade.svg"
-  "$okoshi" render --quiet "$room/parade.svg" -o "docs/motion/parade-$1.png" --clip "$1" --view 20,10 --size "$2" --strip "$3" --background '#ffffff'
+# alone DRAWING CLIP VIEW SIZE CELLS: the drawing says `Motion` alone, and plays in place what fits it.
+alone() {
+  want "$1" || return 0
+  sed -E 's/Motion</Motion -i</' "examples/motion/$1.svg" > "$room/$1.svg"
+  "$okoshi" render --quiet "$room/$1.svg" -o "docs/motion/$1-$2.png" --clip "$2" --view="$3" --size "$4" --strip "$5" --background '#ffffff'
   python3 -c "
 import sys
 from PIL import Image
-Image.open(sys.argv[1]).convert('RGB').quantize(96).save(sys.argv[1], optimize=True)" "docs/motion/parade-$1.png"
+Image.open(sys.argv[1]).convert('RGB').quantize(96).save(sys.argv[1], optimize=True)" "docs/motion/$1-$2.png"
 }
-moves float 260x190 4
+alone parade float 20,10 260x190 4
+alone girl walk -30,8 150x180 8
+alone knight walk -30,8 170x180 8
+alone horse walk 15,8 160x160 8
+alone motorbike drive 20,10 200x150 6
 # perform OUT CLIP [OPTIONS…]: a clip of the performed hook, as a strip.
 perform() {
   want ant-hook || return 0

@@ -22,6 +22,10 @@ use crate::threads::GRAIN;
 const GAP: f64 = 0.02;
 /// How many points the outlines may have whose overlaps are computed. After that, bounding boxes decide.
 const MAX_OVERLAP_POINTS: usize = 1 << 19;
+/// A part that shares less than this with another one, as a share of the most that it shares with any, only brushes it.
+const BRUSH: f64 = 0.1;
+/// What a way to a part that is only brushed costs more, in parts.
+const BRUSHED: u32 = 2;
 /// What a way through a part without a name costs, in parts.
 const UNNAMED: u32 = 1000;
 
@@ -261,6 +265,14 @@ impl NamedBodies {
         }
     }
 
+    /// Whether a part shares so little with another one, beside what it shares with a third one, that it hardly hangs on it: a shield on
+    /// an arm, whose edge is at the body's.
+    fn brushes(&self, from: usize, to: usize) -> bool {
+        let others = self.touching[to].iter().filter(|other| self.bodies[**other].named);
+        let most = others.map(|other| self.shared(*other, to));
+        self.shared(from, to) < BRUSH * most.fold(0.0, f64::max)
+    }
+
     /// Queues the ways from a part that was reached to those that it touches.
     fn extend(&self, from: usize, steps: u32, carriers: &[Option<usize>], search: &mut Search) {
         let through = if self.bodies[from].named { 1 } else { UNNAMED };
@@ -274,9 +286,10 @@ impl NamedBodies {
                 None if self.bodies[from].role.is_none() || self.bodies[to].role.is_none() => 1,
                 _ => 2,
             };
+            let brushed = if self.brushes(from, to) { BRUSHED } else { 0 };
             search.queue.push(Reverse(Way {
                 doubt,
-                steps: steps.saturating_add(through),
+                steps: steps.saturating_add(through + brushed),
                 // Areas are not negative, so their bits are in their order.
                 shared: Reverse(self.shared(from, to).max(0.0).to_bits()),
                 to,
