@@ -121,7 +121,7 @@ fn written(name: &str, form: &Form, summary: &'static str) -> Signature {
         format!("{name} {printed}")
     };
     let mut from = name.len();
-    let parameters = form.parameters.iter().map(|parameter| {
+    let parameters = form.all().map(|parameter| {
         let text = parameter.print();
         let start = label[from..].find(&text).map_or(from, |at| from + at);
         from = start + text.len();
