@@ -173,6 +173,11 @@ mod tests {
                 "top",
             ),
             ("Rarm@Body$Color ¦", "Color r g b [a]", "r"),
+            (
+                "Rarm@Body$Motion \"a.bvh\" from ¦",
+                "Motion [-il] \"file\" [up] [seconds] [from start] [to end] [speed factor] …",
+                "start",
+            ),
             ("Rarm@Body$Color 1 ¦", "Color r g b [a]", "g"),
             ("Rarm@Body$Color #f0f¦", "Color #rrggbb[aa]", "#rrggbb[aa]"),
             (

@@ -133,9 +133,7 @@ pub(crate) fn slots(arguments: &[Argument], is_variable: &dyn Fn(&str) -> bool) 
     for (index, argument) in arguments.iter().enumerate() {
         let role = match slots.last().map(|slot| slot.role) {
             Some(Role::Word(said)) => Role::Number(said),
-            _ if Said::of(argument).is_some() => {
-                Said::of(argument).map_or(Role::Name, Role::Word)
-            }
+            _ if Said::of(argument).is_some() => Said::of(argument).map_or(Role::Name, Role::Word),
             _ if is_number(argument) => Role::Seconds,
             None => Role::Source,
             Some(_) => {
@@ -275,8 +273,7 @@ pub(super) fn continues(before: &[Argument], word: &str, is_timed: bool) -> bool
     // In capitals it is the keyword.
     let is_written_as_clip = CLIPS.iter().any(|clip| clip.name == word);
     let is_number = |argument: &Argument| matches!(argument.kind, ArgumentKind::Number(_));
-    let begins_with_word =
-        matches!(before.first().map(|first| &first.kind), Some(ArgumentKind::Word(first)) if is_clip(first));
+    let begins_with_word = matches!(before.first().map(|first| &first.kind), Some(ArgumentKind::Word(first)) if is_clip(first));
     is_written_as_clip && (is_timed || begins_with_word || before.iter().any(is_number))
 }
 
@@ -294,7 +291,8 @@ fn is_clip(word: &str) -> bool {
         .any(|clip| clip.name.eq_ignore_ascii_case(word))
 }
 
-fn nearest_clip(word: &str) -> Option<&'static str> {
+/// The clip that comes along whose word is written like this one.
+pub(crate) fn nearest_clip(word: &str) -> Option<&'static str> {
     nearest_word(word, CLIPS.iter().map(|clip| clip.name))
 }
 
@@ -326,7 +324,9 @@ mod tests {
             Role::Word(_) => 'w',
             Role::Number(_) => '#',
         };
-        let slots = slots.iter().map(|slot| format!("{}{}", slot.clip, letter(slot)));
+        let slots = slots
+            .iter()
+            .map(|slot| format!("{}{}", slot.clip, letter(slot)));
         slots.collect::<Vec<_>>().join(" ")
     }
 
@@ -344,7 +344,10 @@ mod tests {
             ("%Motion walk t speed 2 wave (1 + 1)", "0S 0s 0w 0# 1S 1s"),
             ("%Motion 2", "0s"),
             ("%Motion speed .5", "0w 0#"),
-            ("%Motion \"kick.bvh\" kick from 1.2 to 2.4 speed .8", "0S 0n 0w 0# 0w 0# 0w 0#"),
+            (
+                "%Motion \"kick.bvh\" kick from 1.2 to 2.4 speed .8",
+                "0S 0n 0w 0# 0w 0# 0w 0#",
+            ),
             ("%Motion \"a.bvh\" +z \"b.bvh\" -y both", "0S 0u 1S 1u 1n"),
             ("%Motion \"kick.bvh\" 1 walk 2", "0S 0s 1S 1s"),
             ("%Motion a.bvh run", "0S 0n"),

@@ -152,7 +152,11 @@ mod tests {
             ("$Motion \"a.bvh\" +z", 1, Some(("Motion", "up"))),
             ("$Motion \"a.bvh\" +z", 2, Some(("Motion", "seconds"))),
             ("$Motion \"a.bvh\" from", 2, Some(("Motion", "start"))),
-            ("$Motion \"a.bvh\" to 2 speed 3", 4, Some(("Motion", "factor"))),
+            (
+                "$Motion \"a.bvh\" to 2 speed 3",
+                4,
+                Some(("Motion", "factor")),
+            ),
             ("$Motion \"a.bvh\" kick", 1, Some(("Motion", "name"))),
             ("$Motion \"a.bvh\" kick", 2, Some(("Motion", "up"))),
             ("$Perform \"a.json\" 10", 1, Some(("Perform", "input-key"))),

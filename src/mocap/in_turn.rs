@@ -24,7 +24,12 @@ pub(crate) struct Playing {
 impl Playing {
     /// A motion of so many steps that plays for so many seconds, if that is said: a loop as many whole cycles as come nearest to it, and
     /// anything else once.
-    pub(crate) fn lasting(steps: usize, is_loop: bool, seconds: Option<f64>, frame_time: f64) -> Self {
+    pub(crate) fn lasting(
+        steps: usize,
+        is_loop: bool,
+        seconds: Option<f64>,
+        frame_time: f64,
+    ) -> Self {
         let cycle = steps as f64 * frame_time;
         let cycles = match seconds {
             // A number that is too large becomes the largest one.

@@ -114,7 +114,11 @@ pub(crate) struct Turn {
 ///
 /// # Errors
 /// [`Error::Frames`] if there would be more numbers than a clip may have.
-pub(crate) fn in_turn(first: Turn, others: Vec<Turn>, is_loop: bool) -> Result<PreparedClip, Error> {
+pub(crate) fn in_turn(
+    first: Turn,
+    others: Vec<Turn>,
+    is_loop: bool,
+) -> Result<PreparedClip, Error> {
     let skeleton = Arc::clone(&first.clip.clip.skeleton);
     let mut turns = vec![first];
     let others = others.into_iter();

@@ -90,7 +90,9 @@ pub(crate) fn joined(rig: &Rig, turns: &[Turn<'_>], blend: usize, is_loop: bool)
                 rotation: heading * node.rotation,
                 position: heading * (node.position - from) + ground,
             };
-            pose.iter().map(put).collect::<TiVec<FigurePartId, Transform>>()
+            pose.iter()
+                .map(put)
+                .collect::<TiVec<FigurePartId, Transform>>()
         };
         let own = put(moment.motion, moment.place.frame);
         let pose = match moment.fading.filter(|fading| fading.share > 0.0) {
@@ -130,7 +132,10 @@ fn blended(
         };
         let (from_above, to_above) = (above(from), above(to));
         let turned = |above: &Transform, node: &Transform| above.rotation.inverse() * node.rotation;
-        let (start, mut end) = (turned(&from_above, &from[part]), turned(&to_above, &to[part]));
+        let (start, mut end) = (
+            turned(&from_above, &from[part]),
+            turned(&to_above, &to[part]),
+        );
         if start.dot(end) < 0.0 {
             end = -end;
         }
@@ -138,7 +143,11 @@ fn blended(
         let hangs = [own.joint, own.node.position].map(|point| {
             let inside = own.node.to_local(point);
             let at = |above: &Transform, node: &Transform| above.to_local(node.apply(inside));
-            (inside, at(&from_above, &from[part]), at(&to_above, &to[part]))
+            (
+                inside,
+                at(&from_above, &from[part]),
+                at(&to_above, &to[part]),
+            )
         });
         let [joint, middle] = hangs;
         let apart = |hang: &(DVec3, DVec3, DVec3)| hang.1.distance(hang.2);

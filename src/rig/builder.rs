@@ -174,7 +174,11 @@ impl<'a> ClipBuilder<'a> {
             let roles = Roles::find(&figure, root);
             return self.moved_about(Moves::new(which, roles).at_speed(speed), group, figure);
         }
-        self.moved_about(Moves::new(which, roles).at_speed(speed), group.clone(), figure)
+        self.moved_about(
+            Moves::new(which, roles).at_speed(speed),
+            group.clone(),
+            figure,
+        )
     }
 
     fn moved_about(

@@ -43,7 +43,9 @@ pub(super) fn outside(link: &str, outside: Outside, timed: bool, span: Span) -> 
     let Outside { asked, seconds, .. } = outside;
     let (asked, seconds) = (rounded(asked), rounded(seconds));
     let message = if outside.is_beginning {
-        format!("the motion `{link}` is {seconds} seconds long, so nothing of it is left from {asked} on")
+        format!(
+            "the motion `{link}` is {seconds} seconds long, so nothing of it is left from {asked} on"
+        )
     } else {
         format!("the motion `{link}` is {seconds} seconds long: it ends before {asked}")
     };

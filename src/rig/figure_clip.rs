@@ -110,6 +110,21 @@ impl FigureClip {
         }
     }
 
+    /// The motions that play in turn, in words, in the order in which they play: `walk 2.00 s (2 cycles)`; nothing for a single one that
+    /// plays once. Limited animation keeps these times.
+    pub fn turns_in_words(&self) -> Vec<String> {
+        let is_single = matches!(self.turns.as_slice(), [only] if only.cycles == 1);
+        let turns = self.turns.iter().filter(|_| !is_single);
+        let words = turns.map(|turn| {
+            let seconds = turn.steps as f64 * self.frame_time();
+            match turn.cycles {
+                1 => format!("{} {seconds:.2} s", turn.file),
+                cycles => format!("{} {seconds:.2} s ({cycles} cycles)", turn.file),
+            }
+        });
+        words.collect()
+    }
+
     /// How long it is.
     pub fn seconds(&self) -> f64 {
         match &self.cut {

@@ -11,6 +11,8 @@ mod effects;
 mod facings;
 mod figure_clip;
 mod figures;
+#[cfg(test)]
+mod fixtures;
 mod holding;
 mod limbless;
 mod measured;

@@ -141,3 +141,6 @@ pub(super) fn joined(
     });
     (rig, clip)
 }
+
+#[cfg(test)]
+mod tests;

@@ -117,8 +117,5 @@ pub(super) fn cut(clip: &Clip, arguments: &Motion, options: Options) -> Result<O
             outside.seconds, outside.asked
         ));
     }
-    Ok(Options {
-        range,
-        ..options
-    })
+    Ok(Options { range, ..options })
 }

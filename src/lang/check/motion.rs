@@ -5,10 +5,10 @@ use super::arguments::{ArgumentError, ArgumentValue, Callee};
 use super::build::{has_flag, signed_axis};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::{Argument, ArgumentKind, Attribute};
-use crate::lang::keyword::Keyword;
-use crate::lang::motion::{ClipKind, Role, Said, Slot, slots};
-use crate::lang::parameter_at;
 use crate::lang::evaluate::Lookup;
+use crate::lang::keyword::Keyword;
+use crate::lang::motion::{ClipKind, Role, Said, Slot, nearest_clip, slots};
+use crate::lang::parameter_at;
 use crate::lang::value::{Motion, MotionSource, MotionTurn};
 
 /// A clip that plays in turn, with the arguments that say it.
@@ -91,7 +91,9 @@ impl Checker<'_> {
             }
         }
         if let (Some(Role::Word(said)), true) = (
-            slots.get(values.len().wrapping_sub(1)).map(|slot| slot.role),
+            slots
+                .get(values.len().wrapping_sub(1))
+                .map(|slot| slot.role),
             values.len() == arguments.len(),
         ) {
             self.number_is_missing(said, attribute);
@@ -121,8 +123,12 @@ impl Checker<'_> {
             return false;
         };
         let next = arguments.get(index + 1).map(|next| &next.kind);
-        let is_timed = matches!(next, Some(ArgumentKind::Number(_) | ArgumentKind::Expression(_)));
-        slot.role == Role::Name
+        let is_timed = matches!(
+            next,
+            Some(ArgumentKind::Number(_) | ArgumentKind::Expression(_))
+        );
+        matches!(slot.role, Role::Name | Role::Source)
+            && nearest_clip(word).is_none()
             && is_timed
             && word.starts_with(char::is_uppercase)
             && Keyword::nearest(word).is_some()
@@ -180,9 +186,10 @@ impl Checker<'_> {
         }
         let written = &self.text.as_str()[argument.range.clone()];
         let source = slots(&attribute.arguments, &|_| false);
-        let source = source.iter().zip(&attribute.arguments).find(|(own, _)| {
-            own.clip == slot.clip && own.role == Role::Source
-        });
+        let source = source
+            .iter()
+            .zip(&attribute.arguments)
+            .find(|(own, _)| own.clip == slot.clip && own.role == Role::Source);
         let whose = match source.map(|(_, argument)| &argument.kind) {
             Some(ArgumentKind::Word(word)) => format!("`{word}`, a clip that comes along"),
             _ => "the clip that comes along and fits".to_owned(),
@@ -271,7 +278,11 @@ impl Checker<'_> {
             written(seconds),
             written(to)
         );
-        let later = if seconds.range.start > to.range.start { seconds } else { to };
+        let later = if seconds.range.start > to.range.start {
+            seconds
+        } else {
+            to
+        };
         let diagnostic = self.diagnostic(Code::ArgumentCount, &later.range, message);
         self.diagnostics.push(diagnostic.help(
             "leave one of them out: the number says for how long it plays, `to` where in the file it ends",

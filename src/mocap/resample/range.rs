@@ -26,7 +26,10 @@ pub(crate) struct Outside {
 
 impl Range {
     /// The frames of a clip from one time to another, seconds from its beginning, as far as these are given; and what of that the clip does not have.
-    pub(crate) fn of_seconds(clip: &Clip, cut: [Option<f64>; 2]) -> (Option<Self>, Option<Outside>) {
+    pub(crate) fn of_seconds(
+        clip: &Clip,
+        cut: [Option<f64>; 2],
+    ) -> (Option<Self>, Option<Outside>) {
         // Times are rarely written more precisely than this.
         const PRECISION: f64 = 5e-3;
         let last = clip.frames.saturating_sub(1);
