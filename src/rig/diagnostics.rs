@@ -51,7 +51,7 @@ pub(super) fn outside(link: &str, outside: Outside, timed: bool, span: Span) -> 
     };
     let help = match (outside.is_beginning, timed) {
         (true, _) => format!("write a beginning before its end: a number below {seconds}"),
-        (false, true) => "leave the number out, and it plays to its end; `-l` makes a loop of a motion, which plays for as long as you say".to_owned(),
+        (false, true) => "leave the number out, and it plays to its end; alone in a `Motion`, `-l` makes a loop of it, which plays for as long as you say".to_owned(),
         (false, false) => "leave `to` out, and it plays to its end".to_owned(),
     };
     Diagnostic::new(Code::OutsideMotion, span, message).help(help)

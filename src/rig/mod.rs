@@ -172,7 +172,7 @@ pub(crate) fn add_clips(
                 MotionSource::File(link) => {
                     // Of several motions, all together are the loop.
                     let is_loop = request.is_loop && is_single;
-                    let motion = files.get(link, turn, is_loop, span, resolver, memo, diagnostics);
+                    let motion = files.get(turn, is_loop, span, resolver, memo, diagnostics);
                     (link.as_str(), motion.map(Motion::File))
                 }
                 MotionSource::BuiltIn(word) => {

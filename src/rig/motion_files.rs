@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::bind::{MotionTurn, SignedAxis, TurnRequest};
+use crate::bind::{MotionSource, MotionTurn, SignedAxis, TurnRequest};
 use crate::diagnostic::Diagnostic;
 use crate::memo::Memo;
 use crate::mocap::resample::{Outside, Range};
@@ -41,11 +41,10 @@ struct MotionFile {
 pub(super) struct MotionFiles(BTreeMap<MotionKey, Result<Arc<MotionFile>, LinkError>>);
 
 impl MotionFiles {
-    /// The clip of the file that one of a string's motions links to; `is_loop` says whether it is made one. Problems of the file are
-    /// reported at `span` for every string that links to it, because each of these has to be fixed.
+    /// The clip of the file that one of a string's motions links to, `None` if it links to none; `is_loop` says whether it is made one.
+    /// Problems of the file are reported at `span` for every string that links to it, because each of these has to be fixed.
     pub(super) fn get(
         &mut self,
-        link: &str,
         request: &TurnRequest<'_>,
         is_loop: bool,
         span: Span,
@@ -53,13 +52,16 @@ impl MotionFiles {
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Arc<PreparedClip>> {
+        let MotionSource::File(link) = &request.motion.source else {
+            return None;
+        };
         let key = MotionKey {
-            link: link.to_owned(),
+            link: link.clone(),
             up: request.motion.up.and_then(up_axis),
             cut: cut(request.motion, is_loop).map(|seconds| seconds.map(f64::to_bits)),
             is_loop,
         };
-        let first = !self.0.keys().any(|known| known.link == link);
+        let first = !self.0.keys().any(|known| known.link == *link);
         let file = self.0.entry(key.clone()).or_insert_with(|| {
             memo.get_reading(key, resolver, |key, resolver| {
                 let bytes = resolver.read(&key.link)?;
