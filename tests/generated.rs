@@ -101,6 +101,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::OddPerformance, "perform-still"),
     (Code::NoLimbs, "motion-without-limbs"),
     (Code::ComesOff, "motion-comes-off"),
+    (Code::OutsideMotion, "motion-range-outside"),
     (Code::IdleBend, "bend-without-effect"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),

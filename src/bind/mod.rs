@@ -24,7 +24,8 @@ mod words;
 pub(crate) use crate::anatomy::Garment;
 pub(crate) use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
-    MotionSource, PartMark, PerformanceRequest, Resolved, SetBy, Side, SignedAxis,
+    MotionSource, MotionTurn, PartMark, PerformanceRequest, Resolved, SetBy, Side, SignedAxis,
+    TurnRequest,
 };
 pub(crate) use bindings::{
     Bindings, BoundBy, DrawingString, NamedBy, Part, Seen, StringHolder, StringId,

@@ -21,6 +21,7 @@ use crate::motion::edit::{self, EditedClip, ExposureMethod, Filmed, edit};
 use crate::motion::{add_camera, skeleton_model};
 use crate::prepare::{self, LeadInPolicy};
 
+mod in_turn;
 mod performance;
 
 /// What to write.
@@ -54,22 +55,27 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Result<Outcome, Failure
             LeadInPolicy::Drop
         },
         range: arguments.range,
+        speed: arguments.speed,
         up: arguments.up,
         is_loop: arguments.is_loop,
         is_in_place: arguments.in_place,
     };
     let (opening, prepared) = match built_in(arguments) {
-        Some(which) if which.moves_parts() => return Err(needs_a_figure(which).into()),
         Some(which) => {
-            let clip = prepare::built_in(which, arguments.legs);
-            (describe(&clip.clip), clip.change(&options))
+            let turns = in_turn::turns(which, arguments)?;
+            let opening = describe(&turns.0.clip.clip);
+            (opening, in_turn::joined(turns, &options))
         }
         None => {
+            if let Some(other) = arguments.in_turn.first() {
+                return Err(in_turn::not_in_turn(other).into());
+            }
             let reading = read(arguments, &name)?;
             for note in &reading.notes {
                 let _ = writeln!(messages, "  {note}");
             }
             let opening = describe(&reading.clip);
+            let options = in_turn::cut(&reading.clip, arguments, options)?;
             let prepared = spinning("cutting", || prepare::prepare(reading.clip, &options));
             (opening, prepared)
         }

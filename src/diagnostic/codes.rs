@@ -588,6 +588,14 @@ codes! {
     /// Draw the two so that they overlap where the part turns, attach the part to what it touches, or choose the point with
     /// `Origin`.
     ComesOff = "W331", "part that comes off";
+    /// `from`, `to` or a number of seconds asks for more of a motion file than there is.
+    ///
+    /// ```text
+    /// %Motion "kick.bvh" kick from 1.2 to 24, and kick.bvh takes 2.8 seconds
+    /// ```
+    ///
+    /// Times are seconds of the file, which begins at 0; the message says how long it is. Without `to` it plays to its end.
+    OutsideMotion = "W332", "range outside of a motion";
     /// `Bend` gives a part joints inside it, but this one has no room for them, or no solid. So `Bend` has no effect.
     ///
     /// ```text
@@ -595,7 +603,7 @@ codes! {
     /// ```
     ///
     /// Write `Bend` in the string of the part that should bend, which must be longer than it is wide, or delete it.
-    IdleBend = "W332", "bend without effect";
+    IdleBend = "W333", "bend without effect";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

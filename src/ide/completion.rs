@@ -307,6 +307,10 @@ impl Cursor<'_> {
         // What follows a file tells its forms apart.
         let is_file = nth(0).all(|parameter| matches!(parameter.takes, Takes::File));
         let forms: Vec<&Takes> = match next {
+            _ if attribute.keyword == Keyword::Motion => {
+                let next = lang::motion::parameters_behind(&attribute.arguments, &is_variable);
+                next.iter().map(|slot| &slot.parameter().takes).collect()
+            }
             0 => nth(0).map(|parameter| &parameter.takes).collect(),
             1 if is_file => nth(1).map(|parameter| &parameter.takes).collect(),
             _ => parameter_at(attribute, next, &is_variable)

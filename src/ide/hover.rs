@@ -434,6 +434,18 @@ mod tests {
             ("Rarm@Body$Origin st¦art", "`start`: the end point nearer"),
             ("Rarm@Body$Motion wa¦lk", "`walk`: a walk; on four legs"),
             ("Rarm@Body$Motion -¦i run", "`-i`: in place"),
+            (
+                "Rarm@Body$Motion run 1 spe¦ed 2",
+                "`speed`: how fast it plays",
+            ),
+            (
+                "Rarm@Body$Motion run 1¦2 walk 2",
+                "`seconds` of `Motion`: how long it plays",
+            ),
+            (
+                "Rarm@Body$Motion run 1 wa¦lk 2",
+                "`walk`: a walk; on four legs",
+            ),
             ("Rarm@Body$Offset ¦w", "`w` is 12, by `%Let w 12`"),
             ("Rarm@Body$Offset (w * ¦2)", "Its value here is 24."),
             ("Rarm@Bo¦dy", "**Body**"),

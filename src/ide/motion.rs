@@ -85,8 +85,15 @@ impl Analysis {
         let clips = clips.filter(|clip| clip.requested_at == span);
         let lines = clips.map(|clip| {
             let driven = clip.parts.iter().filter(|drive| drive.joint.is_some());
+            let turns = clip.turns_in_words();
+            let in_turn = if turns.is_empty() {
+                String::new()
+            } else {
+                let turns: Vec<String> = turns.iter().map(|turn| escaped(turn)).collect();
+                format!("; in turn {}", turns.join(", "))
+            };
             format!(
-                "clip {} of {}: {:.2} s, {}, {}; {} of {} are driven by the {} of {}",
+                "clip {} of {}: {:.2} s, {}, {}{in_turn}; {} of {} are driven by the {} of {}",
                 code(&clip.name),
                 self.figure_of(clip),
                 clip.seconds(),
@@ -298,6 +305,9 @@ mod tests {
             assert!(card.contains(expected), "{card}");
         }
         assert!(hover("Rarm@Body", "%Mo¦tion \"none.bvh\"").starts_with("No figure plays it."));
+        let card = hover("Rarm@Body", "%Mo¦tion idle \"kick.bvh\" wave 6 hello");
+        let expected = "- clip `hello` of `Body`: 8.50 s, 205 frames, 205 drawings; in turn idle 3.00 s, kick.bvh 0.50 s, wave 5.00 s (2 cycles); ";
+        assert!(card.contains(expected), "{card}");
     }
 
     #[test]

@@ -121,7 +121,7 @@ fn written(name: &str, form: &Form, summary: &'static str) -> Signature {
         format!("{name} {printed}")
     };
     let mut from = name.len();
-    let parameters = form.parameters.iter().map(|parameter| {
+    let parameters = form.all().map(|parameter| {
         let text = parameter.print();
         let start = label[from..].find(&text).map_or(from, |at| from + at);
         from = start + text.len();
@@ -173,6 +173,11 @@ mod tests {
                 "top",
             ),
             ("Rarm@Body$Color ¦", "Color r g b [a]", "r"),
+            (
+                "Rarm@Body$Motion \"a.bvh\" from ¦",
+                "Motion [-il] \"file\" [up] [seconds] [from start] [to end] [speed factor] …",
+                "start",
+            ),
             ("Rarm@Body$Color 1 ¦", "Color r g b [a]", "g"),
             ("Rarm@Body$Color #f0f¦", "Color #rrggbb[aa]", "#rrggbb[aa]"),
             (

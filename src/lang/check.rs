@@ -6,6 +6,7 @@
 mod arguments;
 mod build;
 mod diagnostics;
+mod motion;
 
 use std::collections::BTreeMap;
 

@@ -173,7 +173,7 @@ pub(crate) fn overview() -> String {
 /// A list of the parameters of some forms; empty if the printed forms say everything.
 pub(super) fn parameters(forms: &[Form]) -> String {
     let mut out = String::new();
-    let all: Vec<&Parameter> = forms.iter().flat_map(|form| form.parameters).collect();
+    let all: Vec<&Parameter> = forms.iter().flat_map(Form::all).collect();
     for (index, parameter) in all.iter().enumerate() {
         let same =
             |other: &&Parameter| (other.name, other.summary) == (parameter.name, parameter.summary);

@@ -316,8 +316,8 @@ mod tests {
         assert_eq!(
             Keyword::Motion.usages()[..2],
             [
-                "Motion [-il] [\"file\" [up]]",
-                "Motion [-il] \"file\" clip [up]"
+                "Motion [-il] \"file\" [up] [seconds] [from start] [to end] [speed factor] …",
+                "Motion [-il] \"file\" name [up] [seconds] [from start] [to end] [speed factor] …"
             ]
         );
         assert_eq!(Keyword::Follow.usages(), ["Follow name…"]);

@@ -19,6 +19,7 @@ pub(crate) mod value;
 pub(crate) mod variables;
 
 mod evaluate;
+pub(crate) mod motion;
 mod normalize;
 #[cfg(test)]
 mod tests;

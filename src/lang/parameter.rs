@@ -3,6 +3,7 @@
 use super::ast::{ArgumentKind, Attribute};
 use super::keyword::signature::{Form, Parameter, Takes};
 use super::keyword::{Keyword, colors, kinds};
+use super::motion;
 
 /// The parameter that an argument is for.
 #[derive(Debug, Clone, Copy)]
@@ -20,7 +21,11 @@ pub(crate) struct ParameterRef {
 impl ParameterRef {
     /// The parameter.
     pub(crate) fn parameter(&self) -> &'static Parameter {
-        &self.form.parameters[self.index]
+        let parameters = self.form.parameters;
+        match self.index.checked_sub(parameters.len()) {
+            None => &parameters[self.index],
+            Some(option) => &self.form.options[option],
+        }
     }
 }
 
@@ -43,6 +48,9 @@ pub(crate) fn parameter_at(
             form: &kind.form,
             index: parameter_index(&kind.form, index - 1)?,
         });
+    }
+    if attribute.keyword == Keyword::Motion {
+        return motion::parameter(&attribute.arguments, index, is_variable);
     }
     let forms = attribute.keyword.row().forms;
     let form = form_by_first_argument(attribute, is_variable)
@@ -142,8 +150,14 @@ mod tests {
             ("$Hidden", 0, None),
             ("$Motion \"a.bvh\"", 1, Some(("Motion", "up"))),
             ("$Motion \"a.bvh\" +z", 1, Some(("Motion", "up"))),
-            ("$Motion \"a.bvh\" +z", 2, None),
-            ("$Motion \"a.bvh\" kick", 1, Some(("Motion", "clip"))),
+            ("$Motion \"a.bvh\" +z", 2, Some(("Motion", "seconds"))),
+            ("$Motion \"a.bvh\" from", 2, Some(("Motion", "start"))),
+            (
+                "$Motion \"a.bvh\" to 2 speed 3",
+                4,
+                Some(("Motion", "factor")),
+            ),
+            ("$Motion \"a.bvh\" kick", 1, Some(("Motion", "name"))),
             ("$Motion \"a.bvh\" kick", 2, Some(("Motion", "up"))),
             ("$Perform \"a.json\" 10", 1, Some(("Perform", "input-key"))),
             (
@@ -160,7 +174,10 @@ mod tests {
             ),
             ("$Motion walk", 0, Some(("Motion", "clip"))),
             ("$Motion walk", 1, Some(("Motion", "name"))),
-            ("$Motion walk stroll", 2, None),
+            ("$Motion walk stroll", 2, Some(("Motion", "seconds"))),
+            ("$Motion walk w wave", 1, Some(("Motion", "seconds"))),
+            ("$Motion walk w wave", 2, Some(("Motion", "clip"))),
+            ("$Motion walk +z", 1, None),
         ] {
             assert_eq!(name(string, index), expected, "{string} {index}");
         }

@@ -105,19 +105,36 @@ impl Shape {
     }
 }
 
-/// `Motion [-il] "file" [clip] [up]`, `Motion [-il] walk [name]`, `Motion [-il]`
+/// `Motion [-il] "file" …`, `Motion [-il] walk …`, `Motion [-il]`
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// The motion.
-    pub source: MotionSource,
+    /// The motions that play in turn; at least one.
+    pub turns: Vec<MotionTurn>,
     /// The clip's name, if given.
     pub clip: Option<String>,
-    /// The axis that points up in the file, if given.
-    pub up: Option<SignedAxis>,
     /// `-i`: without travel over the ground.
     pub is_in_place: bool,
     /// `-l`: a loop.
     pub is_loop: bool,
+}
+
+/// One of the motions that play in turn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionTurn {
+    /// The motion.
+    pub source: MotionSource,
+    /// The number of the argument that names it; `None` if none does.
+    pub argument: Option<usize>,
+    /// The axis that points up in the file, if given.
+    pub up: Option<SignedAxis>,
+    /// For how many seconds it plays, if given: more than 0.
+    pub seconds: Option<f64>,
+    /// Where in the file it begins, if given: seconds of the file, 0 or more.
+    pub from: Option<f64>,
+    /// Where in the file it ends, if given: after `from`.
+    pub to: Option<f64>,
+    /// How fast it plays, 0.01 to 100; 1 is as it is.
+    pub speed: f64,
 }
 
 /// Where a motion comes from.

@@ -4,6 +4,7 @@
 //! the file's unit.
 
 pub(crate) mod bvh;
+pub(crate) mod in_turn;
 pub(crate) mod resample;
 mod skeleton;
 pub(crate) mod travel;

@@ -47,6 +47,23 @@ pub struct LeadIn {
     pub jump: f64,
 }
 
+impl LeadIn {
+    /// That it is left out, for people to read; `None` without one.
+    pub(super) fn note(&self) -> Option<String> {
+        match self.kind {
+            LeadInKind::None => None,
+            LeadInKind::Single => Some(
+                "frame 1 is a pose that the motion jumps out of, as files often begin: it is left out"
+                    .to_owned(),
+            ),
+            LeadInKind::Eased => Some(format!(
+                "frames 1 to {} lead out of a T-pose, as files often begin: they are left out",
+                self.frames
+            )),
+        }
+    }
+}
+
 /// Finds the lead-in of a clip. `positions` are those of [`Clip::positions`](crate::mocap::Clip::positions), `frames × joints`.
 /// `arms` are the known arms, each by its shoulder (where the upper arm begins) and its hand; with fewer than two, an eased lead-in
 /// is not searched for.

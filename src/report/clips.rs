@@ -18,8 +18,10 @@ pub(crate) struct Clip<'a> {
     pub name: &'a str,
     /// The name of the figure's root.
     pub figure: &'a str,
-    /// The motion file, as the drawing names it.
+    /// The motion file, as the drawing names it; of motions that play in turn, that of the first one with joints.
     pub file: &'a str,
+    /// The motions that play in turn, one or more.
+    pub turns: Vec<Turn<'a>>,
     /// Its duration.
     pub seconds: f64,
     /// Frames per second.
@@ -50,6 +52,19 @@ pub(crate) struct Clip<'a> {
     pub performance: Option<Performance<'a>>,
 }
 
+/// One of the motions that play in turn in a clip.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Turn<'a> {
+    /// The motion file, or the word for one that comes along.
+    pub file: &'a str,
+    /// The frame of the motion with which it begins.
+    pub first: usize,
+    /// How long it plays.
+    pub seconds: f64,
+    /// How often it is repeated in that time.
+    pub cycles: usize,
+}
+
 /// The clips of a drawing, in the order of the strings that request them.
 pub(crate) fn clips(compiled: &Compiled) -> Vec<Clip<'_>> {
     let clips = compiled.clips.iter();
@@ -64,6 +79,12 @@ fn report<'a>(compiled: &'a Compiled, clip: &'a FigureClip) -> Clip<'a> {
     let reason = |drive: &&'a PartDrive| (name(drive.part), drive.why.as_str());
     let (omitted, held) = clip.cut_frames();
     let drawings = clip.cut.iter().flat_map(|cut| cut.exposure.drawings());
+    let turns = clip.turns.iter().map(|turn| Turn {
+        file: &turn.file,
+        first: turn.first,
+        seconds: turn.steps as f64 * clip.frame_time(),
+        cycles: turn.cycles,
+    });
     let speeds = clip.speeds();
     let step = speeds.len().div_ceil(MAX_SPEEDS).max(1);
     let fastest = |speeds: &[f64]| speeds.iter().copied().fold(0.0, f64::max);
@@ -71,6 +92,7 @@ fn report<'a>(compiled: &'a Compiled, clip: &'a FigureClip) -> Clip<'a> {
         name: &clip.name,
         figure: name(clip.root),
         file: &clip.file,
+        turns: turns.collect(),
         seconds: clip.seconds(),
         fps: 1.0 / clip.frame_time(),
         frames: clip.frames(),

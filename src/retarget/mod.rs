@@ -7,6 +7,7 @@ mod axes;
 mod carried;
 mod contacts;
 mod ground;
+mod joined;
 mod kinematics;
 mod matching;
 mod planting;
@@ -28,6 +29,7 @@ use crate::labels::{Facing, FigurePartId};
 use crate::mocap::{Clip, JointId, Pose, Transform};
 
 pub use axes::Landmarks;
+pub(crate) use joined::{Turn, joined};
 pub use matching::{Drive, Follow};
 pub(crate) use matching::{MatchedPart, Matching, Problem, bent_arms, joints_named, match_figure};
 pub use rest_pose::RestSource;
@@ -164,6 +166,19 @@ pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip
 /// that of the first frame.
 pub(crate) fn to_drawing(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> DQuat {
     axes::Axes::of(clip, landmarks, facing).first.inverse()
+}
+
+/// By how much the body of a clip is turned about the vertical from its first frame to its last one, in the axes of a drawing whose figure
+/// faces in a direction.
+pub(crate) fn turn(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> DQuat {
+    let axes = axes::Axes::of(clip, landmarks, facing);
+    match clip.frames.checked_sub(1) {
+        Some(last) => {
+            let at = axes.at(landmarks, PoseBuffer::new(clip).at(last));
+            (axes.first.inverse() * at).normalize()
+        }
+        None => DQuat::IDENTITY,
+    }
 }
 
 /// What turns are made from: a clip, and the rig that plays it.

@@ -16,6 +16,7 @@ use super::moves::{Moves, Role, Roles};
 use super::performed::{self, Channels, Performed};
 use super::rigging::{self, RestNodes};
 use super::tracks::AnimatedNodes;
+use super::turn::{self, PlayedTurn};
 use crate::bind::{ClipLimits, ClipRequest, PartId, PerformanceRequest, SetBy};
 use crate::clips::{BuiltIn, Legs};
 use crate::diagnostic::Diagnostic;
@@ -24,7 +25,8 @@ use crate::limited::Measured;
 use crate::limited::{self, Cut, Exposure, Length};
 use crate::mark_tracks::MarkTracks;
 use crate::memo::{Exactly, Memo, Same};
-use crate::mocap::travel::{Ending, travel};
+use crate::mocap::resample::TimeMap;
+use crate::mocap::travel::travel;
 use crate::performance::{Filmed, Plan};
 use crate::prepare::{self, PreparedClip};
 use crate::retarget::{Matching, bent_arms, match_figure};
@@ -36,6 +38,8 @@ use crate::scene::Scene;
 struct RetargetKey {
     rig: Exactly<Arc<Rig>>,
     motion: Same<PreparedClip>,
+    /// How many steps from frame to frame it takes.
+    steps: usize,
     plan: Option<Same<Plan>>,
     /// Per part the ratio of its turns that is left.
     ratios: Exactly<TiVec<FigurePartId, Option<f64>>>,
@@ -75,8 +79,8 @@ pub(super) struct MatchedFigure {
 /// A clip that a string asks for.
 pub(super) struct Requested<'r, 'a> {
     pub(super) request: &'r ClipRequest<'a>,
-    /// The file or the word.
-    pub(super) link: &'a str,
+    /// The motions that play in turn; at least one.
+    pub(super) turns: &'r [PlayedTurn<'r>],
     pub(super) performance: Option<FoundPerformance<'a>>,
 }
 
@@ -159,6 +163,7 @@ impl<'a> ClipBuilder<'a> {
     pub(super) fn moved(
         &self,
         which: BuiltIn,
+        speed: f64,
         group: &FigureGroup,
         figure: Figure,
         roles: Roles,
@@ -167,19 +172,21 @@ impl<'a> ClipBuilder<'a> {
             let group = group.clone().rooted_at(group.parts[root]);
             let figure = rigging::drawn_figure(self.context, &group);
             let roles = Roles::find(&figure, root);
-            return self.moved_about(which, group, figure, roles);
+            return self.moved_about(Moves::new(which, roles).at_speed(speed), group, figure);
         }
-        self.moved_about(which, group.clone(), figure, roles)
+        self.moved_about(
+            Moves::new(which, roles).at_speed(speed),
+            group.clone(),
+            figure,
+        )
     }
 
     fn moved_about(
         &self,
-        which: BuiltIn,
+        moves: Moves,
         group: FigureGroup,
         figure: Figure,
-        roles: Roles,
     ) -> (MatchedFigure, Arc<PreparedClip>) {
-        let moves = Moves::new(which, roles);
         let parts = &self.context.bindings.parts;
         let matching = moves.matching(|part| parts[group.parts[part]].name.clone());
         let motion = prepare::of_parts(&Role::NAMES, moves.frames());
@@ -221,25 +228,31 @@ impl<'a> ClipBuilder<'a> {
     pub(super) fn add_clip(
         &mut self,
         requested: Requested<'_, '_>,
-        matched: &MatchedFigure,
-        motion: &Arc<PreparedClip>,
         scene: &mut Scene,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         let Requested {
             request,
-            link,
+            turns,
             performance,
         } = requested;
+        let main = turn::main(turns);
+        let (matched, motion) = (&turns[main].matched, &turns[main].motion);
         let group = &matched.group;
-        let rig = Arc::new(rigging::rig(
-            self.context,
-            &matched.figure,
-            group,
-            &matched.matching,
-            self.rest,
-        ));
-        let retargeted = self.retargeted(request, matched, motion, &rig, performance.as_ref());
+        let rigs: Vec<Arc<Rig>> = turns.iter().map(|turn| self.rig(&turn.matched)).collect();
+        let single = |turn: usize, performance: Option<&FoundPerformance<'_>>| {
+            self.retargeted(request, &turns[turn], &rigs[turn], performance)
+        };
+        let (rig, retargeted) = match turns {
+            [only] if only.playing.cycles == 1 => {
+                (Arc::clone(&rigs[0]), single(0, performance.as_ref()))
+            }
+            _ => {
+                let clips = (0..turns.len()).map(|turn| single(turn, None));
+                let clips: Vec<Arc<RetargetedClip>> = clips.collect();
+                turn::joined(turns, &rigs, &clips, request.is_loop, self.memo)
+            }
+        };
         let measured = self.measured(&rig, &retargeted);
         let frames = retargeted.grounded.len();
         let limits = request.limits.or_else(|| self.limits(group));
@@ -250,7 +263,11 @@ impl<'a> ClipBuilder<'a> {
         let is_timed = performance
             .as_ref()
             .is_some_and(|found| found.plan.timing.is_some());
-        let is_loop = motion.ending == Ending::Loop && !is_timed;
+        let ends_as_it_begins = match turns {
+            [only] => only.playing.is_loop,
+            _ => request.is_loop,
+        };
+        let is_loop = ends_as_it_begins && !is_timed;
         let cut = limits.map(|limits| {
             let cut = self.cut([limits.omit, limits.hold], &measured, key_frame, is_loop);
             diagnostics::too_limited(&cut, frames, limits.span, diagnostics);
@@ -275,10 +292,15 @@ impl<'a> ClipBuilder<'a> {
                 tip,
             ))
         });
-        let wanted = request.name.unwrap_or_else(|| figure_clip::stem(link));
+        let links = turns.iter().map(|turn| turn.link);
+        let wanted = match request.name {
+            Some(name) => name.to_owned(),
+            None => figure_clip::name_of(links),
+        };
         let clip = FigureClip {
-            name: figure_clip::free_name(&self.clips, group.root, wanted),
-            file: link.to_owned(),
+            name: figure_clip::free_name(&self.clips, group.root, &wanted),
+            file: turns[main].link.to_owned(),
+            turns: turn::played(turns),
             requested_at: request.span,
             root: group.root,
             parts: figure_clip::part_drives(&group.parts, &matched.matching, |part| {
@@ -290,7 +312,7 @@ impl<'a> ClipBuilder<'a> {
             performed: performance.map(|found| Performed {
                 file: found.request.file.to_owned(),
                 requested_at: found.request.span,
-                before: self.retargeted(request, matched, motion, &rig, None),
+                before: single(main, None),
                 channels: found.channels.parts(group),
                 tracks: found.tracks,
                 plan: found.plan,
@@ -328,15 +350,25 @@ impl<'a> ClipBuilder<'a> {
         }
     }
 
+    fn rig(&self, matched: &MatchedFigure) -> Arc<Rig> {
+        Arc::new(rigging::rig(
+            self.context,
+            &matched.figure,
+            &matched.group,
+            &matched.matching,
+            self.rest,
+        ))
+    }
+
     /// A motion on a figure, as it is performed, or as it is.
     fn retargeted(
         &self,
         request: &ClipRequest<'_>,
-        matched: &MatchedFigure,
-        motion: &Arc<PreparedClip>,
+        turn: &PlayedTurn<'_>,
         rig: &Arc<Rig>,
         performance: Option<&FoundPerformance<'_>>,
     ) -> Arc<RetargetedClip> {
+        let (matched, motion) = (&turn.matched, &turn.motion);
         if let Some(moves) = &matched.moves {
             return Arc::new(moves.play(rig, request.is_in_place));
         }
@@ -346,14 +378,18 @@ impl<'a> ClipBuilder<'a> {
         let key = RetargetKey {
             rig: Exactly(Arc::clone(rig)),
             motion: Same(Arc::clone(motion)),
+            steps: turn.playing.steps,
             plan: plan.map(|plan| Same(Arc::clone(plan))),
             ratios: Exactly(ratios),
         };
         let retargeted = self.memo.get(key, |key| {
             let motion = &key.motion.0;
             let mut turns = Turns::new(&motion.clip, &key.rig.0, &motion.landmarks());
+            let last = motion.clip.frames.saturating_sub(1);
             if let Some(timing) = key.plan.as_ref().and_then(|plan| plan.0.timing.as_ref()) {
                 turns = turns.timed(timing);
+            } else if key.steps != last {
+                turns = turns.timed(&TimeMap::through(&[[0, 0], [key.steps, last]]));
             }
             Arc::new(turns.damped(&key.ratios.0).travel())
         });

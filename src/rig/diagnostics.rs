@@ -6,6 +6,7 @@ use crate::bind::{FollowedName, PartId, PartMark, PerformanceRequest};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::limited::{Cut, MAX_OMITTED_RUN};
 use crate::mark_tracks;
+use crate::mocap::resample::Outside;
 use crate::mocap::{JointId, Skeleton, bvh};
 use crate::performance::Finding;
 use crate::retarget::{Matching, Problem};
@@ -35,6 +36,30 @@ pub(super) fn note(link: &str, note: &str, span: Span) -> Diagnostic {
     let message = format!("the motion `{link}`: {note}");
     Diagnostic::new(Code::MotionRepaired, span, message)
         .help("you need not change anything; `okoshi motion IN.bvh --full -o OUT.bvh` writes the motion as it was read")
+}
+
+/// A range that reaches beyond the end of a file; `timed` says whether a number of seconds asks for it.
+pub(super) fn outside(link: &str, outside: Outside, timed: bool, span: Span) -> Diagnostic {
+    let Outside { asked, seconds, .. } = outside;
+    let (asked, seconds) = (rounded(asked), rounded(seconds));
+    let message = if outside.is_beginning {
+        format!(
+            "the motion `{link}` is {seconds} seconds long, so nothing of it is left from {asked} on"
+        )
+    } else {
+        format!("the motion `{link}` is {seconds} seconds long: it ends before {asked}")
+    };
+    let help = match (outside.is_beginning, timed) {
+        (true, _) => format!("write a beginning before its end: a number below {seconds}"),
+        (false, true) => "leave the number out, and it plays to its end; alone in a `Motion`, `-l` makes a loop of it, which plays for as long as you say".to_owned(),
+        (false, false) => "leave `to` out, and it plays to its end".to_owned(),
+    };
+    Diagnostic::new(Code::OutsideMotion, span, message).help(help)
+}
+
+/// A number of seconds with at most two decimals.
+fn rounded(seconds: f64) -> f64 {
+    (seconds * 100.0).round() / 100.0
 }
 
 /// A drawing whose clips have too many keys.
@@ -224,6 +249,16 @@ pub(super) fn unperformed(request: &PerformanceRequest<'_>, clip: &str) -> Diagn
     );
     Diagnostic::new(Code::MarkMismatch, request.span, message)
         .help("perform a motion of a body, such as a file or `Motion wave`, or leave `Perform` out")
+}
+
+/// A performance of several motions in turn.
+pub(super) fn unperformed_turns(request: &PerformanceRequest<'_>) -> Diagnostic {
+    let message = format!(
+        "`Perform \"{}\"` has no effect on motions that play in turn, because it times one action",
+        request.file
+    );
+    Diagnostic::new(Code::MarkMismatch, request.span, message)
+        .help("give the motion that is performed a `Motion` of its own, which plays once")
 }
 
 /// Marks of a track that no part of the drawing has.

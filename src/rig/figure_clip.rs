@@ -24,8 +24,11 @@ use super::tracks::{self, AnimatedNodes, Shifts};
 pub struct FigureClip {
     /// The animation's name; figures that play at the same time share it.
     pub name: String,
-    /// The file, as the string names it.
+    /// The file or the word, as the string names it. Of several motions that play in turn, that of the first one with joints; so are
+    /// `parts` and `motion`.
     pub file: String,
+    /// The motions that play in turn.
+    pub turns: Vec<FigureTurn>,
     /// Where a string asks for the clip.
     pub requested_at: Span,
     /// The root of the figure.
@@ -47,6 +50,19 @@ pub struct FigureClip {
     pub(super) retargeted: Arc<RetargetedClip>,
     pub(super) measured: Arc<Measured>,
     pub(super) animated: Arc<AnimatedNodes>,
+}
+
+/// One of the motions that play in turn in a clip.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FigureTurn {
+    /// The file or the word.
+    pub file: String,
+    /// The frame of the clip with which it begins, before it is limited.
+    pub first: usize,
+    /// How many steps from frame to frame it takes.
+    pub steps: usize,
+    /// How often it is repeated in them.
+    pub cycles: usize,
 }
 
 /// A part of a figure, and the joint that drives it.
@@ -92,6 +108,21 @@ impl FigureClip {
             Some(cut) => cut.exposure.drawings().count(),
             None => self.source_frames(),
         }
+    }
+
+    /// The motions that play in turn, in words, in the order in which they play: `walk 2.00 s (2 cycles)`; nothing for a single one that
+    /// plays once. Limited animation keeps these times.
+    pub fn turns_in_words(&self) -> Vec<String> {
+        let is_single = matches!(self.turns.as_slice(), [only] if only.cycles == 1);
+        let turns = self.turns.iter().filter(|_| !is_single);
+        let words = turns.map(|turn| {
+            let seconds = turn.steps as f64 * self.frame_time();
+            match turn.cycles {
+                1 => format!("{} {seconds:.2} s", turn.file),
+                cycles => format!("{} {seconds:.2} s ({cycles} cycles)", turn.file),
+            }
+        });
+        words.collect()
     }
 
     /// How long it is.
@@ -263,6 +294,13 @@ pub(super) fn part_drives(
     let mut drives: Vec<PartDrive> = drives.collect();
     drives.sort_by_key(|drive| drive.part);
     drives
+}
+
+/// A clip's name by the files and words of the motions that play in turn: `walk-wave-idle`. A long list is cut off.
+pub(super) fn name_of<'a>(links: impl Iterator<Item = &'a str>) -> String {
+    const MAX_NAMES: usize = 4;
+    let stems: Vec<&str> = links.take(MAX_NAMES).map(stem).collect();
+    stems.join("-")
 }
 
 /// A clip's name by its file: the text between the last slash and the last dot.

@@ -11,6 +11,8 @@ mod effects;
 mod facings;
 mod figure_clip;
 mod figures;
+#[cfg(test)]
+mod fixtures;
 mod holding;
 mod limbless;
 mod measured;
@@ -22,6 +24,7 @@ mod performed;
 mod rigging;
 mod surface;
 mod tracks;
+mod turn;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -40,6 +43,7 @@ use crate::memo::Memo;
 use crate::prepare::PreparedClip;
 use crate::resolver::Resolver;
 use crate::scene::{NodeId, Scene, WorldTransform};
+use crate::source::Span;
 use crate::svg::Drawing;
 
 pub(crate) use bends::{bends, idle_bends};
@@ -51,7 +55,7 @@ pub use figure_clip::FigureClip;
 pub(crate) use figure_clip::{PartDrive, originals};
 pub(crate) use figures::FigureGroup;
 pub(crate) use figures::find as find_figures;
-use limbless::Misfit;
+use limbless::{Limbless, Misfit};
 use motion_files::MotionFiles;
 use moves::Roles;
 use performances::Performances;
@@ -59,6 +63,7 @@ pub(crate) use performed::Performed;
 pub(crate) use rigging::RestNode;
 use rigging::RestNodes;
 use tracks::AnimatedNodes;
+use turn::PlayedTurn;
 
 /// The most keys of all clips of a drawing: frames × parts.
 const MAX_KEYS: usize = 1 << 24;
@@ -94,6 +99,36 @@ enum Motion {
     Fitting,
 }
 
+/// What is found about one of the motions that a string asks for, on all figures that play it.
+struct Findings<'a> {
+    /// The file or the word.
+    link: &'a str,
+    span: Span,
+    is_played: bool,
+    limbless: Vec<Limbless>,
+    misfits: Vec<Misfit>,
+}
+
+impl<'a> Findings<'a> {
+    fn new(link: &'a str, span: Span) -> Self {
+        Self {
+            link,
+            span,
+            is_played: false,
+            limbless: Vec::new(),
+            misfits: Vec::new(),
+        }
+    }
+
+    fn report(&self, diagnostics: &mut Vec<Diagnostic>) {
+        limbless::report(&self.limbless, self.link, self.span, diagnostics);
+        limbless::report_misfits(&self.misfits, self.span, diagnostics);
+        if !self.is_played {
+            diagnostics.push(diagnostics::idle_motion(self.span, self.link));
+        }
+    }
+}
+
 /// Adds the clips that strings ask for to the scene, and returns what they are. `nodes` are the scene's first nodes, parents before
 /// children.
 pub(crate) fn add_clips(
@@ -125,79 +160,111 @@ pub(crate) fn add_clips(
     let (mut files, mut performances) = (MotionFiles::default(), Performances::default());
     let (mut keys, mut matches) = (0_usize, 0_usize);
     for request in &requests {
-        let (link, motion) = match request.source {
-            MotionSource::File(link) => {
-                let motion = files.get(link, request, resolver, memo, diagnostics);
-                (link.as_str(), motion.map(Motion::File))
+        let is_single = request.turns.len() == 1;
+        let mut motions = Vec::with_capacity(request.turns.len());
+        for turn in &request.turns {
+            let span = if is_single {
+                request.span
+            } else {
+                turn.source_span()
+            };
+            let (link, motion) = match &turn.motion.source {
+                MotionSource::File(link) => {
+                    // Of several motions, all together are the loop.
+                    let is_loop = request.is_loop && is_single;
+                    let motion = files.get(turn, is_loop, span, resolver, memo, diagnostics);
+                    (link.as_str(), motion.map(Motion::File))
+                }
+                MotionSource::BuiltIn(word) => {
+                    (word.as_str(), BuiltIn::from_name(word).map(Motion::BuiltIn))
+                }
+                MotionSource::Fitting => ("", Some(Motion::Fitting)),
+            };
+            if let Some(motion) = motion {
+                motions.push((turn, motion, Findings::new(link, span)));
             }
-            MotionSource::BuiltIn(word) => {
-                (word.as_str(), BuiltIn::from_name(word).map(Motion::BuiltIn))
-            }
-            MotionSource::Fitting => ("", Some(Motion::Fitting)),
-        };
-        let Some(motion) = motion else {
+        }
+        if motions.is_empty() {
             continue;
-        };
-        let mut is_played = false;
-        let mut limbless = Vec::new();
-        let mut misfits = Vec::new();
+        }
         for group in groups
             .iter()
             .filter(|group| group.is_addressed_by(request.part))
         {
-            matches += 1;
+            matches += motions.len();
             if matches > MAX_MATCHES {
                 diagnostics.push(diagnostics::too_many_matches(request.span));
-                is_played = true;
+                motions.clear();
                 break;
             }
             let figure = rigging::drawn_figure(context, group);
-            let roles = group.parts.position(|part| *part == group.root);
-            let roles = Roles::find(&figure, roles.unwrap_or(FigurePartId::from(0)));
+            let root = group.parts.position(|part| *part == group.root);
+            let roles = Roles::find(&figure, root.unwrap_or(FigurePartId::from(0)));
             let fitting = roles.fitting();
-            let which = match &motion {
-                Motion::File(_) => None,
-                Motion::BuiltIn(which) => Some(*which),
-                Motion::Fitting => Some(fitting),
-            };
-            let link: &str = match which {
-                Some(which) => which.name(),
-                None => link,
-            };
-            let (matched, motion) = match (&motion, which) {
-                (_, Some(which)) if which.moves_parts() => {
-                    misfits.extend(Misfit::find(context, group, which, &roles));
-                    let (matched, motion) = builder.moved(which, group, figure, roles);
-                    (Some(matched), motion)
-                }
-                (_, Some(which)) => {
-                    let motion = builder.built_in(which, &figure);
-                    (builder.match_figure(group, figure, &motion), motion)
-                }
-                (Motion::File(motion), None) => (
-                    builder.match_figure(group, figure, motion),
-                    Arc::clone(motion),
-                ),
-                (_, None) => continue,
-            };
-            let Some(matched) = matched else {
+            let mut turns = Vec::with_capacity(motions.len());
+            for (turn, motion, findings) in &mut motions {
+                let which = match motion {
+                    Motion::File(_) => None,
+                    Motion::BuiltIn(which) => Some(*which),
+                    Motion::Fitting => Some(fitting),
+                };
+                let (matched, motion) = match (which, motion) {
+                    (Some(which), _) if which.moves_parts() => {
+                        let misfit = Misfit::find(context, group, which, &roles);
+                        findings.misfits.extend(misfit);
+                        let (figure, roles) = (figure.clone(), roles.clone());
+                        let speed = turn.motion.speed;
+                        let (matched, motion) = builder.moved(which, speed, group, figure, roles);
+                        (Some(matched), motion)
+                    }
+                    (Some(which), _) => {
+                        let motion = builder.built_in(which, &figure);
+                        (builder.match_figure(group, figure.clone(), &motion), motion)
+                    }
+                    (None, Motion::File(motion)) => (
+                        builder.match_figure(group, figure.clone(), motion),
+                        Arc::clone(motion),
+                    ),
+                    (None, _) => continue,
+                };
+                let Some(matched) = matched else {
+                    continue;
+                };
+                findings.is_played = true;
+                let limbless = limbless::find(context, which, &matched, fitting);
+                findings.limbless.extend(limbless);
+                let link: &str = match which {
+                    Some(which) => which.name(),
+                    None => findings.link,
+                };
+                turns.push(PlayedTurn::new(link, matched, motion, turn.motion));
+            }
+            let Some(first) = turns.first() else {
                 continue;
             };
-            is_played = true;
-            limbless.extend(limbless::find(context, which, &matched, fitting));
-            keys = keys.saturating_add(motion.clip.frames.saturating_mul(group.parts.len()));
+            let frames = turns.iter().map(PlayedTurn::length);
+            let frames = frames.fold(1, usize::saturating_add);
+            keys = keys.saturating_add(frames.saturating_mul(group.parts.len()));
             if keys > MAX_KEYS {
                 diagnostics.push(diagnostics::too_many_keys(request.span));
                 break;
             }
-            let performance = builder.performance(request, &matched.group);
-            if let Some(request) = performance.as_ref().filter(|_| matched.moves.is_some()) {
-                diagnostics.push(diagnostics::unperformed(request, link));
-            }
-            let performance = performance.filter(|_| matched.moves.is_none());
+            let performance = builder.performance(request, &first.matched.group);
+            let unperformed = performance.as_ref().and_then(|request| {
+                if turns.len() > 1 || first.playing.cycles > 1 {
+                    Some(diagnostics::unperformed_turns(request))
+                } else if first.matched.moves.is_some() {
+                    Some(diagnostics::unperformed(request, first.link))
+                } else {
+                    None
+                }
+            });
+            let performance = performance.filter(|_| unperformed.is_none());
+            diagnostics.extend(unperformed);
             let performance = performance.and_then(|request| {
                 let tracks = performances.get(&request, resolver, memo, diagnostics)?;
-                let found = builder.perform(request, &tracks, &matched, &motion, diagnostics);
+                let (matched, motion) = (&first.matched, &first.motion);
+                let found = builder.perform(request, &tracks, matched, motion, diagnostics);
                 let marks = found.iter().flat_map(|found| found.channels.marks());
                 performances.note_used(&found.as_ref()?.request, &tracks, marks);
                 found
@@ -210,15 +277,13 @@ pub(crate) fn add_clips(
             }
             let requested = Requested {
                 request,
-                link,
+                turns: &turns,
                 performance,
             };
-            builder.add_clip(requested, &matched, &motion, scene, diagnostics);
+            builder.add_clip(requested, scene, diagnostics);
         }
-        limbless::report(&limbless, link, request.span, diagnostics);
-        limbless::report_misfits(&misfits, request.span, diagnostics);
-        if !is_played {
-            diagnostics.push(diagnostics::idle_motion(request.span, link));
+        for (_, _, findings) in &motions {
+            findings.report(diagnostics);
         }
     }
     let skeleton = builder.clips.last().map(|clip| clip.skeleton());

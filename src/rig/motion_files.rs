@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::bind::{ClipRequest, SignedAxis};
+use crate::bind::{MotionSource, MotionTurn, SignedAxis, TurnRequest};
 use crate::diagnostic::Diagnostic;
 use crate::memo::Memo;
-use crate::mocap::Axis;
-use crate::mocap::{UpAxis, bvh};
+use crate::mocap::resample::{Outside, Range};
+use crate::mocap::{Axis, UpAxis, bvh};
 use crate::prepare::{self, PreparedClip, prepare};
 use crate::resolver::{LinkError, Resolver};
+use crate::source::Span;
 
 use super::diagnostics;
 use super::missing_files::missing_file;
@@ -19,6 +20,8 @@ use super::missing_files::missing_file;
 struct MotionKey {
     link: String,
     up: Option<UpAxis>,
+    /// Where in the file it begins and ends, as far as the string says so: the bits of numbers of seconds.
+    cut: [Option<u64>; 2],
     is_loop: bool,
 }
 
@@ -29,6 +32,8 @@ struct MotionFile {
     /// What is wrong with the file, and how many complete frames precede that.
     error: Option<(bvh::Error, usize)>,
     notes: Vec<String>,
+    /// What of the asked range the file does not have.
+    outside: Option<Outside>,
 }
 
 /// The motion files of a drawing.
@@ -36,22 +41,27 @@ struct MotionFile {
 pub(super) struct MotionFiles(BTreeMap<MotionKey, Result<Arc<MotionFile>, LinkError>>);
 
 impl MotionFiles {
-    /// The clip of the file that a string requests. Problems of the file are reported for every string that links to it, because
-    /// each of these has to be fixed.
+    /// The clip of the file that one of a string's motions links to, `None` if it links to none; `is_loop` says whether it is made one.
+    /// Problems of the file are reported at `span` for every string that links to it, because each of these has to be fixed.
     pub(super) fn get(
         &mut self,
-        link: &str,
-        request: &ClipRequest<'_>,
+        request: &TurnRequest<'_>,
+        is_loop: bool,
+        span: Span,
         resolver: &dyn Resolver,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Arc<PreparedClip>> {
-        let key = MotionKey {
-            link: link.to_owned(),
-            up: request.up.and_then(up_axis),
-            is_loop: request.is_loop,
+        let MotionSource::File(link) = &request.motion.source else {
+            return None;
         };
-        let first = !self.0.keys().any(|known| known.link == link);
+        let key = MotionKey {
+            link: link.clone(),
+            up: request.motion.up.and_then(up_axis),
+            cut: cut(request.motion, is_loop).map(|seconds| seconds.map(f64::to_bits)),
+            is_loop,
+        };
+        let first = !self.0.keys().any(|known| known.link == *link);
         let file = self.0.entry(key.clone()).or_insert_with(|| {
             memo.get_reading(key, resolver, |key, resolver| {
                 let bytes = resolver.read(&key.link)?;
@@ -66,7 +76,6 @@ impl MotionFiles {
                 None
             }
             Ok(file) => {
-                let span = request.span;
                 if let Some((error, frames)) = &file.error {
                     diagnostics.push(diagnostics::broken_file(link, error, *frames, span));
                 }
@@ -74,10 +83,23 @@ impl MotionFiles {
                     let notes = file.notes.iter();
                     diagnostics.extend(notes.map(|note| diagnostics::note(link, note, span)));
                 }
+                if let Some(outside) = file.outside {
+                    let timed = request.motion.seconds.is_some();
+                    let span = request.source_span();
+                    diagnostics.push(diagnostics::outside(link, outside, timed, span));
+                }
                 file.clip.clone()
             }
         }
     }
+}
+
+/// Where in a file the motion begins and ends, seconds, as far as a string says so: a number of seconds cuts one that is no loop.
+fn cut(motion: &MotionTurn, is_loop: bool) -> [Option<f64>; 2] {
+    let seconds = motion.seconds.filter(|_| !is_loop);
+    let from = motion.from;
+    let to = seconds.map(|seconds| from.unwrap_or(0.0) + seconds * motion.speed);
+    [from, motion.to.or(to)]
 }
 
 /// The axis that a string names; the language's axes are numbered like those of skeletons.
@@ -101,8 +123,16 @@ impl MotionFile {
         };
         let notes = notes.drain(..).map(|note| note.to_string());
         let mut notes: Vec<String> = notes.collect();
+        let mut outside = None;
         let clip = clip.filter(|clip| clip.frames > 0).and_then(|clip| {
+            let cut = key.cut.map(|bits| bits.map(f64::from_bits));
+            let (range, beyond) = Range::of_seconds(&clip, cut);
+            outside = beyond;
+            if outside.is_some_and(|outside| outside.is_beginning) {
+                return None;
+            }
             let options = prepare::Options {
+                range,
                 up: key.up,
                 is_loop: key.is_loop,
                 ..prepare::Options::default()
@@ -121,6 +151,11 @@ impl MotionFile {
                 }
             }
         });
-        Self { clip, error, notes }
+        Self {
+            clip,
+            error,
+            notes,
+            outside,
+        }
     }
 }

@@ -103,8 +103,12 @@ fn how_many_frames_and_drawings() {
         (&["--every", "2"], FRAMES, 34),
         (&["--every", "3"], FRAMES, 23),
         (&["--drawings", "20"], FRAMES, 20),
-        (&["--range", "10:19", "--full"], 10, 10),
-        (&["--range", ":7", "--full"], 7, 7),
+        // Ranges count the frames of the file.
+        (&["--range", "10:19", "--full", "--fps", "60"], 10, 10),
+        (&["--range", "73:145", "--full"], 29, 29),
+        (&["--from", "1.2", "--to", "2.4", "--full"], 29, 29),
+        (&["--to", "1", "--full", "--speed", "2"], 13, 13),
+        (&["--speed", ".5", "--full"], 135, 135),
         (&["--fps", "60", "--full"], 169, 169),
         (&["--fps", "12", "--full"], 34, 34),
         (&["--keep-rest", "--full"], FRAMES, FRAMES),
@@ -308,12 +312,18 @@ fn wrong_usage_is_rejected() {
         (&["-o", "kick.bvh"], "is the file that is read"),
         (&["-o", "./kick.bvh"], "is the file that is read"),
         (
-            &["--range", "60:90"],
-            "there is no frame 90: the clip has 68",
+            &["--range", "60:190"],
+            "there is no frame 190: the clip has 169",
         ),
         (&["--range", "9:3"], "ends before it begins"),
         (&["--range", "0:3"], "frame 0"),
         (&["--range", "all"], "--range"),
+        (&["--range", "1:9", "--to", "1"], "cannot be used with"),
+        (&["--from", "3"], "the motion is 2.80 seconds long"),
+        (&["--from", "2", "--to", "1"], "nothing is left"),
+        (&["--from=-1"], "a number of seconds"),
+        (&["--speed", "0"], "a number from 0.01 to 100"),
+        (&["walk", "2"], "`walk` cannot follow a file"),
         (&["--fps", "0"], "0 is not a possible frame rate"),
         (&["--fps=-24"], "-24 is not a possible frame rate"),
         (&["--fps", "NaN"], "NaN is not a possible frame rate"),
@@ -422,5 +432,36 @@ fn a_loop_in_place_ends_where_it_begins() {
     let (first, last) = (clip.pose(0), clip.pose(clip.frames - 1));
     for (first, last) in first.iter().zip(&last) {
         assert!(first.position.distance(last.position) < 0.01);
+    }
+}
+
+#[test]
+fn clips_that_come_along_play_in_turn() {
+    let room = room();
+    // Two walks of a second, a wave of two and a half, an idle of three.
+    let words = [
+        "motion", "-q", "walk", "2", "wave", "1", "idle", "1", "-o", "out.bvh",
+    ];
+    room.run(&words).ends(0, "", "");
+    assert_eq!(written(&room, "out.bvh").frames, 24 * 2 + 60 + 72 + 1);
+    let words = [
+        "motion", "-q", "run", "wave", "-l", "--speed", "2", "-o", "out.bvh",
+    ];
+    room.run(&words).ends(0, "", "");
+    let looped = written(&room, "out.bvh");
+    let (start, end) = (looped.row(0), looped.row(looped.frames - 1));
+    for channel in 3..start.len() {
+        let turn = (start[channel] - end[channel]) / 360.0;
+        assert!((turn - turn.round()).abs() < 1e-4, "{channel}");
+    }
+    for (words, message) in [
+        (["walk", "2", "3"], "`3` is a second number of seconds"),
+        (["walk", "0", "wave"], "`0` seconds are not possible"),
+        (["walk", "2", "wav"], "did you mean `wave`?"),
+        (["walk", "2", "drive"], "has no skeleton"),
+        (["walk", "--to", "1"], "cut a file"),
+    ] {
+        let all = [&["motion"], &words[..], &["-o", "no.bvh"]].concat();
+        room.run(&all).ends(2, "", message);
     }
 }

@@ -57,6 +57,7 @@ pair dog 8,8 0 1.25 220x160 8
 single beetle beetle 8,12 0 1.25 200x130 8
 single robot-ja robot 40,8 2.0 2.35 200x240 8
 single stick stick -75,8 1.01 1.594 200x240 8
+single visitor visitor-greeting -55,8 1.75 3.1 150x190 10
 clip examples/motion/monkey.svg walk 35,8 200x240 8
 clip src/cli/templates/human.svg walk -75,8 130x170 10
 clip src/cli/templates/human.svg run -75,8 130x170 10

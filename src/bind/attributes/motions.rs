@@ -9,21 +9,20 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
 use crate::source::{Span, Text};
 
-pub(crate) use crate::lang::value::{Camerawork, MotionSource, PerformanceEffects, SignedAxis};
+use crate::lang::value::Motion;
+pub(crate) use crate::lang::value::{
+    Camerawork, MotionSource, MotionTurn, PerformanceEffects, SignedAxis,
+};
 
 /// A clip that a string asks for with `Motion`.
 #[derive(Debug, Clone)]
 pub struct ClipRequest<'a> {
     /// The main part of the string; `None` for a string that applies to all figures.
     pub part: Option<PartId>,
-    /// The link to a motion file, or the word for a clip that comes along.
-    pub source: &'a MotionSource,
-    /// Where the file or the word is written.
-    written: Written<'a>,
+    /// The motions that play in turn; at least one.
+    pub turns: Vec<TurnRequest<'a>>,
     /// The name of the clip, if the string gives one.
     pub name: Option<&'a str>,
-    /// The axis that points up in the file, if the string says so.
-    pub up: Option<SignedAxis>,
     /// Whether the figure stays in place.
     pub is_in_place: bool,
     /// Whether it is made a loop.
@@ -34,6 +33,15 @@ pub struct ClipRequest<'a> {
     pub performance: Option<PerformanceRequest<'a>>,
     /// The place of the setting.
     pub span: Span,
+}
+
+/// One of the motions that play in turn in a clip.
+#[derive(Debug, Clone)]
+pub struct TurnRequest<'a> {
+    /// The motion, and what the string says of it.
+    pub motion: &'a MotionTurn,
+    /// Where the file or the word is written.
+    written: Written<'a>,
 }
 
 /// Limited animation, as a string asks for it.
@@ -72,13 +80,13 @@ struct Written<'a> {
 }
 
 impl<'a> Written<'a> {
-    /// The first argument of a setting.
-    fn first_of(string: &'a DrawingString, setting: &Setting) -> Self {
+    /// An argument of a setting; all of the setting if there is none.
+    fn argument(string: &'a DrawingString, setting: &Setting, index: Option<usize>) -> Self {
         let attribute = string.annotation.attribute_at(&setting.range);
-        let first = attribute.and_then(|attribute| attribute.arguments.first());
+        let argument = attribute.and_then(|attribute| attribute.arguments.get(index?));
         Self {
             text: &string.text,
-            range: first.map_or(setting.range.clone(), |first| first.range.clone()),
+            range: argument.map_or(setting.range.clone(), |own| own.range.clone()),
         }
     }
 
@@ -93,8 +101,8 @@ impl<'a> Written<'a> {
     }
 }
 
-impl ClipRequest<'_> {
-    /// The place of the file or the word.
+impl TurnRequest<'_> {
+    /// The place of the file or the word; that of the setting if there is none.
     pub fn source_span(&self) -> Span {
         self.written.span()
     }
@@ -111,7 +119,7 @@ impl<'a> PerformanceRequest<'a> {
         match &setting.value {
             Value::Performance(performance) => Some(Self {
                 file: &performance.file,
-                written: Written::first_of(string, setting),
+                written: Written::argument(string, setting, Some(0)),
                 effects: performance.effects,
                 emphasized: performance.emphasized.as_deref(),
                 keys: performance.keys,
@@ -146,6 +154,18 @@ impl ClipLimits {
     }
 }
 
+fn turns<'a>(
+    string: &'a DrawingString,
+    setting: &Setting,
+    motion: &'a Motion,
+) -> Vec<TurnRequest<'a>> {
+    let turns = motion.turns.iter().map(|turn| TurnRequest {
+        motion: turn,
+        written: Written::argument(string, setting, turn.argument),
+    });
+    turns.collect()
+}
+
 impl Bindings {
     /// The clips that strings ask for, in the order of the strings.
     pub fn clip_requests(&self) -> Vec<ClipRequest<'_>> {
@@ -160,10 +180,8 @@ impl Bindings {
             settings.filter_map(move |setting| match &setting.value {
                 Value::Motion(motion) => Some(ClipRequest {
                     part: part?,
-                    source: &motion.source,
-                    written: Written::first_of(string, setting),
+                    turns: turns(string, setting, motion),
                     name: motion.clip.as_deref(),
-                    up: motion.up,
                     is_in_place: motion.is_in_place,
                     is_loop: motion.is_loop,
                     limits: setting.limited.as_ref().and_then(|limited| {

@@ -16,7 +16,7 @@ fn clips_are_requested_for_a_part_or_for_all() {
     let mut requests: Vec<_> = requests
         .iter()
         .map(|request| {
-            let MotionSource::File(file) = request.source else {
+            let MotionSource::File(file) = &request.turns[0].motion.source else {
                 panic!("{request:?}");
             };
             (file.as_str(), request.name, request.part)
@@ -46,7 +46,7 @@ fn a_request_says_how_its_clip_is_played() {
         .iter()
         .map(|request| {
             let limits = request.limits.map(|limits| [limits.omit, limits.hold]);
-            let up = request.up.map(|up| (up.axis, up.negative));
+            let up = request.turns[0].motion.up.map(|up| (up.axis, up.negative));
             (up, request.is_in_place, request.is_loop, limits)
         })
         .collect();
@@ -59,7 +59,7 @@ fn a_request_says_how_its_clip_is_played() {
         ]
     );
     assert_eq!(
-        *requests[0].source,
+        requests[0].turns[0].motion.source,
         MotionSource::BuiltIn("walk".to_owned())
     );
     let (from, limits) = compiled.bindings.limits_of_clips(0.into()).unwrap();

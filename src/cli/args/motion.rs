@@ -21,11 +21,13 @@ Examples:
   okoshi motion kick.bvh -o shot.bvh --drawings 14   the 14 drawings that fit it best
   okoshi motion kick.bvh -o twos.bvh --every 2    on twos
   okoshi motion take.bvh -o part.bvh --full --range 25:72 --fps 30
+  okoshi motion take.bvh -o slow.bvh --full --from 1.2 --to 2.4 --speed .5
+  okoshi motion walk 2 wave 1 idle 1 -o greeting.bvh   clips that come along, in turn
   okoshi motion hook.bvh -o performed.glb --perform hands.json --mark red=RightHand --mark green=LeftHand
                                                   as a puppet's marks tell it: timing, emphasis, a camera
 
 Motions are BVH files, the common format for motion capture. A T-pose at the beginning is removed, the motion is resampled
-to 24 frames a second, and then reduced. Frames count from 1. A drawing links to a motion with `Motion \"kick.bvh\"`.";
+to 24 frames a second, and then reduced. Frames count from 1, those of `--range` as in the file. A drawing links to a motion with `Motion \"kick.bvh\"`.";
 
 #[derive(Debug, Args)]
 #[command(after_help = MOTION_EXAMPLES)]
@@ -33,6 +35,9 @@ pub(in crate::cli) struct Motion {
     /// The motion, a BVH file (`-` is stdin), or a clip that comes along: walk, run, trot, sneak, jump, idle, wave, dance, punch
     #[arg(value_name = "IN.bvh|WORD")]
     pub(in crate::cli) motion: PathBuf,
+    /// For how many seconds a clip that comes along plays, and further ones that play in turn, each with its own: walk 2 wave 1
+    #[arg(value_name = "SECONDS|WORD")]
+    pub(in crate::cli) in_turn: Vec<String>,
     /// The legs of a clip that comes along
     #[arg(long, value_name = "N", default_value = "2", value_parser = legs)]
     pub(in crate::cli) legs: Legs,
@@ -62,9 +67,18 @@ pub(in crate::cli) struct Motion {
     /// Frames a second
     #[arg(long, value_name = "F", default_value_t = crate::mocap::resample::FPS)]
     pub(in crate::cli) fps: f64,
-    /// Use only these frames, counted from 1 and including both ends; `10:` and `:48` are open-ended
+    /// Use only these frames of the file, counted from 1 and including both ends; `10:` and `:48` are open-ended
     #[arg(long, value_name = "A:B", value_parser = range)]
     pub(in crate::cli) range: Option<Range>,
+    /// Begin here, in seconds of the file
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "range")]
+    pub(in crate::cli) from: Option<f64>,
+    /// End here, in seconds of the file
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "range")]
+    pub(in crate::cli) to: Option<f64>,
+    /// Play faster or slower: 2 is twice as fast, .5 half as fast
+    #[arg(long, value_name = "FACTOR", value_parser = speed, default_value = "1", hide_default_value = true)]
+    pub(in crate::cli) speed: f64,
     /// Keep the T-pose at the beginning
     #[arg(long)]
     pub(in crate::cli) keep_rest: bool,
@@ -174,6 +188,21 @@ fn legs(text: &str) -> Result<Legs, String> {
         .into_iter()
         .find(|legs| legs.count().to_string() == text);
     found.ok_or_else(|| "expected 2, 4 or 6".to_owned())
+}
+
+/// A number of seconds, 0 or more.
+fn seconds(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|seconds: &f64| seconds.is_finite() && *seconds >= 0.0)
+        .ok_or_else(|| "expected a number of seconds, for example `1.2`".to_owned())
+}
+
+fn speed(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok();
+    number
+        .filter(|speed| (0.01..=100.0).contains(speed))
+        .ok_or_else(|| "expected a number from 0.01 to 100; 2 is twice as fast".to_owned())
 }
 
 fn range(text: &str) -> Result<Range, String> {

@@ -26,6 +26,10 @@ pub(super) fn clips(compiled: &Compiled) -> String {
             counted(clip.frames(), "frame"),
             counted(clip.drawings(), "drawing"),
         );
+        let turns = clip.turns_in_words();
+        if !turns.is_empty() {
+            let _ = writeln!(out, "   in turn: {}", turns.join(", "));
+        }
         let (omitted, held) = clip.cut_frames();
         for (what, frames) in [("omitted", omitted), ("held", held)] {
             if !frames.is_empty() {

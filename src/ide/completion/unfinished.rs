@@ -3,7 +3,7 @@
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::kinds::KINDS;
-use crate::lang::normalize;
+use crate::lang::{motion, normalize};
 
 /// The offset of a quote that is not closed.
 pub(super) fn open_quote(head: &str) -> Option<usize> {
@@ -43,6 +43,7 @@ pub(super) fn can_end(attribute: &Attribute) -> bool {
     };
     match kind {
         Some(kind) => kind.form.accepts(count - 1),
+        None if attribute.keyword == Keyword::Motion => motion::is_complete(&attribute.arguments),
         None => {
             let forms = attribute.keyword.row().forms;
             forms.iter().any(|form| form.accepts(count))

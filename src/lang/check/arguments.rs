@@ -33,7 +33,7 @@ pub(super) enum ArgumentValue {
 
 /// Why an argument does not match its parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum ArgumentError {
+pub(super) enum ArgumentError {
     /// The argument is wrong, which has been reported if necessary.
     Invalid,
     /// The argument is a misspelled keyword: the attribute ends before it.
@@ -115,7 +115,7 @@ impl Checker<'_> {
         valid.then_some(values)
     }
 
-    fn argument(
+    pub(super) fn argument(
         &mut self,
         callee: Callee<'_>,
         parameter: &Parameter,

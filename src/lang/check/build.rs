@@ -11,8 +11,8 @@ use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, kinds};
 use crate::lang::parameter::form_by_first_argument;
 use crate::lang::value::{
-    Camerawork, Ground, KindArguments, Mark, Motion, MotionSource, Origin, Performance,
-    PerformanceEffects, Shape, SignedAxis, Value,
+    Camerawork, Ground, KindArguments, Mark, Origin, Performance, PerformanceEffects, Shape,
+    SignedAxis, Value,
 };
 
 impl Checker<'_> {
@@ -32,10 +32,13 @@ impl Checker<'_> {
         if attribute.keyword == Keyword::Color && self.reports_byte_color(attribute) {
             return None;
         }
+        if attribute.keyword == Keyword::Motion {
+            let (motion, values) = self.motion(callee, attribute)?;
+            return Some((Value::Motion(motion), values.iter().map(print).collect()));
+        }
         let form = self.form(callee, attribute)?;
         let values = self.match_arguments(callee, form, &attribute.arguments)?;
         let value = match attribute.keyword {
-            Keyword::Motion => Value::Motion(motion(attribute, &values)?),
             Keyword::Perform => Value::Performance(performance(attribute, &values)?),
             keyword => value_of(keyword, &values)?,
         };
@@ -288,35 +291,9 @@ fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
     })
 }
 
-fn has_flag(attribute: &Attribute, letter: char) -> bool {
+pub(super) fn has_flag(attribute: &Attribute, letter: char) -> bool {
     let mut flags = attribute.flags.iter();
     flags.any(|(flag, _)| flag.eq_ignore_ascii_case(&letter))
-}
-
-/// The value of `Motion`.
-fn motion(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Motion> {
-    let source = match values.first() {
-        None => MotionSource::Fitting,
-        Some(ArgumentValue::Text(file)) => MotionSource::File(file.clone()),
-        Some(ArgumentValue::Word(word)) => MotionSource::BuiltIn(word.clone()),
-        _ => return None,
-    };
-    let others = values.get(1..).unwrap_or_default();
-    let clip = others.iter().find_map(|value| match value {
-        ArgumentValue::Text(clip) => Some(clip.clone()),
-        _ => None,
-    });
-    let up = others.iter().find_map(|value| match value {
-        ArgumentValue::Word(axis) => signed_axis(axis),
-        _ => None,
-    });
-    Some(Motion {
-        source,
-        clip,
-        up,
-        is_in_place: has_flag(attribute, 'i'),
-        is_loop: has_flag(attribute, 'l'),
-    })
 }
 
 /// The value of `Perform`.
@@ -397,7 +374,7 @@ fn kind_arguments(kind: &Kind, values: &[ArgumentValue]) -> KindArguments {
     KindArguments::Numbers(numbers.chain(defaults).collect())
 }
 
-fn signed_axis(word: &str) -> Option<SignedAxis> {
+pub(super) fn signed_axis(word: &str) -> Option<SignedAxis> {
     let (sign, axis) = word.split_at_checked(1)?;
     Some(SignedAxis {
         axis: "xyz".find(axis)?,

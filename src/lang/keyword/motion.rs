@@ -11,16 +11,37 @@ const UP: Parameter = parameter(
     Takes::SignedAxis,
     "the axis of the file that points up, where okoshi does not find it",
 );
+const NAME: Parameter = parameter("name", Takes::Text, "the name of the clip");
 static FILE_CLIP: [Parameter; 2] = [BVH, UP];
-static NAMED_CLIP: [Parameter; 3] = [
-    BVH,
-    parameter("clip", Takes::Text, "the name of the clip"),
-    UP,
-];
+static NAMED_CLIP: [Parameter; 3] = [BVH, NAME, UP];
 static OWN_CLIP: [Parameter; 2] = [
     choice("clip", &vocabulary::CLIPS, "a clip that comes along"),
-    parameter("name", Takes::Text, "the name of the clip"),
+    NAME,
 ];
+const SECONDS: Parameter = number(
+    "seconds",
+    Bounds::POSITIVE,
+    "how long it plays: as many whole cycles as come nearest to it; of a file that is no loop, so much of its beginning",
+);
+/// A motion is played at most so much faster, or slower.
+const SPEED: Bounds = Bounds::new(0.01, 100.0, Restriction::None);
+const SPEED_WORD: Parameter = choice("speed", &vocabulary::SPEED, "how fast it plays");
+const FACTOR: Parameter = number("factor", SPEED, "2 is twice as fast, .5 half as fast");
+static OF_FILES: [Parameter; 7] = [
+    SECONDS,
+    choice("from", &vocabulary::FROM, "where it begins"),
+    number(
+        "start",
+        Bounds::NOT_NEGATIVE,
+        "in seconds of the file, which begins at 0",
+    ),
+    choice("to", &vocabulary::TO, "where it ends"),
+    number("end", Bounds::POSITIVE, "in seconds of the file"),
+    SPEED_WORD,
+    FACTOR,
+];
+static OF_OWN_CLIPS: [Parameter; 3] = [SECONDS, SPEED_WORD, FACTOR];
+static OF_FITTING_CLIPS: [Parameter; 4] = [SECONDS, SPEED_WORD, FACTOR, NAME];
 static FRAMES: [Parameter; 2] = [
     number("omit", Bounds::COUNT, "drawings to leave out"),
     number("hold", Bounds::COUNT, "frames to hold"),
@@ -178,9 +199,10 @@ pub(super) static FOLLOW: Row = Row {
 
 pub(super) static MOTION: Row = Row {
     forms: &[
-        Form::new(&FILE_CLIP, &[0, 1, 2]),
-        Form::new(&NAMED_CLIP, &[2, 3]),
-        Form::new(&OWN_CLIP, &[1, 2]),
+        Form::new(&FILE_CLIP, &[1, 2]).repeated(&OF_FILES),
+        Form::new(&NAMED_CLIP, &[2, 3]).repeated(&OF_FILES),
+        Form::new(&OWN_CLIP, &[1, 2]).repeated(&OF_OWN_CLIPS),
+        Form::new(&[], &[0]).repeated(&OF_FITTING_CLIPS),
     ],
     flags: &[
         flag('i', "in place: the figure does not travel over the ground"),
@@ -198,7 +220,13 @@ pub(super) static MOTION: Row = Row {
            string, to all figures. Several `Motion` give several clips; a word behind the file, \
            or behind the clip that comes along, names the clip. An axis at the end says which way is up in the file: \
            `Motion \"crawl.bvh\" crawl +z`.\n\n\
-           `-i` keeps the figure in place, `-l` makes a loop of the motion: `Motion -il walk`.",
+           `from` and `to` cut a file, in its own seconds, and `speed` plays faster or slower: \
+           `Motion \"kick.bvh\" kick from 1.2 to 2.4 speed .8`. A number says for how many seconds a \
+           clip plays, and several clips in one `Motion` play in turn, as one clip: `Motion walk 2 wave 1 idle 1`. \
+           Loops play as many whole cycles as come nearest to that, once without a number. The figure \
+           goes on from where it is.\n\n\
+           `-i` keeps the figure in place, `-l` makes a loop of the motion, or of all that play in turn: \
+           `Motion -il walk`.",
     example: "Lbody$Motion \"kick.bvh\" kick",
     ..Row::ROW
 };

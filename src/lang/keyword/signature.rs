@@ -1,5 +1,7 @@
 //! The signatures of attributes: which arguments they take, as data.
 
+use std::fmt::Write as _;
+
 use super::vocabulary::Word;
 
 /// One of the argument lists that a keyword accepts, or the parameter list of a kind of `Shape`.
@@ -7,8 +9,12 @@ use super::vocabulary::Word;
 pub struct Form {
     /// The parameters, in order.
     pub parameters: &'static [Parameter],
-    /// How many arguments may be given, in ascending order.
+    /// How many of them may be given, in ascending order.
     pub counts: &'static [usize],
+    /// What may follow in any order: numbers, and words with the number behind them, such as `speed factor`.
+    pub options: &'static [Parameter],
+    /// Whether another list may follow: clips that play in turn.
+    pub repeats: bool,
 }
 
 /// One parameter.
@@ -151,7 +157,26 @@ impl Takes {
 impl Form {
     /// A form with these parameters, of which as many may be given as `counts` says.
     pub(super) const fn new(parameters: &'static [Parameter], counts: &'static [usize]) -> Self {
-        Self { parameters, counts }
+        Self {
+            parameters,
+            counts,
+            options: &[],
+            repeats: false,
+        }
+    }
+
+    /// The form with what may follow its parameters, and with more lists like it.
+    pub(super) const fn repeated(self, options: &'static [Parameter]) -> Self {
+        Self {
+            options,
+            repeats: true,
+            ..self
+        }
+    }
+
+    /// Its parameters and those of its options, in the order in which they are printed.
+    pub fn all(&self) -> impl Iterator<Item = &'static Parameter> + Clone {
+        self.parameters.iter().chain(self.options)
     }
 
     /// One argument, which must be given.
@@ -177,7 +202,12 @@ impl Form {
 
     /// The printed form: `r g b [a]`.
     pub fn print(&self) -> String {
-        self.print_with(Parameter::print, ["[", "]"])
+        let once = self.print_with(Parameter::print, ["[", "]"]);
+        if self.repeats {
+            format!("{once} …")
+        } else {
+            once
+        }
     }
 
     /// The same with other words for its parameters, and other brackets around those that can be left out.
@@ -198,7 +228,21 @@ impl Form {
             }
             out.push_str(&print(parameter));
         }
-        out + &closing.repeat(open)
+        out += &closing.repeat(open);
+        let mut after_word = false;
+        for option in self.options {
+            let space = if out.is_empty() { "" } else { " " };
+            let printed = print(option);
+            let is_word = matches!(option.takes, Takes::Choice(_));
+            let (start, end) = match (after_word, is_word) {
+                (true, _) => ("", closing),
+                (false, true) => (opening, ""),
+                (false, false) => (opening, closing),
+            };
+            let _ = write!(out, "{space}{start}{printed}{end}");
+            after_word = is_word;
+        }
+        out
     }
 }
 

@@ -101,6 +101,13 @@ pub(crate) static AXES: [Word; 6] = [
     word("-z", "against the world's z"),
 ];
 
+/// The words of `Motion` that a number follows.
+pub(crate) static FROM: [Word; 1] = [word("from", "where in the file it begins, in seconds")];
+/// See [`FROM`].
+pub(crate) static TO: [Word; 1] = [word("to", "where in the file it ends, in seconds")];
+/// See [`FROM`].
+pub(crate) static SPEED: [Word; 1] = [word("speed", "how fast it plays: 2 is twice as fast")];
+
 /// The clips of `Motion` that come along.
 pub(crate) static CLIPS: [Word; 15] = [
     word(
@@ -312,6 +319,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
         .chain(&FACING)
         .chain(&AXES)
         .chain(&CLIPS)
+        .chain(FROM.iter().chain(&TO).chain(&SPEED))
 }
 
 /// Whether `word` has a meaning in any attribute, colour names included.

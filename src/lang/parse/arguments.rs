@@ -11,7 +11,7 @@ use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Expression, Function};
 use crate::lang::did_you_mean;
 use crate::lang::keyword::Keyword;
-use crate::lang::keyword::signature::Takes;
+use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::vocabulary::FUNCTIONS;
 
 impl Parser<'_> {
@@ -258,7 +258,7 @@ impl Parser<'_> {
 
 /// Whether some form of the keyword takes such an argument.
 fn takes(keyword: Keyword, what: fn(&Takes) -> bool) -> bool {
-    let mut parameters = keyword.row().forms.iter().flat_map(|form| form.parameters);
+    let mut parameters = keyword.row().forms.iter().flat_map(Form::all);
     parameters.any(|parameter| what(&parameter.takes))
 }
 

@@ -2,9 +2,10 @@
 
 use super::{Parser, lexical, suggestions};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::ast::{ArgumentKind, Attribute};
+use crate::lang::ast::{Argument, ArgumentKind, Attribute};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::{Keyword, kinds, vocabulary};
+use crate::lang::motion;
 
 impl Parser<'_> {
     /// Reads attributes to the end of the string.
@@ -52,7 +53,11 @@ impl Parser<'_> {
         loop {
             self.skip_blank();
             let rest = self.rest();
-            let is_word = arguments.is_empty() && starts_with_word_of(keyword, rest);
+            let is_word = if arguments.is_empty() {
+                starts_with_word_of(keyword, rest)
+            } else {
+                keyword == Keyword::Motion && continues_motion(&arguments, rest)
+            };
             let ends = starts_sign(rest) || keyword_at(rest).is_some_and(|_| !is_word);
             if rest.is_empty() || ends {
                 break;
@@ -183,6 +188,9 @@ fn fits_without_last(attribute: &Attribute) -> bool {
         _ => None,
     };
     match kind {
+        _ if attribute.keyword == Keyword::Motion => {
+            motion::is_complete(&attribute.arguments[..left])
+        }
         Some(kind) => left >= 1 && kind.form.accepts(left - 1),
         None => attribute
             .keyword
@@ -222,6 +230,17 @@ fn first_takes(keyword: Keyword) -> impl Iterator<Item = &'static Takes> {
 /// Whether what follows a keyword, `-x` for example, is an axis and not a flag.
 fn starts_with_axis(keyword: Keyword) -> bool {
     first_takes(keyword).any(|takes| matches!(takes, Takes::SignedAxis))
+}
+
+/// Whether `rest` begins with a clip that plays in turn, and not with the keyword `Walk`.
+fn continues_motion(before: &[Argument], rest: &str) -> bool {
+    let (run, behind) = rest.split_at(lexical::run(rest));
+    let behind = behind.trim_start();
+    let is_timed = behind.starts_with('(') || {
+        let next = &behind[..lexical::run(behind)];
+        lexical::is(next, lexical::number)
+    };
+    motion::continues(before, run, is_timed)
 }
 
 /// Whether `rest` begins with one of the words that a keyword takes as its first argument: in `Motion walk`, the word is not the

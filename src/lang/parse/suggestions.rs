@@ -6,7 +6,7 @@ use super::lexical;
 use super::names::shorten;
 use crate::diagnostic::{Code, Diagnostic, has_one_near_word};
 use crate::lang::ast::{Argument, ArgumentKind};
-use crate::lang::keyword::signature::Takes;
+use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, colors, kinds, vocabulary};
 use crate::lang::{did_you_mean, fixed_by_writing};
 use crate::source::{Span, Text};
@@ -65,7 +65,7 @@ fn owner_of(word: &str) -> Option<Keyword> {
         return Some(Keyword::Shape);
     }
     let takes = |keyword: &&Keyword| {
-        let mut parameters = keyword.row().forms.iter().flat_map(|form| form.parameters);
+        let mut parameters = keyword.row().forms.iter().flat_map(Form::all);
         parameters.any(|parameter| match parameter.takes {
             Takes::Choice(words) => words
                 .iter()

@@ -74,7 +74,12 @@ fn rule_name(keyword: Keyword) -> String {
 }
 
 fn print(form: &Form) -> String {
-    form.print_with(term, ["[ ", " ]"])
+    let once = form.print_with(term, ["[ ", " ]"]);
+    if form.repeats {
+        format!("{once} {{ {once} }}")
+    } else {
+        once
+    }
 }
 
 fn term(parameter: &Parameter) -> String {

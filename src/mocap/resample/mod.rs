@@ -19,7 +19,7 @@ use crate::mocap::bvh::MAX_NUMBERS;
 
 pub(crate) use damped::damped;
 use euler::RotationTrack;
-pub(crate) use range::{Range, parse_range, range};
+pub(crate) use range::{Outside, Range, parse_range, range};
 pub use time_map::TimeMap;
 
 /// Frames per second of hand-drawn animation.

@@ -41,6 +41,16 @@ impl Moves {
         }
     }
 
+    /// The same clip, played faster or slower; in a whole number of frames, at least one.
+    #[must_use]
+    pub(super) fn at_speed(self, speed: f64) -> Self {
+        let cycle = (self.cycle as f64 / speed).round();
+        Self {
+            cycle: (cycle as usize).max(1),
+            ..self
+        }
+    }
+
     /// The number of frames.
     pub(super) fn frames(&self) -> usize {
         self.cycle + 1

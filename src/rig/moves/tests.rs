@@ -3,59 +3,9 @@
 use glam::{DQuat, DVec3};
 
 use super::super::FigureClip;
-use crate::compile::{Compiled, Options, compile};
+use super::super::fixtures::{ALL, BIRD, CAR, DOG, SLIME, playing};
+use crate::compile::Compiled;
 use crate::labels::FigurePartId;
-use crate::resolver::MemoryResolver;
-
-const CAR: &str = r##"<rect x="60" y="120" width="280" height="60" inkscape:label="car body"/>
-<rect x="140" y="80" width="120" height="45" inkscape:label="cabin"/>
-<circle cx="110" cy="190" r="40" inkscape:label="rear wheel"/>
-<circle cx="110" cy="190" r="20" inkscape:label="rear rim"/>
-<circle cx="290" cy="200" r="30" inkscape:label="front wheel"/>
-<circle cx="335" cy="130" r="8" inkscape:label="headlight"/>"##;
-const BIRD: &str = r##"<ellipse cx="200" cy="150" rx="35" ry="50" inkscape:label="body"/>
-<circle cx="200" cy="90" r="28" inkscape:label="head"/>
-<circle cx="190" cy="88" r="4" inkscape:label="left eye"/><circle cx="210" cy="88" r="4" inkscape:label="right eye"/>
-<path d="M170,125 L30,140 L172,160 Z" inkscape:label="wing 1"/>
-<path d="M230,125 L370,140 L228,160 Z" inkscape:label="wing 2"/>"##;
-const FISH: &str = r##"<ellipse cx="180" cy="150" rx="100" ry="45" inkscape:label="body"/>
-<path d="M270,150 L340,100 L340,200 Z" inkscape:label="tail fin"/>
-<path d="M160,165 L200,205 L170,205 Z" inkscape:label="side fin"/>
-<circle cx="110" cy="140" r="8" inkscape:label="eye"/>"##;
-const FLOWER: &str = r##"<rect x="196" y="100" width="8" height="180" inkscape:label="stem"/>
-<path d="M200,190 L130,140 L195,160 Z" inkscape:label="leaf"/>
-<circle cx="200" cy="90" r="30" inkscape:label="flower"/>"##;
-const SLIME: &str = r##"<ellipse cx="200" cy="180" rx="90" ry="60" inkscape:label="body"/>
-<circle cx="170" cy="170" r="8" inkscape:label="eye 1"/><circle cx="230" cy="170" r="8" inkscape:label="eye 2"/>"##;
-const SQUID: &str = r##"<ellipse cx="200" cy="100" rx="70" ry="60" inkscape:label="head"/>
-<path d="M150,140 L140,260 L160,260 Z" inkscape:label="tentacle 1"/>
-<path d="M200,150 L190,260 L210,260 Z" inkscape:label="tentacle 2"/>
-<path d="M250,140 L240,260 L260,260 Z" inkscape:label="tentacle 3"/>"##;
-const DOG: &str = r##"<rect x="100" y="120" width="180" height="60" inkscape:label="body"/>
-<circle cx="80" cy="110" r="35" inkscape:label="head"/>
-<rect x="110" y="170" width="20" height="90" inkscape:label="near front leg"/>
-<rect x="140" y="170" width="20" height="90" inkscape:label="far front leg"/>
-<rect x="220" y="170" width="20" height="90" inkscape:label="near hind leg"/>
-<rect x="250" y="170" width="20" height="90" inkscape:label="far hind leg"/>"##;
-const BOX: &str = r##"<rect x="100" y="120" width="180" height="60"/>"##;
-
-const ALL: [(&str, &str); 8] = [
-    (CAR, "drive"),
-    (BIRD, "fly"),
-    (FISH, "swim"),
-    (FLOWER, "sway"),
-    (SLIME, "hop"),
-    (SQUID, "float"),
-    (DOG, "walk"),
-    (BOX, "sway"),
-];
-
-fn playing(figure: &str, motion: &str) -> Compiled {
-    let drawing = format!(
-        r##"<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="400" height="300"><text x="5" y="295" font-size="6">%{motion}</text>{figure}</svg>"##
-    );
-    compile(&drawing, &Options::default(), &MemoryResolver::default())
-}
 
 fn part(compiled: &Compiled, clip: &FigureClip, name: &str) -> FigurePartId {
     let is_called = |(part, bone): &(crate::bind::PartId, usize)| {
