@@ -67,6 +67,9 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Result<Outcome, Failure
             (opening, in_turn::joined(turns, &options))
         }
         None => {
+            if let Some(near) = in_turn::meant(&arguments.motion) {
+                return Err(in_turn::unknown(&name, near).into());
+            }
             if let Some(other) = arguments.in_turn.first() {
                 return Err(in_turn::not_in_turn(other).into());
             }

@@ -268,7 +268,9 @@ impl NamedBodies {
     /// Whether a part shares so little with another one, beside what it shares with a third one, that it hardly hangs on it: a shield on
     /// an arm, whose edge is at the body's.
     fn brushes(&self, from: usize, to: usize) -> bool {
-        let others = self.touching[to].iter().filter(|other| self.bodies[**other].named);
+        let others = self.touching[to]
+            .iter()
+            .filter(|other| self.bodies[**other].named);
         let most = others.map(|other| self.shared(*other, to));
         self.shared(from, to) < BRUSH * most.fold(0.0, f64::max)
     }

@@ -1,5 +1,7 @@
 //! Clips that come along in turn, and parts of files in seconds.
 
+use std::path::Path;
+
 use super::super::args::Motion;
 use crate::clips::BuiltIn;
 use crate::diagnostic::nearest_word;
@@ -43,25 +45,35 @@ pub(super) fn turns(first: BuiltIn, arguments: &Motion) -> Result<(Turn, Vec<Tur
         }
         match BuiltIn::from_name(text) {
             Some(which) => others.push(turn(which)?),
-            None => return Err(unknown(text)),
+            None => {
+                return Err(nearest_word(text, words()).map_or_else(
+                    || {
+                        let words = words().collect::<Vec<_>>().join(", ");
+                        format!("`{text}` is no clip that comes along: write a number of seconds, or one of {words}")
+                    },
+                    |near| unknown(text, near),
+                ));
+            }
         }
     }
     Ok((first, others))
 }
 
-fn unknown(text: &str) -> String {
-    let words = || {
-        let own = BuiltIn::ALL.iter().filter(|clip| !clip.moves_parts());
-        own.map(|clip| clip.name())
-    };
-    let help = match nearest_word(text, words()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!(
-            "write a number of seconds, or one of {}",
-            words().collect::<Vec<_>>().join(", ")
-        ),
-    };
-    format!("`{text}` is no clip that comes along: {help}")
+/// The words for the clips that come along and have a skeleton.
+fn words() -> impl Iterator<Item = &'static str> {
+    let own = BuiltIn::ALL.iter().filter(|clip| !clip.moves_parts());
+    own.map(|clip| clip.name())
+}
+
+/// The word that is meant where a file is expected: one that is nearly it, if there is no such file.
+pub(super) fn meant(file: &Path) -> Option<&'static str> {
+    let text = file.to_str().filter(|_| !file.exists())?;
+    nearest_word(text, words())
+}
+
+/// That a word is none, and which is `near` to it.
+pub(super) fn unknown(text: &str, near: &str) -> String {
+    format!("`{text}` is no clip that comes along: did you mean `{near}`?")
 }
 
 /// Why nothing can follow a file.
