@@ -33,10 +33,10 @@ const MOST_LINKS: usize = 64;
 const GONE: f64 = 0.5;
 /// How much two ways that have a piece in common differ at most by the frames that they explain: of one mark the other way may be hidden.
 const SHARED: f64 = 1.5;
-/// A way that shares a piece with the best one and is worse by less than this is about as good.
+/// A way is about as good as the best one if it is worth more than this part of it,
+const RIVAL: f64 = 0.28;
+/// and if it shares no piece with it, or is worse by less than this.
 const MARGIN: f64 = 3.0;
-/// So is one that shares none and is worth more than this part of it.
-const RIVAL: f64 = 0.33;
 
 /// What a piece is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,13 +108,11 @@ pub(super) fn judge(
             continue;
         }
         let other_row = rows.through(other);
-        let is_as_good = match is_shared[other] {
-            true => {
-                let more = (best.worth - other_row.worth).clamp(-SHARED, SHARED);
-                more + other_row.cost - best.cost < MARGIN
-            }
-            false => other_row.total() > RIVAL * best.total(),
-        };
+        // Of ways that part, the one that is seen longer is no better: of the mark's the rest may be hidden.
+        let more = (best.worth - other_row.worth).clamp(-SHARED, SHARED);
+        let margin = more + other_row.cost - best.cost;
+        let is_long = other_row.total() > RIVAL * best.total();
+        let is_as_good = is_long && (!is_shared[other] || margin < MARGIN);
         if is_as_good {
             let Piece { from, to, .. } = pieces[other];
             let first = way.partition_point(|index| pieces[*index].to <= from);
@@ -251,4 +249,152 @@ fn link(from: &Piece, to: &Piece) -> f64 {
     let away = from.look - to.look;
     let look = (away * away / variance).element_sum() / 2.0;
     (jump.min(MOST_JUMP) + look.min(MOST_LOOK) - USUAL_LINK).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::tracking::pieces::pieces;
+    use crate::tracking::still::still_things;
+    use crate::tracking::traces::{Thing, Trace, Tracer};
+
+    const SIZE: [u32; 2] = [320, 240];
+    const FRAMES: usize = 100;
+    const AREA: f64 = 150.0;
+
+    fn look() -> DVec3 {
+        DVec3::new(0.0, 0.5_f64.ln(), AREA.ln())
+    }
+
+    fn thing(at: DVec2, hue: f64) -> Thing {
+        Thing {
+            at,
+            area: AREA,
+            tint: DVec2::new(hue, 0.5),
+            is_beside_clutter: false,
+            often: 0.0,
+        }
+    }
+
+    /// What a clip of some things in each frame is judged to be.
+    fn judged(things: impl Fn(usize) -> Vec<Thing>) -> (Vec<Trace>, Vec<Piece>, Vec<Verdict>) {
+        let mut tracer = Tracer::new(SIZE);
+        (0..FRAMES).for_each(|frame| tracer.push(&things(frame)));
+        let traces = tracer.finish();
+        let pieces = pieces(&traces, SIZE, &still_things(&traces, look()));
+        let verdicts = judge(&pieces, FRAMES, None, look());
+        (traces, pieces, verdicts)
+    }
+
+    /// Where the mark is by the verdicts in a frame, and whether it is ambiguous.
+    fn found(
+        (traces, pieces, verdicts): &(Vec<Trace>, Vec<Piece>, Vec<Verdict>),
+        frame: usize,
+    ) -> (Option<DVec2>, bool) {
+        let now = pieces.iter().zip(verdicts);
+        let mut now = now.filter(|(piece, verdict)| {
+            (piece.from..piece.to).contains(&frame) && **verdict != Verdict::Other
+        });
+        let place = now.next().map(|(piece, verdict)| {
+            let at = traces[piece.trace].at(frame).expect("it is then").at;
+            (at, *verdict == Verdict::Ambiguous)
+        });
+        assert!(now.next().is_none(), "the mark is in one place");
+        (
+            place.filter(|(_, is_ambiguous)| !is_ambiguous).map(|(at, _)| at),
+            place.is_some_and(|(_, is_ambiguous)| is_ambiguous),
+        )
+    }
+
+    fn round(frame: usize) -> DVec2 {
+        DVec2::new(160.0, 100.0) + 70.0 * DVec2::from_angle(frame as f64 / 9.0)
+    }
+
+    #[test]
+    fn what_moves_for_as_long_is_as_good() {
+        let other = |frame: usize| DVec2::new(20.0 + 2.0 * frame as f64, 220.0);
+        let both = judged(|frame| vec![thing(round(frame), 0.0), thing(other(frame), 1.0)]);
+        assert!((0..FRAMES).all(|frame| found(&both, frame).1));
+        let short = |frame: usize| {
+            let mut things = vec![thing(round(frame), 0.0)];
+            things.extend((frame < 15).then(|| thing(other(frame), 1.0)));
+            things
+        };
+        let judged = judged(short);
+        for frame in 0..FRAMES {
+            assert_eq!(found(&judged, frame), (Some(round(frame)), false));
+        }
+    }
+
+    /// Two things that meet in frame 85, after the mark was alone; the other one has another hue.
+    fn meeting(hue: f64) -> impl Fn(usize) -> Vec<Thing> {
+        move |frame| {
+            let time = frame as f64;
+            let mark = DVec2::new(20.0 + 2.0 * time, 120.0);
+            let other = DVec2::new(190.0, 120.0 + 6.0 * (time - 85.0));
+            match mark.distance(other) {
+                // One thing with both colours.
+                ..14.0 => vec![Thing {
+                    area: 1.6 * AREA,
+                    ..thing((mark + other) / 2.0, hue / 2.0)
+                }],
+                _ if frame < 76 => vec![thing(mark, 0.0)],
+                _ => vec![thing(mark, 0.0), thing(other, hue)],
+            }
+        }
+    }
+
+    #[test]
+    fn things_that_part_are_told_apart_by_their_hues() {
+        for (hue, is_told_apart) in [(0.0, false), (15.0, true)] {
+            let judged = judged(meeting(hue));
+            assert!(found(&judged, 40).0.is_some());
+            assert_eq!(found(&judged, 85), (None, false), "they are one thing");
+            let (at, is_ambiguous) = found(&judged, 95);
+            assert_eq!(is_ambiguous, !is_told_apart, "hue {hue}");
+            assert_eq!(
+                at.is_some_and(|at| at.distance(DVec2::new(210.0, 120.0)) < 1.0),
+                is_told_apart
+            );
+        }
+    }
+
+    #[test]
+    fn a_mark_that_is_gone_is_not_what_stood_elsewhere() {
+        let still = DVec2::new(60.0, 200.0);
+        let judged = judged(|frame| {
+            let mut things = vec![thing(still, 0.0)];
+            things.extend((frame < 70).then(|| thing(round(frame), 0.0)));
+            things
+        });
+        for frame in 0..FRAMES {
+            let (at, _) = found(&judged, frame);
+            assert!(at.is_none_or(|at| at.distance(still) > 1.0), "{frame}");
+        }
+        assert_eq!(found(&judged, 30).0, Some(round(30)));
+    }
+
+    proptest! {
+        #[test]
+        fn a_mark_is_in_one_place_at_most(
+            ways in prop::collection::vec((0.0..320.0, 0.0..240.0, -6.0..6.0, -6.0..6.0, 0..FRAMES, 0..FRAMES), 0..6)
+        ) {
+            let judged = judged(|frame| {
+                let now = ways.iter().filter(|way| (way.4..way.5).contains(&frame));
+                let at = |way: &(f64, f64, f64, f64, usize, usize)| {
+                    DVec2::new(way.0, way.1) + frame as f64 * DVec2::new(way.2, way.3)
+                };
+                now.map(|way| thing(at(way), 0.0)).collect()
+            });
+            for frame in 0..FRAMES {
+                // It fails if there are two.
+                found(&judged, frame);
+            }
+            for (piece, verdict) in judged.1.iter().zip(&judged.2) {
+                prop_assert!(piece.may_be_mark || *verdict == Verdict::Other);
+            }
+        }
+    }
 }

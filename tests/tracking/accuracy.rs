@@ -129,7 +129,8 @@ fn check_confusable(name: &str, scene: &Scene, most_wrong: usize) -> Accuracy {
     let fitted = assert_accurate(accuracy(name, scene));
     for accuracy in held_back {
         assert!(accuracy.median < 1.5, "{accuracy:?}");
-        assert!(accuracy.lost < 0.05, "{accuracy:?}");
+        // One mark of four may be ambiguous for a part of the clip.
+        assert!(accuracy.lost < 0.16, "{accuracy:?}");
         assert!(accuracy.silently_wrong <= most_wrong, "{accuracy:?}");
     }
     fitted
@@ -207,7 +208,7 @@ fn marks_that_leave_are_lost_until_they_return() {
     let mut discs = discs();
     discs[0].path = Arc::new(|time| ellipse(time, [160.0, 120.0], [230.0, 60.0], 12.0, 0.25));
     discs[1].path = Arc::new(|time| ellipse(time, [150.0, 120.0], [50.0, 190.0], 9.0, 0.0));
-    let accuracy = check_confusable("leaving", &scene(discs), 250);
+    let accuracy = check_confusable("leaving", &scene(discs), 24);
     assert!(accuracy.gone > FRAMES / 4, "{accuracy:?}");
 }
 
@@ -243,7 +244,7 @@ fn marks_are_found_in_changing_light() {
             light,
             ..scene(discs())
         },
-        32,
+        1,
     );
 }
 
@@ -263,7 +264,7 @@ fn still_things_of_the_same_hue_are_no_marks() {
             patches,
             ..scene(discs())
         },
-        45,
+        0,
     );
 }
 
@@ -314,7 +315,7 @@ fn light_that_changes_over_things_of_the_same_hue_leaves_marks_alone() {
             patches,
             ..scene(discs())
         },
-        45,
+        0,
     );
 }
 
