@@ -303,7 +303,9 @@ mod tests {
         });
         assert!(now.next().is_none(), "the mark is in one place");
         (
-            place.filter(|(_, is_ambiguous)| !is_ambiguous).map(|(at, _)| at),
+            place
+                .filter(|(_, is_ambiguous)| !is_ambiguous)
+                .map(|(at, _)| at),
             place.is_some_and(|(_, is_ambiguous)| is_ambiguous),
         )
     }

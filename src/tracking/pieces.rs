@@ -64,15 +64,21 @@ pub(super) fn pieces(traces: &[Trace], size: [u32; 2], is_still_thing: &[bool]) 
         let mut cuts: Vec<(usize, usize)> = met.collect();
         cuts.extend(parted.iter().map(|frame| (*frame, *frame)));
         cuts.sort_unstable();
+        let is_still = trace.is_still();
         let is_mark = !trace.is_clutter() && !is_still_thing[*index];
+        let piece = |from: usize, to: usize, may_be_mark: bool| Piece {
+            may_be_mark,
+            is_still,
+            ..Piece::new(trace, *index, [from, to], size)
+        };
         let mut at = trace.first;
         for (from, to) in cuts.into_iter().chain([(trace.end(), trace.end())]) {
             if from > at {
-                pieces.push(Piece::new(traces, *index, [at, from], is_mark, size));
+                pieces.push(piece(at, from, is_mark));
             }
             at = at.max(from);
             if to > at {
-                pieces.push(Piece::new(traces, *index, [at, to], false, size));
+                pieces.push(piece(at, to, false));
                 at = to;
             }
         }
@@ -126,14 +132,8 @@ fn velocity(trace: &Trace, from: usize, to: usize) -> DVec2 {
 }
 
 impl Piece {
-    fn new(
-        traces: &[Trace],
-        index: usize,
-        [from, to]: [usize; 2],
-        may_be_mark: bool,
-        size: [u32; 2],
-    ) -> Self {
-        let trace = &traces[index];
+    /// A piece of a trace with this index, of which is not yet known what it is.
+    fn new(trace: &Trace, index: usize, [from, to]: [usize; 2], size: [u32; 2]) -> Self {
         let (first, last) = (from - trace.first, to - 1 - trace.first);
         let things = &trace.things[first..=last];
         let count = things.len() as f64;
@@ -157,8 +157,8 @@ impl Piece {
             trace: index,
             from,
             to,
-            may_be_mark,
-            is_still: trace.is_still(),
+            may_be_mark: false,
+            is_still: false,
             look,
             variance,
             ends: [trace.things[first].at, trace.things[last].at],

@@ -16,11 +16,11 @@ const UNUSUAL: DVec3 = DVec3::new(9.0, 0.6, 0.9);
 
 /// A place where something stands still.
 struct Place {
+    /// Pixels.
     at: DVec2,
     traces: Vec<usize>,
+    /// In how many frames it is seen.
     frames: usize,
-    /// Whether the mark moves elsewhere while it is seen.
-    is_other: bool,
 }
 
 /// How much a look is like the usual one of a mark, from 0 to 1.
@@ -51,12 +51,11 @@ pub(super) fn still_things(traces: &[Trace], look: DVec3) -> Vec<bool> {
                 at,
                 traces: vec![index],
                 frames,
-                is_other: false,
             }),
         }
     }
     let moved: usize = moving.iter().map(|trace| trace.things.len()).sum();
-    for place in &mut places {
+    for place in &places {
         let is_beside = |index: &usize| {
             let Trace { first, .. } = traces[*index];
             let end = traces[*index].end();
@@ -64,9 +63,10 @@ pub(super) fn still_things(traces: &[Trace], look: DVec3) -> Vec<bool> {
                 |moving: &&Trace| end.min(moving.end()) >= first.max(moving.first) + BOTH;
             moving.iter().any(meanwhile)
         };
-        place.is_other = place.frames < moved && place.traces.iter().any(is_beside);
-        for index in place.traces.iter().filter(|_| place.is_other) {
-            is_thing[*index] = true;
+        if place.frames < moved && place.traces.iter().any(is_beside) {
+            for index in &place.traces {
+                is_thing[*index] = true;
+            }
         }
     }
     is_thing
