@@ -21,21 +21,20 @@ const FRAMES: usize = 120;
 const ROUNDS: usize = 5;
 
 fn main() {
-    let disc = |mark, radius, path| Disc { mark, radius, path };
     let scene = Scene {
         seeds: FITTED,
         size: [640, 480],
         discs: vec![
-            disc(("red", [205, 40, 45]), 16.0, |time| {
+            Disc::new(("red", [205, 40, 45]), 16.0, |time| {
                 ellipse(time, [320.0, 240.0], [220.0, 140.0], 25.0, 0.0)
             }),
-            disc(("green", [40, 150, 60]), 14.0, |time| {
+            Disc::new(("green", [40, 150, 60]), 14.0, |time| {
                 ellipse(time, [300.0, 220.0], [120.0, 180.0], 15.0, 0.3)
             }),
-            disc(("blue", [40, 70, 190]), 18.0, |time| {
+            Disc::new(("blue", [40, 70, 190]), 18.0, |time| {
                 ellipse(time, [340.0, 260.0], [240.0, 80.0], 20.0, 0.6)
             }),
-            disc(("yellow", [225, 205, 40]), 12.0, |time| {
+            Disc::new(("yellow", [225, 205, 40]), 12.0, |time| {
                 ellipse(time, [280.0, 240.0], [80.0, 80.0], 8.0, 0.5)
             }),
         ],

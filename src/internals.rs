@@ -132,5 +132,5 @@ pub mod terrain {
 }
 #[cfg(feature = "tracking")]
 pub mod tracking {
-    pub use crate::tracking::{Frame, Learner, Mark, Tracker, tracks};
+    pub use crate::tracking::{Follower, Frame, Learner, Mark, Tracker};
 }

@@ -18,12 +18,14 @@ use crate::disk::{Inputs, Naming, Target, WriteError};
 use crate::limited::frame_ranges;
 use crate::mark_tracks::{MAX_MARKS, MarkTrack, MarkTracks, repeated_name};
 use crate::render::{Image, Palette, write_png};
-use crate::tracking::{Frame, LearnError, Learned, Learner, Tracker, hue_name, tracks};
+use crate::tracking::{Follower, Frame, LearnError, Learned, Learner, hue_name};
 
 /// The most ranges of lost frames that are listed.
 const MAX_RANGES: usize = 8;
 /// A mark that is lost in more than this part of the frames is warned of.
 const MUCH_LOST: f64 = 0.2;
+/// So is one that may be in several places in more than this part of them.
+const MUCH_AMBIGUOUS: f64 = 0.1;
 /// So is one whose hue still things have in more than this part of the picture.
 const MUCH_CLUTTER: f64 = 0.003;
 /// The number of frames from which the colours of a GIF are chosen.
@@ -171,20 +173,20 @@ fn not_found(arguments: &Track, error: &LearnError) -> String {
 
 /// Finds the marks in all frames.
 fn follow(clip: &Clip, learned: &Learned, count: u32) -> Result<MarkTracks, String> {
-    let mut tracker = Tracker::new(learned.clone());
-    let (mut times, mut seen) = (Vec::new(), Vec::new());
+    let mut follower = Follower::new(learned.clone());
+    let mut times = Vec::new();
     counting("tracking", count, |done| {
         clip.read(&mut |frame| {
             let size = [frame.image.width(), frame.image.height()];
             if let Some(pixels) = Frame::new(size, &frame.image) {
-                seen.push(tracker.push(pixels));
+                follower.push(pixels);
                 times.push(frame.time);
             }
-            done(seen.len() as u32);
+            done(times.len() as u32);
             Ok(())
         })
     })?;
-    Ok(tracks(learned, times, &seen))
+    Ok(follower.tracks(times))
 }
 
 /// What was found, a line for each mark, and what may be wrong.
@@ -197,18 +199,25 @@ fn report(found: &MarkTracks, learned: &Learned) -> String {
     for (index, mark) in found.marks.iter().enumerate() {
         let _ = writeln!(text, "  {}", seen(mark));
         let name = &mark.name;
-        let lost = mark.is_lost.iter().filter(|lost| **lost).count();
-        let part = lost as f64 / frames as f64;
-        if lost == frames {
+        let part = |is: &[bool]| is.iter().filter(|is| **is).count() as f64 / frames as f64;
+        let (lost, ambiguous) = (part(&mark.is_lost), part(&mark.is_ambiguous));
+        if ambiguous > MUCH_AMBIGUOUS {
+            let _ = writeln!(
+                text,
+                "  warning: in {:.0} % of the frames something else could be `{name}` too; they count as lost; look at them with \
+                 --annotated check.gif, and film again without it, or with a mark of another colour",
+                100.0 * ambiguous
+            );
+        } else if lost == 1.0 {
             let _ = writeln!(
                 text,
                 "  warning: `{name}` was never seen clearly; choose its colour from a frame, as in `{name}=#d03020`"
             );
-        } else if part > MUCH_LOST {
+        } else if lost > MUCH_LOST {
             let _ = writeln!(
                 text,
                 "  warning: `{name}` is lost in {:.0} % of the frames; look at them with --annotated check.gif",
-                100.0 * part
+                100.0 * lost
             );
         }
         let clutter = learned.clutter(index);
@@ -223,20 +232,27 @@ fn report(found: &MarkTracks, learned: &Learned) -> String {
     text
 }
 
-/// In which frames a mark was seen and lost. Frames count from 1.
+/// In which frames a mark was seen, lost and ambiguous. Frames count from 1.
 fn seen(mark: &MarkTrack) -> String {
-    let lost = mark.is_lost.iter().enumerate().filter(|(_, lost)| **lost);
-    let lost: Vec<u32> = lost.map(|(frame, _)| frame as u32).collect();
     let frames = mark.is_lost.len();
-    match lost.as_slice() {
-        [] => format!("{}: seen in all frames", mark.name),
-        lost => format!(
-            "{}: seen in {} of {frames} frames, lost in {}",
-            mark.name,
-            frames - lost.len(),
-            frame_ranges(lost, MAX_RANGES)
-        ),
+    let list = |is_it: &dyn Fn(usize) -> bool| -> Vec<u32> {
+        let frames = (0..frames).filter(|frame| is_it(*frame));
+        frames.map(|frame| frame as u32).collect()
+    };
+    let ambiguous = list(&|frame| mark.is_ambiguous[frame]);
+    let lost = list(&|frame| mark.is_lost[frame] && !mark.is_ambiguous[frame]);
+    let seen = match frames - ambiguous.len() - lost.len() {
+        all if all == frames => "all frames".to_owned(),
+        some => format!("{some} of {frames} frames"),
+    };
+    let mut text = format!("{}: seen in {seen}", mark.name);
+    for (what, list) in [("lost", lost), ("ambiguous", ambiguous)] {
+        if !list.is_empty() {
+            let (count, ranges) = (list.len(), frame_ranges(&list, MAX_RANGES));
+            let _ = write!(text, ", {count} {what} ({ranges})");
+        }
     }
+    text
 }
 
 /// Writes the clip with what was found.

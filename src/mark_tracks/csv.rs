@@ -41,8 +41,10 @@ struct Columns<'a> {
     x: usize,
     y: usize,
     lost: Option<usize>,
+    ambiguous: Option<usize>,
     points: Vec<Option<DVec2>>,
     is_lost: Vec<bool>,
+    is_ambiguous: Vec<bool>,
 }
 
 pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
@@ -107,6 +109,7 @@ pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
         color: comment.color(mark.name),
         points: bridge(&times, &mark.points, middle),
         is_lost: mark.is_lost,
+        is_ambiguous: mark.is_ambiguous,
     };
     Ok(MarkTracks {
         size,
@@ -160,17 +163,24 @@ impl Columns<'_> {
                 return Err(cell.error("one coordinate of the place is missing", help));
             }
         };
-        let is_lost = self.lost.map(|column| {
-            let cell = row[column];
+        let is = |column: Option<usize>, what: &str| {
+            let Some(cell) = column.map(|column| row[column]) else {
+                return Ok(false);
+            };
             match cell.text.to_ascii_lowercase().as_str() {
                 "" | "0" | "false" => Ok(false),
                 "1" | "true" => Ok(true),
-                _ => Err(cell.error("this is neither 0 nor 1", "write 1 where the mark is lost")),
+                _ => {
+                    let help = format!("write 1 where the mark is {what}");
+                    Err(cell.error("this is neither 0 nor 1", help))
+                }
             }
-        });
+        };
+        let is_ambiguous = is(self.ambiguous, "ambiguous")?;
+        let is_lost = is(self.lost, "lost")? || is_ambiguous || point.is_none();
         self.points.push(point);
-        self.is_lost
-            .push(is_lost.transpose()?.unwrap_or(false) || point.is_none());
+        self.is_lost.push(is_lost);
+        self.is_ambiguous.push(is_ambiguous);
         Ok(())
     }
 }
@@ -196,8 +206,10 @@ fn columns<'a>(header: &[Cell<'a>]) -> Result<Vec<Columns<'a>>, Error> {
             x,
             y,
             lost: find(name, "_lost"),
+            ambiguous: find(name, "_ambiguous"),
             points: Vec::new(),
             is_lost: Vec::new(),
+            is_ambiguous: Vec::new(),
         });
     }
     if let Some(index) = repeated_name(marks.iter().map(|mark| mark.name)) {

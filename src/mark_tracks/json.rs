@@ -40,6 +40,9 @@ struct Mark {
     /// Ranges of frames: the first and the last.
     #[serde(default)]
     lost: Vec<[usize; 2]>,
+    /// Those of the lost frames in which the mark may be in several places.
+    #[serde(default)]
+    ambiguous: Vec<[usize; 2]>,
 }
 
 pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
@@ -138,21 +141,11 @@ fn read_mark(index: usize, mark: &Mark, times: &[f64], middle: DVec2) -> Result<
             check_coordinate(*coordinate).map_err(|error| error.of(place()))?;
         }
     }
-    let mut is_lost: Vec<bool> = mark.points.iter().map(Option::is_none).collect();
-    for (range, [first, last]) in mark.lost.iter().enumerate() {
-        let lost = is_lost.get_mut(*first..last.saturating_add(1));
-        let Some(lost) = lost.filter(|_| first <= last) else {
-            let message = format!("there are no frames {first} to {last}");
-            let most = frames - 1;
-            let help = format!("give the first and the last lost frame, from 0 to {most}");
-            return Err(Error::field(
-                field(&format!("lost[{range}]")),
-                message,
-                help,
-            ));
-        };
-        lost.fill(true);
-    }
+    let is_ambiguous = marked(&mark.ambiguous, frames, &field("ambiguous"))?;
+    let is_listed = marked(&mark.lost, frames, &field("lost"))?;
+    let is_lost = mark.points.iter().zip(is_listed.iter().zip(&is_ambiguous));
+    let is_lost = is_lost.map(|(point, (lost, ambiguous))| point.is_none() || *lost || *ambiguous);
+    let is_lost = is_lost.collect();
     let points: Vec<Option<DVec2>> = mark
         .points
         .iter()
@@ -163,5 +156,22 @@ fn read_mark(index: usize, mark: &Mark, times: &[f64], middle: DVec2) -> Result<
         color,
         points: bridge(times, &points, middle),
         is_lost,
+        is_ambiguous,
     })
+}
+
+/// Per frame whether it is in one of some ranges.
+fn marked(ranges: &[[usize; 2]], frames: usize, field: &str) -> Result<Vec<bool>, Error> {
+    let mut is_marked = vec![false; frames];
+    for (range, [first, last]) in ranges.iter().enumerate() {
+        let marked = is_marked.get_mut(*first..last.saturating_add(1));
+        let Some(marked) = marked.filter(|_| first <= last) else {
+            let message = format!("there are no frames {first} to {last}");
+            let most = frames - 1;
+            let help = format!("give the first and the last frame, from 0 to {most}");
+            return Err(Error::field(format!("{field}[{range}]"), message, help));
+        };
+        marked.fill(true);
+    }
+    Ok(is_marked)
 }

@@ -58,6 +58,8 @@ pub struct MarkTrack {
     pub points: Vec<DVec2>,
     /// Per frame whether it was lost.
     pub is_lost: Vec<bool>,
+    /// Per frame whether it was lost because it may be in several places.
+    pub is_ambiguous: Vec<bool>,
 }
 
 impl MarkTracks {

@@ -14,7 +14,8 @@ fn tracks() -> impl Strategy<Value = MarkTracks> {
         let mark = (
             any::<[u8; 3]>(),
             prop::collection::vec(point, frames),
-            prop::collection::vec(any::<bool>(), frames),
+            // Whether it is lost, and ambiguous if it is.
+            prop::collection::vec(any::<[bool; 2]>(), frames),
         );
         let marks = prop::collection::vec(mark, names.len());
         (steps, marks).prop_map(move |(steps, marks)| {
@@ -30,11 +31,12 @@ fn tracks() -> impl Strategy<Value = MarkTracks> {
                     .map(|tick| f64::from(tick) / 1e4)
                     .collect(),
                 marks: named
-                    .map(|(name, (color, points, is_lost))| MarkTrack {
+                    .map(|(name, (color, points, states))| MarkTrack {
                         name: name.clone(),
                         color,
                         points,
-                        is_lost,
+                        is_lost: states.iter().map(|[lost, _]| *lost).collect(),
+                        is_ambiguous: states.iter().map(|state| *state == [true; 2]).collect(),
                     })
                     .collect(),
             }
@@ -81,18 +83,19 @@ fn the_formats_are_as_documented() {
                 DVec2::new(-0.001, 2.0 / 3.0),
                 DVec2::new(9.0, 8.126),
             ],
-            is_lost: vec![false, true, false],
+            is_lost: vec![true, true, false],
+            is_ambiguous: vec![true, false, false],
         }]
         .into(),
     };
     let json: serde_json::Value = serde_json::from_str(&tracks.to_json()).unwrap();
     let expected = serde_json::json!({
         "format": "okoshi track", "version": 1, "size": [320, 240], "times": [0, 0.0333, 0.1],
-        "marks": [{"name": "red", "colour": "#d03020", "lost": [[1, 1]], "points": [[1, 2.5], [0, 0.67], [9, 8.13]]}],
+        "marks": [{"name": "red", "colour": "#d03020", "lost": [[0, 1]], "ambiguous": [[0, 0]], "points": [[1, 2.5], [0, 0.67], [9, 8.13]]}],
     });
     assert_eq!(json, expected);
-    let expected = "# 320x240 red=#d03020\nframe,time,red_x,red_y,red_lost\n\
-                    0,0,1,2.5,0\n1,0.0333,0,0.67,1\n2,0.1,9,8.13,0\n";
+    let expected = "# 320x240 red=#d03020\nframe,time,red_x,red_y,red_lost,red_ambiguous\n\
+                    0,0,1,2.5,1,1\n1,0.0333,0,0.67,1,0\n2,0.1,9,8.13,0,0\n";
     assert_eq!(tracks.to_csv(), expected);
 }
 

@@ -8,8 +8,8 @@ use super::{MarkTracks, hex};
 pub(super) const TICKS: f64 = 1e4;
 
 impl MarkTracks {
-    /// The tracks as JSON: coordinates to a hundredth of a pixel, times to a ten-thousandth of a second, lost frames as ranges
-    /// `[first, last]`.
+    /// The tracks as JSON: coordinates to a hundredth of a pixel, times to a ten-thousandth of a second, lost and ambiguous frames
+    /// as ranges `[first, last]`.
     pub fn to_json(&self) -> String {
         let [width, height] = self.size;
         let times: Vec<String> = self.times.iter().map(|time| number(*time, 4)).collect();
@@ -18,16 +18,13 @@ impl MarkTracks {
             let points: Vec<String> = points
                 .map(|point| format!("[{},{}]", number(point.x, 2), number(point.y, 2)))
                 .collect();
-            let lost: Vec<String> = ranges(&mark.is_lost)
-                .iter()
-                .map(|(first, last)| format!("[{first},{last}]"))
-                .collect();
             format!(
-                "{}\n    {{\"name\": {}, \"colour\": \"{}\",\n     \"lost\": [{}],\n     \"points\": [{}]}}",
+                "{}\n    {{\"name\": {}, \"colour\": \"{}\",\n     \"lost\": [{}], \"ambiguous\": [{}],\n     \"points\": [{}]}}",
                 if index == 0 { "" } else { "," },
                 serde_json::Value::from(mark.name.as_str()),
                 hex(mark.color),
-                lost.join(","),
+                ranges(&mark.is_lost),
+                ranges(&mark.is_ambiguous),
                 points.join(","),
             )
         };
@@ -39,7 +36,7 @@ impl MarkTracks {
     }
 
     /// The tracks as CSV, a row per frame: a line with the size and the colours, and the columns `frame` (from 0), `time`, and for each mark
-    /// `NAME_x`, `NAME_y` and `NAME_lost` (0 or 1). Numbers are rounded as in JSON.
+    /// `NAME_x`, `NAME_y`, `NAME_lost` and `NAME_ambiguous` (0 or 1). Numbers are rounded as in JSON.
     pub fn to_csv(&self) -> String {
         let [width, height] = self.size;
         let mut text = format!("# {width}x{height}");
@@ -49,15 +46,17 @@ impl MarkTracks {
         text.push_str("\nframe,time");
         for mark in &self.marks {
             let name = &mark.name;
-            let _ = write!(text, ",{name}_x,{name}_y,{name}_lost");
+            let _ = write!(text, ",{name}_x,{name}_y,{name}_lost,{name}_ambiguous");
         }
         text.push('\n');
         for (frame, time) in self.times.iter().enumerate() {
             let _ = write!(text, "{frame},{}", number(*time, 4));
             for mark in &self.marks {
-                let (point, is_lost) = (mark.points[frame], mark.is_lost[frame]);
+                let point = mark.points[frame];
                 let [x, y] = [point.x, point.y].map(|coordinate| number(coordinate, 2));
-                let _ = write!(text, ",{x},{y},{}", u8::from(is_lost));
+                let [lost, ambiguous] =
+                    [&mark.is_lost, &mark.is_ambiguous].map(|is| u8::from(is[frame]));
+                let _ = write!(text, ",{x},{y},{lost},{ambiguous}");
             }
             text.push('\n');
         }
@@ -65,16 +64,19 @@ impl MarkTracks {
     }
 }
 
-/// The ranges of frames that are lost, by their first and last frame.
-fn ranges(is_lost: &[bool]) -> Vec<(usize, usize)> {
+/// The ranges of the frames that are marked, each as `[first,last]`, separated by commas.
+fn ranges(is_marked: &[bool]) -> String {
     let mut ranges: Vec<(usize, usize)> = Vec::new();
-    for (frame, _) in is_lost.iter().enumerate().filter(|(_, lost)| **lost) {
+    for (frame, _) in is_marked.iter().enumerate().filter(|(_, marked)| **marked) {
         match ranges.last_mut() {
             Some((_, last)) if *last + 1 == frame => *last = frame,
             _ => ranges.push((frame, frame)),
         }
     }
-    ranges
+    let texts = ranges
+        .iter()
+        .map(|(first, last)| format!("[{first},{last}]"));
+    texts.collect::<Vec<_>>().join(",")
 }
 
 /// A number with at most so many decimals, without zeros at the end.

@@ -123,6 +123,7 @@ mod tests {
                     .map(|point| DVec2::from_array(*point))
                     .collect(),
                 is_lost: vec![false; points.len()],
+                is_ambiguous: vec![false; points.len()],
             }]
             .into(),
         }

@@ -1,5 +1,7 @@
 //! What a mark looks like.
 
+use glam::DVec2;
+
 use super::color::{Hsv, hue_difference};
 
 /// The colours that are a mark's.
@@ -23,6 +25,11 @@ impl Appearance {
         color.chroma >= self.chroma
             && color.saturation >= self.saturation
             && hue_difference(color.hue, self.hue).abs() <= self.reach
+    }
+
+    /// How far the hue of a colour is from the mark's, degrees, and its chroma.
+    pub(super) fn tint(&self, color: Hsv) -> DVec2 {
+        DVec2::new(hue_difference(color.hue, self.hue), color.chroma)
     }
 
     /// How much a colour that may be the mark's is like it, from just above 0 to 1.

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use glam::DVec2;
+
 use super::appearance::Appearance;
 use super::components::{Component, components, push_pixel};
 use super::lookup::Lookup;
@@ -16,6 +18,8 @@ const MOVING: f64 = 0.4;
 const LEAST_SAMPLES: usize = 5;
 /// The fewest pixels of a sample that may be a mark.
 const LEAST_AREA: f64 = 3.0;
+/// What covers more than this part of a square with the picture's smaller side is seldom a mark: a disc as wide as a sixth of it.
+pub(super) const LARGEST: f64 = 0.022;
 /// Anything that has this part of the picture may be a mark.
 const MARK: f64 = 2e-4;
 
@@ -25,6 +29,8 @@ pub(super) struct Clutter {
     /// The sets of marks, a bit for each, row by row.
     pub(super) marks: Vec<u64>,
     size: [usize; 2],
+    /// Per mark in how many of the samples each pixel looks like it, from 0 to 255; empty with few samples.
+    often: Vec<Vec<u8>>,
 }
 
 impl fmt::Debug for Clutter {
@@ -41,6 +47,7 @@ impl Clutter {
         Self {
             marks: vec![0; size[0] * size[1]],
             size,
+            often: Vec::new(),
         }
     }
 
@@ -56,6 +63,9 @@ impl Clutter {
         let widened = Lookup::new(&widened);
         for mark in 0..appearances.len() {
             let counts = counts(samples, &widened, mark);
+            let all = samples.frames.len() as f64;
+            let often = counts.iter().map(|count| (255.0 * count / all) as u8);
+            clutter.often.push(often.collect());
             // The marks themselves may rest for most of a clip.
             for group in still_groups(samples, &lookup, mark, &counts) {
                 clutter.add(mark, &group);
@@ -72,6 +82,13 @@ impl Clutter {
             .filter(|marks| *marks >> mark & 1 == 1)
             .count();
         found as f64 / self.marks.len() as f64
+    }
+
+    /// In which part of the frames a pixel of the sample looks like a mark, from 0 to 1.
+    pub(super) fn often(&self, mark: usize, [x, y]: [usize; 2]) -> f64 {
+        let pixel = y.min(self.size[1] - 1) * self.size[0] + x.min(self.size[0] - 1);
+        let often = self.often.get(mark).and_then(|often| often.get(pixel));
+        often.map_or(0.0, |often| f64::from(*often) / 255.0)
     }
 
     /// Whether it is in a rectangle of pixels of the sample, ends included, or beside it.
@@ -109,7 +126,7 @@ pub(super) fn likenesses(
     for (index, pixel) in sample.iter().enumerate() {
         if let Some(weight) = weight(index, *pixel) {
             let (x, y) = (index % size[0], index / size[0]);
-            push_pixel(&mut runs, x as u32, y as u32, weight);
+            push_pixel(&mut runs, x as u32, y as u32, weight, DVec2::ZERO);
         }
     }
     components(&runs)
@@ -166,7 +183,12 @@ fn still_groups(
         .get(sorted.len() / 2)
         .map_or(LEAST_AREA, |area| LEAST_AREA.max(0.3 * area));
     let largest = MARK * (samples.size[0] * samples.size[1]) as f64;
+    let too_large = LARGEST * samples.size[0].min(samples.size[1]).pow(2) as f64;
     let stays = |group: &Vec<usize>| {
+        // What is too large for a mark cannot be one at rest.
+        if group.len() as f64 > too_large {
+            return true;
+        }
         let frames = samples.frames.iter().zip(&areas);
         let (mut there, mut all) = (0, 0);
         // What is much smaller than a mark at rest is noise.

@@ -12,6 +12,8 @@ pub(super) struct Run {
     pub(super) weight: f64,
     /// The sum of their columns, weighted.
     pub(super) moment: f64,
+    /// The sum of what else is known about their colours, weighted.
+    pub(super) tint: DVec2,
 }
 
 /// Pixels that are connected, also by corners.
@@ -23,6 +25,8 @@ pub(super) struct Component {
     pub(super) weight: f64,
     /// Their weighted middle.
     pub(super) middle: DVec2,
+    /// The weighted mean of what else is known about their colours.
+    pub(super) tint: DVec2,
     /// The first column and row.
     pub(super) least: [u32; 2],
     /// The last column and row.
@@ -30,19 +34,21 @@ pub(super) struct Component {
 }
 
 /// Adds a pixel after those before it, in the order of rows and columns.
-pub(super) fn push_pixel(runs: &mut Vec<Run>, x: u32, y: u32, weight: f64) {
+pub(super) fn push_pixel(runs: &mut Vec<Run>, x: u32, y: u32, weight: f64, tint: DVec2) {
     let moment = weight * f64::from(x);
     if let Some(run) = runs.last_mut()
         && run.span.extend(x, y)
     {
         run.weight += weight;
         run.moment += moment;
+        run.tint += weight * tint;
         return;
     }
     runs.push(Run {
         span: Span::pixel(x, y),
         weight,
         moment,
+        tint: weight * tint,
     });
 }
 
@@ -57,6 +63,7 @@ pub(super) fn components(runs: &[Run]) -> Vec<Component> {
                 area: 0.0,
                 weight: 0.0,
                 middle: DVec2::ZERO,
+                tint: DVec2::ZERO,
                 least: [from, y],
                 most: [from, y],
             });
@@ -66,11 +73,13 @@ pub(super) fn components(runs: &[Run]) -> Vec<Component> {
         component.weight += run.weight;
         // A sum, until all runs are in it.
         component.middle += DVec2::new(run.moment, run.weight * f64::from(y));
+        component.tint += run.tint;
         component.least[0] = component.least[0].min(from);
         component.most = [component.most[0].max(to - 1), y];
     }
     for component in &mut components {
         component.middle /= component.weight;
+        component.tint /= component.weight;
     }
     components
 }
@@ -86,7 +95,7 @@ mod tests {
         let mut runs = Vec::new();
         for (y, row) in rows.iter().enumerate() {
             for (x, _) in row.iter().enumerate().filter(|(_, set)| **set) {
-                push_pixel(&mut runs, x as u32, y as u32, 1.0);
+                push_pixel(&mut runs, x as u32, y as u32, 1.0, DVec2::ZERO);
             }
         }
         runs

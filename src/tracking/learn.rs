@@ -1,9 +1,10 @@
 //! What the marks of a clip look like, learned from some of its frames.
 
+use glam::DVec3;
 use thiserror::Error;
 
 use super::appearance::Appearance;
-use super::clutter::{Clutter, likenesses};
+use super::clutter::{Clutter, LARGEST, likenesses};
 use super::color::{HUES, Hsv, hue_difference, hue_name};
 use super::frame::Frame;
 use super::lookup::Lookup;
@@ -24,8 +25,6 @@ const PALEST: [f64; 2] = [0.35, 0.6];
 const LEAST_PIXELS: f64 = 8.0;
 /// The fewest pixels of a sample that a mark usually has.
 const LEAST_AREA: f64 = 5.0;
-/// What covers more than this part of a square with the picture's smaller side is seldom a mark: a disc as wide as a sixth of it.
-const LARGEST: f64 = 0.022;
 /// A mark is in at least one of so many samples.
 const RAREST: usize = 8;
 /// A hue is in the clip if it has this part of the pixels.
@@ -304,6 +303,13 @@ fn usual_area(samples: &[Vec<f64>], largest: f64) -> f64 {
     match usual(largest) {
         (small, count) if 2 * count >= samples.len() => small,
         _ => any,
+    }
+}
+
+impl LearnedMark {
+    /// How it looks usually: how far its hue is from what was learned, degrees, and the logarithms of its chroma and of its area.
+    pub(super) fn look(&self) -> DVec3 {
+        DVec3::new(0.0, self.appearance.usual.ln(), self.area.ln())
     }
 }
 

@@ -2,12 +2,11 @@
 
 use glam::DVec2;
 
-use crate::mark_tracks::{MarkTrack, MarkTracks, bridge};
-
 use super::color::Hsv;
-use super::components::{Component, Run, components, push_pixel};
+use super::components::{Component, Run, components as connected, push_pixel};
 use super::frame::Frame;
 use super::learn::Learned;
+use super::traces::Thing;
 
 /// Larger pictures are looked at in steps: a mark has many pixels there.
 const MAX_PIXELS: usize = 1 << 20;
@@ -45,11 +44,13 @@ pub struct Sighting {
 /// Follows marks through the frames of a clip.
 #[derive(Debug, Clone)]
 pub struct Tracker {
-    learned: Learned,
+    pub(super) learned: Learned,
     followed: Vec<Followed>,
     /// Every so many pixels one is looked at.
     step: usize,
     runs: Vec<Vec<Run>>,
+    /// Per mark what is connected of them.
+    components: Vec<Vec<Component>>,
 }
 
 /// What is known about a mark from the frames so far.
@@ -85,6 +86,7 @@ impl Tracker {
             step: (pixels as f64 / MAX_PIXELS as f64).sqrt().ceil().max(1.0) as usize,
             followed: followed.collect(),
             runs: vec![Vec::new(); learned.marks.len()],
+            components: vec![Vec::new(); learned.marks.len()],
             learned,
         }
     }
@@ -101,17 +103,40 @@ impl Tracker {
     /// The marks in the next frame; `None` for those that are lost, and for all in a frame of another size.
     pub fn push(&mut self, frame: Frame<'_>) -> Vec<Option<Sighting>> {
         if frame.size != self.learned.size {
+            self.components.iter_mut().for_each(Vec::clear);
             return vec![None; self.followed.len()];
         }
-        self.find_runs(frame);
+        self.find_components(frame);
         let expected: Vec<Option<DVec2>> = self.followed.iter().map(Followed::expected).collect();
         (0..self.followed.len())
             .map(|mark| self.follow(mark, &expected))
             .collect()
     }
 
-    /// Finds the pixels of all marks.
-    fn find_runs(&mut self, frame: Frame<'_>) {
+    /// The things in the last frame that could be a mark.
+    pub(super) fn things(&self, mark: usize) -> Vec<Thing> {
+        let scale = self.step as f64;
+        let usual = self.learned.marks[mark].area;
+        let thing = |component: &Component| Thing {
+            at: component.middle * scale,
+            area: component.area * scale * scale,
+            tint: component.tint,
+            is_beside_clutter: self.touches_clutter(mark, component),
+            often: self.learned.clutter.often(
+                mark,
+                (component.middle * scale / self.learned.step as f64)
+                    .to_array()
+                    .map(|place| place as usize),
+            ),
+        };
+        let things = self.components[mark].iter().map(thing);
+        let is_possible =
+            |thing: &Thing| (LEAST_SIMILARITY..MERGED).contains(&(thing.area / usual));
+        things.filter(is_possible).collect()
+    }
+
+    /// Finds what looks like the marks.
+    fn find_components(&mut self, frame: Frame<'_>) {
         for runs in &mut self.runs {
             runs.clear();
         }
@@ -131,10 +156,15 @@ impl Tracker {
                 while marks != 0 {
                     let mark = marks.trailing_zeros() as usize;
                     marks &= marks - 1;
-                    let weight = self.learned.marks[mark].appearance.likeness(color);
-                    push_pixel(&mut self.runs[mark], x as u32, y as u32, weight);
+                    let appearance = &self.learned.marks[mark].appearance;
+                    let (weight, tint) = (appearance.likeness(color), appearance.tint(color));
+                    push_pixel(&mut self.runs[mark], x as u32, y as u32, weight, tint);
                 }
             }
+        }
+        for (components, runs) in self.components.iter_mut().zip(&self.runs) {
+            *components = connected(runs);
+            components.retain(|component| component.area > NOISE);
         }
     }
 
@@ -161,10 +191,9 @@ impl Tracker {
             0 => LEAST_SIMILARITY,
             _ => LEAST_SIMILARITY_LOST,
         };
-        let found = components(&self.runs[mark])
-            .into_iter()
-            .filter(|component| component.area > NOISE)
-            .map(|component| (score(&component), component))
+        let found = self.components[mark]
+            .iter()
+            .map(|component| (score(component), *component))
             .filter(|((similarity, score), _)| *similarity >= least && *score >= LEAST_SCORE)
             .max_by(|a, b| a.0.1.total_cmp(&b.0.1))
             .map(|(_, component)| component);
@@ -227,7 +256,6 @@ impl Tracker {
         let size = self.learned.size.map(|side| side as usize);
         let is_at_edge =
             (0..2).any(|axis| least[axis] <= 1 || most[axis] + self.step + 1 >= size[axis]);
-        let cell = |corner: [usize; 2]| corner.map(|place| place / self.learned.step);
         let is_beside_another = |other: usize| {
             let reach = self.followed[mark].radius() + self.followed[other].radius() + 4.0;
             let middle = component.middle * self.step as f64;
@@ -235,8 +263,17 @@ impl Tracker {
                 && expected[other].is_some_and(|other| other.distance(middle) < 1.5 * reach)
         };
         is_at_edge
-            || self.learned.clutter.touches(mark, cell(least), cell(most))
+            || self.touches_clutter(mark, component)
             || (0..expected.len()).any(is_beside_another)
+    }
+}
+
+impl Tracker {
+    /// Whether a component is beside what looks like the mark and stands still.
+    fn touches_clutter(&self, mark: usize, component: &Component) -> bool {
+        let [least, most] = [component.least, component.most]
+            .map(|corner| corner.map(|place| place as usize * self.step / self.learned.step));
+        self.learned.clutter.touches(mark, least, most)
     }
 }
 
@@ -307,26 +344,4 @@ fn windowed(runs: &[Run], start: DVec2, radius: f64) -> Option<DVec2> {
         middle = sum / count;
     }
     Some(middle)
-}
-
-/// The tracks of marks that were seen in frames at these times, in seconds from 0.
-pub fn tracks(learned: &Learned, times: Vec<f64>, frames: &[Vec<Option<Sighting>>]) -> MarkTracks {
-    let otherwise = DVec2::from_array(learned.size.map(f64::from)) / 2.0;
-    let track = |(index, mark): (usize, &super::learn::LearnedMark)| {
-        let seen: Vec<Option<DVec2>> = frames
-            .iter()
-            .map(|frame| frame[index].map(|sighting| sighting.at))
-            .collect();
-        MarkTrack {
-            name: mark.mark.name.clone(),
-            color: mark.mark.color,
-            is_lost: seen.iter().map(Option::is_none).collect(),
-            points: bridge(&times, &seen, otherwise),
-        }
-    };
-    MarkTracks {
-        size: learned.size,
-        marks: learned.marks.iter().enumerate().map(track).collect(),
-        times,
-    }
 }

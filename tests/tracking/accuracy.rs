@@ -4,8 +4,10 @@
 //! the same marks and other noise, which nobody looked at ([`HELD_BACK`]). The same is required there, except where a
 //! mark can be taken for a patch (`check_confusable`).
 
+use std::sync::Arc;
+
 use glam::DVec2;
-use okoshi::internals::tracking::{Frame, Learner, Mark, Tracker};
+use okoshi::internals::tracking::{Follower, Frame, Learner, Mark, Tracker};
 
 use super::synthetic::{Disc, FITTED, Scene, ellipse};
 
@@ -64,24 +66,25 @@ fn accuracy(name: &str, scene: &Scene) -> Accuracy {
     for frame in &frames {
         learner.push(Frame::new(scene.size, frame).expect("it has pixels"));
     }
-    let mut tracker = Tracker::new(learner.learned().expect("they are in the clip"));
+    let mut follower = Follower::new(learner.learned().expect("they are in the clip"));
+    for frame in &frames {
+        follower.push(Frame::new(scene.size, frame).expect("it has pixels"));
+    }
+    let times = (0..FRAMES).map(|frame| frame as f64 / 24.0).collect();
+    let tracks = follower.tracks(times);
     let mut errors = Vec::new();
     let (mut seen, mut lost, mut silently_wrong, mut gone, mut gone_and_lost) = (0, 0, 0, 0, 0);
-    for (number, frame) in frames.iter().enumerate() {
-        let found = tracker.push(Frame::new(scene.size, frame).expect("it has pixels"));
-        for (truth, found) in scene.truth(number).iter().zip(found) {
+    for number in 0..FRAMES {
+        for (truth, mark) in scene.truth(number).iter().zip(&tracks.marks) {
             seen += usize::from(truth.visible >= SEEN);
             gone += usize::from(truth.visible < GONE);
-            match found {
-                Some(found) => {
-                    let error = found.at.distance(truth.at);
-                    errors.push(error);
-                    silently_wrong += usize::from(error > WRONG);
-                }
-                None => {
-                    lost += usize::from(truth.visible >= SEEN);
-                    gone_and_lost += usize::from(truth.visible < GONE);
-                }
+            if mark.is_lost[number] {
+                lost += usize::from(truth.visible >= SEEN);
+                gone_and_lost += usize::from(truth.visible < GONE);
+            } else {
+                let error = mark.points[number].distance(truth.at);
+                errors.push(error);
+                silently_wrong += usize::from(error > WRONG);
             }
         }
     }
@@ -126,7 +129,8 @@ fn check_confusable(name: &str, scene: &Scene, most_wrong: usize) -> Accuracy {
     let fitted = assert_accurate(accuracy(name, scene));
     for accuracy in held_back {
         assert!(accuracy.median < 1.5, "{accuracy:?}");
-        assert!(accuracy.lost < 0.05, "{accuracy:?}");
+        // One mark of four may be ambiguous for a part of the clip.
+        assert!(accuracy.lost < 0.16, "{accuracy:?}");
         assert!(accuracy.silently_wrong <= most_wrong, "{accuracy:?}");
     }
     fitted
@@ -144,26 +148,18 @@ fn assert_accurate(accuracy: Accuracy) -> Accuracy {
 /// Four discs that cross each other's ways at up to 15 pixels a frame.
 fn discs() -> Vec<Disc> {
     vec![
-        Disc {
-            mark: RED,
-            radius: 8.0,
-            path: |time| ellipse(time, [160.0, 120.0], [110.0, 70.0], 15.0, 0.0),
-        },
-        Disc {
-            mark: GREEN,
-            radius: 7.0,
-            path: |time| ellipse(time, [150.0, 110.0], [60.0, 90.0], 9.0, 0.3),
-        },
-        Disc {
-            mark: BLUE,
-            radius: 9.0,
-            path: |time| ellipse(time, [170.0, 130.0], [120.0, 40.0], 11.0, 0.6),
-        },
-        Disc {
-            mark: YELLOW,
-            radius: 6.0,
-            path: |time| ellipse(time, [140.0, 120.0], [40.0, 40.0], 4.0, 0.5),
-        },
+        Disc::new(RED, 8.0, |time| {
+            ellipse(time, [160.0, 120.0], [110.0, 70.0], 15.0, 0.0)
+        }),
+        Disc::new(GREEN, 7.0, |time| {
+            ellipse(time, [150.0, 110.0], [60.0, 90.0], 9.0, 0.3)
+        }),
+        Disc::new(BLUE, 9.0, |time| {
+            ellipse(time, [170.0, 130.0], [120.0, 40.0], 11.0, 0.6)
+        }),
+        Disc::new(YELLOW, 6.0, |time| {
+            ellipse(time, [140.0, 120.0], [40.0, 40.0], 4.0, 0.5)
+        }),
     ]
 }
 
@@ -210,9 +206,9 @@ fn marks_that_blur_are_found_in_the_middle_of_their_way() {
 #[test]
 fn marks_that_leave_are_lost_until_they_return() {
     let mut discs = discs();
-    discs[0].path = |time| ellipse(time, [160.0, 120.0], [230.0, 60.0], 12.0, 0.25);
-    discs[1].path = |time| ellipse(time, [150.0, 120.0], [50.0, 190.0], 9.0, 0.0);
-    let accuracy = check_confusable("leaving", &scene(discs), 250);
+    discs[0].path = Arc::new(|time| ellipse(time, [160.0, 120.0], [230.0, 60.0], 12.0, 0.25));
+    discs[1].path = Arc::new(|time| ellipse(time, [150.0, 120.0], [50.0, 190.0], 9.0, 0.0));
+    let accuracy = check_confusable("leaving", &scene(discs), 24);
     assert!(accuracy.gone > FRAMES / 4, "{accuracy:?}");
 }
 
@@ -220,7 +216,7 @@ fn marks_that_leave_are_lost_until_they_return() {
 fn a_mark_that_is_gone_for_most_of_the_clip_is_found() {
     let mut discs = discs();
     discs.truncate(2);
-    discs[0].path = |time| ellipse(time, [160.0, 120.0], [420.0, 40.0], 14.0, 0.25);
+    discs[0].path = Arc::new(|time| ellipse(time, [160.0, 120.0], [420.0, 40.0], 14.0, 0.25));
     let scene = Scene {
         noise: 10.0,
         // Still patches of its hue would be taken for it while it is gone.
@@ -248,7 +244,7 @@ fn marks_are_found_in_changing_light() {
             light,
             ..scene(discs())
         },
-        32,
+        1,
     );
 }
 
@@ -268,7 +264,7 @@ fn still_things_of_the_same_hue_are_no_marks() {
             patches,
             ..scene(discs())
         },
-        45,
+        0,
     );
 }
 
@@ -276,17 +272,17 @@ fn still_things_of_the_same_hue_are_no_marks() {
 fn a_mark_that_rests_for_most_of_the_clip_is_no_clutter() {
     let mut discs = discs();
     discs.truncate(1);
-    discs[0].path = |time| match time {
+    discs[0].path = Arc::new(|time| match time {
         ..140.0 => DVec2::new(80.0, 60.0),
         _ => DVec2::new(80.0 + 8.0 * (time - 140.0), 60.0),
-    };
+    });
     check("resting", &scene(discs));
 }
 
 #[test]
 fn a_mark_that_moves_a_little_is_no_clutter() {
     let mut discs = discs();
-    discs[1].path = |time| DVec2::new(80.0 + 2.0 * (time / 5.0).sin(), 60.0);
+    discs[1].path = Arc::new(|time| DVec2::new(80.0 + 2.0 * (time / 5.0).sin(), 60.0));
     let scene = Scene {
         colorful: 0,
         ..scene(discs)
@@ -298,7 +294,7 @@ fn a_mark_that_moves_a_little_is_no_clutter() {
 fn a_mark_that_never_moves_is_found() {
     let mut discs = discs();
     discs.truncate(1);
-    discs[0].path = |_| DVec2::new(80.0, 60.0);
+    discs[0].path = Arc::new(|_| DVec2::new(80.0, 60.0));
     check(
         "still",
         &Scene {
@@ -319,7 +315,7 @@ fn light_that_changes_over_things_of_the_same_hue_leaves_marks_alone() {
             patches,
             ..scene(discs())
         },
-        45,
+        0,
     );
 }
 

@@ -17,19 +17,14 @@ const FRAMES: usize = 12;
 
 /// A red disc that goes around a green one.
 fn scene() -> Scene {
-    let disc = |name, color, path| Disc {
-        mark: (name, color),
-        radius: 7.0,
-        path,
-    };
     Scene {
         seeds: FITTED,
         size: [121, 90],
         discs: vec![
-            disc("green", [40, 150, 60], |time| {
+            Disc::new(("green", [40, 150, 60]), 7.0, |time| {
                 DVec2::new(60.0 + 0.5 * time, 45.0)
             }),
-            disc("red", [205, 40, 45], |time| {
+            Disc::new(("red", [205, 40, 45]), 7.0, |time| {
                 ellipse(time, [60.0, 45.0], [40.0, 30.0], 8.0, 0.1)
             }),
         ],

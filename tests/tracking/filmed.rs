@@ -7,7 +7,7 @@ use std::path::Path;
 use image::AnimationDecoder as _;
 use image::codecs::webp::WebPDecoder;
 use okoshi::internals::mark_tracks::MarkTracks;
-use okoshi::internals::tracking::{Frame, Learner, Mark, Tracker, tracks};
+use okoshi::internals::tracking::{Follower, Frame, Learner, Mark};
 
 #[test]
 fn a_filmed_clip_agrees_with_another_program() {
@@ -28,12 +28,9 @@ fn a_filmed_clip_agrees_with_another_program() {
     let marks = marks.map(|(name, color)| Mark::new(name, color).expect("it is coloured"));
     let mut learner = Learner::new(reference.size, marks.to_vec());
     (0..frames.len()).for_each(|number| learner.push(frame(number)));
-    let learned = learner.learned().expect("they are in the clip");
-    let mut tracker = Tracker::new(learned.clone());
-    let seen: Vec<_> = (0..frames.len())
-        .map(|number| tracker.push(frame(number)))
-        .collect();
-    let found = tracks(&learned, reference.times.clone(), &seen);
+    let mut follower = Follower::new(learner.learned().expect("they are in the clip"));
+    (0..frames.len()).for_each(|number| follower.push(frame(number)));
+    let found = follower.tracks(reference.times.clone());
     for (mark, theirs) in found.marks.iter().zip(&reference.marks) {
         assert_eq!(mark.name, theirs.name);
         let lost = mark.is_lost.iter().filter(|lost| **lost).count();

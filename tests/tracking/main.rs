@@ -8,7 +8,9 @@
 mod common;
 
 mod accuracy;
+mod ambiguous;
 mod cli;
 mod filmed;
 mod passing;
+mod random;
 mod synthetic;

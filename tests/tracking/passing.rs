@@ -2,7 +2,7 @@
 
 use fastrand::Rng;
 use glam::DVec2;
-use okoshi::internals::tracking::{Frame, Learner, Mark, Tracker};
+use okoshi::internals::tracking::{Follower, Frame, Learner, Mark};
 
 use super::synthetic::{Disc, Scene, ellipse};
 
@@ -32,11 +32,7 @@ fn scene(color: [u8; 3], radius: f64, path: fn(f64) -> DVec2, seeds: [u64; 2]) -
     Scene {
         seeds,
         size: [320, 240],
-        discs: vec![Disc {
-            mark: ("mark", color),
-            radius,
-            path,
-        }],
+        discs: vec![Disc::new(("mark", color), radius, path)],
         colorful: 0,
         patches: Vec::new(),
         noise: 5.0,
@@ -162,13 +158,14 @@ fn a_surface_of_the_marks_hue_is_not_taken_for_it() {
         let mark = Mark::new("mark", scene.discs[0].mark.1).expect("it is coloured");
         let mut learner = Learner::new(scene.size, vec![mark]);
         (0..FRAMES).for_each(|number| learner.push(frame(number)));
-        let mut tracker = Tracker::new(learner.learned().expect("it is in the clip"));
+        let mut follower = Follower::new(learner.learned().expect("it is in the clip"));
+        (0..FRAMES).for_each(|number| follower.push(frame(number)));
+        let tracks = follower.tracks((0..FRAMES).map(|frame| frame as f64 / 24.0).collect());
+        let mark = &tracks.marks.raw[0];
         let (mut right, mut wrong) = (0, 0);
-        for number in 0..FRAMES {
-            if let Some(found) = tracker.push(frame(number))[0] {
-                let is_wrong = found.at.distance(scene.truth(number)[0].at) > WRONG;
-                *(if is_wrong { &mut wrong } else { &mut right }) += 1;
-            }
+        for number in (0..FRAMES).filter(|number| !mark.is_lost[*number]) {
+            let is_wrong = mark.points[number].distance(scene.truth(number)[0].at) > WRONG;
+            *(if is_wrong { &mut wrong } else { &mut right }) += 1;
         }
         eprintln!("passing surface {number}: {right} right, {wrong} wrong of {FRAMES}");
         assert_eq!(wrong, 0, "surface {number}");

@@ -1,9 +1,13 @@
 //! Clips whose marks are known: discs that move before a cluttered background.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use fastrand::Rng;
 use glam::DVec2;
+
+/// Where something is at a time, counted in frames.
+pub(crate) type Path = Arc<dyn Fn(f64) -> DVec2 + Send + Sync>;
 
 /// A disc that moves.
 #[derive(Clone)]
@@ -13,7 +17,7 @@ pub(crate) struct Disc {
     /// Pixels.
     pub(crate) radius: f64,
     /// Where its middle is at a time, counted in frames.
-    pub(crate) path: fn(f64) -> DVec2,
+    pub(crate) path: Path,
 }
 
 /// A clip.
@@ -49,6 +53,20 @@ pub(crate) struct Truth {
 pub(crate) const FITTED: [u64; 2] = [7, 1000];
 /// Instants of which a frame is the mean.
 const INSTANTS: usize = 9;
+
+impl Disc {
+    pub(crate) fn new(
+        mark: (&'static str, [u8; 3]),
+        radius: f64,
+        path: impl Fn(f64) -> DVec2 + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            mark,
+            radius,
+            path: Arc::new(path),
+        }
+    }
+}
 
 impl Scene {
     /// The background: a gradient with patches of many colours.

@@ -26,7 +26,10 @@ test("messages of the program are read, and others dropped", () => {
 test("a track says where each mark is and when it is lost", () => {
   const track = readTrack('{"format":"okoshi track","version":1,"size":[320,240],"times":[0,0.1,0.2],"marks":[{"name":"a","colour":"#010203","lost":[[1,2]],"points":[[1,2],[3,4],[5,6]]}]}');
   assert.deepEqual(track.size, [320, 240]);
-  assert.deepEqual(track.marks[0], { name: "a", color: "#010203", points: [[1, 2], [3, 4], [5, 6]], isLost: [false, true, true] });
+  assert.deepEqual(track.marks[0], { name: "a", color: "#010203", points: [[1, 2], [3, 4], [5, 6]], isLost: [false, true, true], isAmbiguous: [false, false, false] });
+  const ambiguous = readTrack('{"times":[0,0.1,0.2],"marks":[{"name":"a","colour":"#010203","lost":[[1,2]],"ambiguous":[[2,2]],"points":[[1,2],[3,4],[5,6]]}]}');
+  assert.deepEqual(ambiguous.marks[0]!.isLost, [false, true, true]);
+  assert.deepEqual(ambiguous.marks[0]!.isAmbiguous, [false, false, true]);
   assert.deepEqual(curve(track, track.marks[0]!, 1), [[0, (2 / 240) * 100], null, null]);
   assert.deepEqual(readTrack("nothing").marks, []);
 });

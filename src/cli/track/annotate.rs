@@ -1,7 +1,7 @@
 //! The clip with what was found drawn on it.
 
 use image::{DynamicImage, RgbImage};
-use resvg::tiny_skia::{Color, Paint, PathBuilder, Pixmap, Stroke, Transform};
+use resvg::tiny_skia::{Color, Paint, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
 
 use crate::mark_tracks::{MarkTrack, MarkTracks};
 use crate::render::Image;
@@ -11,7 +11,8 @@ const TRAIL: f64 = 0.8;
 /// The radius of a mark's circle, as a part of the picture's smaller side.
 const RADIUS: f64 = 0.045;
 
-/// A frame with each mark's circle and trail; a cross is where a lost mark may be.
+/// A frame with each mark's circle and trail. A cross is where a lost mark may be; a circle of dashes is around the cross if something else
+/// may be the mark.
 pub(super) fn annotated(frame: RgbImage, tracks: &MarkTracks, number: usize) -> Image {
     let (width, height) = frame.dimensions();
     let image = DynamicImage::from(frame).into_rgba8();
@@ -44,7 +45,10 @@ fn draw(canvas: &mut Pixmap, tracks: &MarkTracks, mark: &MarkTrack, number: usiz
         }
     }
     let (x, y) = place(number);
-    let mut sign = PathBuilder::new();
+    let (mut sign, mut dashes) = (PathBuilder::new(), PathBuilder::new());
+    if mark.is_ambiguous[number] {
+        dashes.push_circle(x, y, 1.6 * radius);
+    }
     if mark.is_lost[number] {
         for side in [-1.0, 1.0] {
             sign.move_to(x - radius, y - side * radius);
@@ -54,7 +58,9 @@ fn draw(canvas: &mut Pixmap, tracks: &MarkTracks, mark: &MarkTrack, number: usiz
         sign.push_circle(x, y, radius);
     }
     let [r, g, b] = mark.color;
-    for path in [trail, sign] {
+    let length = 0.4 * std::f32::consts::PI * radius;
+    let dash = StrokeDash::new(vec![0.6 * length, 0.4 * length], 0.0);
+    for (path, dash) in [(trail, None), (sign, None), (dashes, dash)] {
         let Some(path) = path.finish() else {
             continue;
         };
@@ -67,6 +73,7 @@ fn draw(canvas: &mut Pixmap, tracks: &MarkTracks, mark: &MarkTrack, number: usiz
             paint.set_color(color);
             let stroke = Stroke {
                 width,
+                dash: dash.clone(),
                 ..Stroke::default()
             };
             canvas.stroke_path(&path, &paint, &stroke, Transform::identity(), None);

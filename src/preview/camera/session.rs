@@ -6,7 +6,7 @@ use thiserror::Error;
 use super::frame::{FrameError, Picture};
 use super::message::{FromCamera, MarkFacts, ToCamera};
 use crate::mark_tracks::{MAX_NAME, MarkId, MarkTracks, hex, is_name};
-use crate::tracking::{Learned, Learner, Mark, Sighting, Tracker, hue_name, tracks};
+use crate::tracking::{Follower, Learned, Learner, Mark, Sighting, Tracker, hue_name};
 
 /// The most marks.
 const MAX_MARKS: usize = 8;
@@ -260,8 +260,8 @@ impl Session {
         Ok(answers)
     }
 
-    /// The track of the recording. The marks are learned from all of its frames and tracked once more: what else has their colours is
-    /// known only at the end.
+    /// The track of the recording. The marks are learned from all of its frames and tracked once more: what else has their colours, and
+    /// which of it could be a mark, is known only at the end.
     fn finish(&mut self) -> Result<MarkTracks, Refusal> {
         let recording = self.recording.take().ok_or(Refusal::Empty)?;
         let first = recording.frames.first().ok_or(Refusal::Empty)?;
@@ -275,15 +275,20 @@ impl Session {
             let name = mark.map_or("", |mark| &mark.name).to_owned();
             live.ok_or(Refusal::NotFound(name))
         })?;
-        let mut tracker = started(&learned, &recording.start);
-        let (mut times, mut seen) = (Vec::new(), Vec::new());
+        let mut follower = Follower::new(learned);
+        for (mark, place) in recording.start.iter().enumerate() {
+            if let Some(at) = place {
+                follower.start(mark, *at);
+            }
+        }
+        let mut times = Vec::new();
         for picture in &recording.frames {
             if let Some(frame) = picture.frame() {
                 times.push((picture.time - first.time) / 1e3);
-                seen.push(tracker.push(frame));
+                follower.push(frame);
             }
         }
-        let mut track = tracks(&learned, times, &seen);
+        let mut track = follower.tracks(times);
         // A mark may have been renamed since it was learned.
         for (track, mark) in track.marks.iter_mut().zip(&self.marks) {
             mark.name.clone_into(&mut track.name);

@@ -107,6 +107,8 @@ export interface Track {
 export interface TrackedMark extends Mark {
   readonly points: readonly (readonly [number, number])[];
   readonly isLost: readonly boolean[];
+  /** The lost frames in which the mark may be in several places. */
+  readonly isAmbiguous: readonly boolean[];
 }
 
 /** Parses the file of a track. */
@@ -119,9 +121,14 @@ export function readTrack(file: string): Track {
     times,
     marks: list(raw["marks"]).map((value) => {
       const mark = object(value);
-      const isLost = times.map(() => false);
-      for (const [first, last] of list(mark["lost"]).map(pair)) isLost.fill(true, first, last + 1);
-      return { ...readMark(value), points: list(mark["points"]).map(pair), isLost };
+      const frames = (ranges: unknown): boolean[] => {
+        const isIn = times.map(() => false);
+        for (const [first, last] of list(ranges).map(pair)) isIn.fill(true, first, last + 1);
+        return isIn;
+      };
+      const isAmbiguous = frames(mark["ambiguous"]);
+      const isLost = frames(mark["lost"]).map((is, frame) => is || isAmbiguous[frame] === true);
+      return { ...readMark(value), points: list(mark["points"]).map(pair), isLost, isAmbiguous };
     }),
   };
 }

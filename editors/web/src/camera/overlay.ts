@@ -11,6 +11,8 @@ export interface Ring {
   readonly at: Sighting;
   /** Whether this is only where the mark may have been. */
   readonly isLost?: boolean;
+  /** Whether something else may be the mark. */
+  readonly isAmbiguous?: boolean;
 }
 
 /** How much larger than the mark a ring is, in pixels of the picture. */
@@ -34,9 +36,9 @@ export class Overlay {
   showRings(rings: readonly Ring[]): void {
     fill(
       this.rings,
-      ...rings.flatMap(({ mark, at, isLost }) => {
+      ...rings.flatMap(({ mark, at, isLost, isAmbiguous }) => {
         const ring = { cx: at.x, cy: at.y, r: at.radius + MARGIN };
-        return [svg("circle", { ...ring, class: "camera-ring-edge" }), svg("circle", { ...ring, class: isLost ? "camera-ring lost" : "camera-ring", stroke: mark.color, "data-mark": mark.name })];
+        return [svg("circle", { ...ring, class: "camera-ring-edge" }), svg("circle", { ...ring, class: `camera-ring${isLost ? " lost" : ""}${isAmbiguous ? " ambiguous" : ""}`, stroke: mark.color, "data-mark": mark.name })];
       }),
     );
   }

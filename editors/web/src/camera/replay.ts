@@ -3,7 +3,7 @@
 import { Play, Pause } from "lucide";
 import { button, count, fill, h, icon } from "../dom";
 import { Curves } from "./curves";
-import { readTrack, type Track } from "./messages";
+import { readTrack, type Track, type TrackedMark } from "./messages";
 import type { Overlay, Place } from "./overlay";
 import { nearest, type Pictures } from "./pictures";
 import { fileName, strings } from "./strings";
@@ -36,7 +36,7 @@ export class Replay {
       h("div", { class: "camera-transport" }, this.play, this.slider),
       this.readout,
       h("div", { class: "camera-curves-place" }, this.curves.element),
-      h("p", { class: "muted" }, "Solid: x. Dashed: y. Gaps: the mark was lost."),
+      h("p", { class: "muted" }, "Solid: x. Dashed: y. Gaps: the mark was lost, or something else could be it."),
       h(
         "div",
         { class: "camera-row" },
@@ -70,9 +70,12 @@ export class Replay {
   /** In how many frames each mark is lost, in words. */
   states(): string[] {
     const frames = this.track?.times.length ?? 0;
-    return (this.track?.marks ?? []).map(({ isLost }) => {
-      const lost = isLost.filter(Boolean).length;
-      return lost === 0 ? "always seen" : `lost in ${lost} of ${count(frames, "frame")}`;
+    return (this.track?.marks ?? []).map(({ isLost, isAmbiguous }) => {
+      const ambiguous = isAmbiguous.filter(Boolean).length;
+      const lost = isLost.filter(Boolean).length - ambiguous;
+      if (lost + ambiguous === 0) return "always seen";
+      const parts = [lost > 0 ? `lost in ${lost}` : "", ambiguous > 0 ? `ambiguous in ${ambiguous}` : ""];
+      return `${parts.filter(Boolean).join(", ")} of ${count(frames, "frame")}`;
     });
   }
 
@@ -117,12 +120,17 @@ export class Replay {
     this.overlay.showRings(
       track.marks.map((mark) => {
         const [x, y] = mark.points[this.frame] ?? [0, 0];
-        return { mark, at: { x, y, radius: RADIUS * width }, isLost: mark.isLost[this.frame] === true };
+        return { mark, at: { x, y, radius: RADIUS * width }, isLost: mark.isLost[this.frame] === true, isAmbiguous: mark.isAmbiguous[this.frame] === true };
       }),
     );
     this.overlay.showTrails(track.marks.map((mark) => ({ mark, places: mark.points.slice(0, this.frame + 1).map((place, at): Place => (mark.isLost[at] ? null : place)) })));
-    const lost = track.marks.filter((mark) => mark.isLost[this.frame]).map(({ name }) => name);
-    const text = `Frame ${this.frame + 1} of ${track.times.length} · ${seconds.toFixed(2)} s${lost.length > 0 ? ` · lost: ${lost.join(", ")}` : ""}`;
+    const named = (label: string, is: (mark: TrackedMark) => boolean): string => {
+      const names = track.marks.filter(is).map(({ name }) => name);
+      return names.length > 0 ? ` · ${label}: ${names.join(", ")}` : "";
+    };
+    const isAmbiguous = (mark: TrackedMark): boolean => mark.isAmbiguous[this.frame] === true;
+    const lost = named("lost", (mark) => mark.isLost[this.frame] === true && !isAmbiguous(mark));
+    const text = `Frame ${this.frame + 1} of ${track.times.length} · ${seconds.toFixed(2)} s${lost}${named("ambiguous", isAmbiguous)}`;
     this.readout.textContent = text;
     this.slider.value = String(this.frame);
     this.slider.setAttribute("aria-valuetext", text);
