@@ -8,6 +8,7 @@ mod carried;
 mod contacts;
 mod ground;
 mod kinematics;
+mod legs;
 mod matching;
 mod planting;
 mod rest_pose;
