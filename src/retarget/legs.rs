@@ -11,13 +11,13 @@ use crate::smoothing::ease;
 /// How far outward a leg of one piece turns, in leg lengths by which its foot is before or behind the hip.
 const OUTWARD: f64 = 0.25;
 /// The most by which a leg of one piece turns, degrees.
-const MOST: f64 = 12.0;
+const MOST: f64 = 20.0;
 /// The most by which a knee bends further, degrees.
 const MOST_BENT: f64 = 60.0;
 /// The sine of the angle between thigh and shin from which on they say in which plane the knee bends, and not the thigh alone.
 const CLEAR: f64 = 0.1;
-/// A foot may be levelled as far as this helps from this height on, in leg lengths.
-const LEVELLED: f64 = 0.05;
+/// A foot keeps its tilt up to the first of these heights, in leg lengths, and may be levelled from the second on.
+const LEVELLED: [f64; 2] = [0.025, 0.075];
 /// Halvings of the range of an angle, to far less than a tenth of a degree.
 const HALVINGS: usize = 12;
 
@@ -75,9 +75,8 @@ impl Leg {
         let mut all: Vec<FigurePartId> = all.skip(usize::from(is_foot)).collect();
         all.reverse();
         // Those that share the turn of a joint follow the pieces beside it.
-        let turns = |part: &&FigurePartId| {
-            rotations.is_own(**part) && rig.parts[**part].shared.is_none()
-        };
+        let turns =
+            |part: &&FigurePartId| rotations.is_own(**part) && rig.parts[**part].shared.is_none();
         let pieces: Vec<FigurePartId> = all.iter().filter(turns).copied().collect();
         let (&first, rest) = pieces.split_first()?;
         let lower = rest.first().map(|part| Shin {
@@ -137,7 +136,8 @@ impl Leg {
                 lowest(points) - lowest(sole.iter().map(|point| *point - ankle))
             };
             // The sole of a foot that stands is as flat as the actor's.
-            let most = ease(height / (LEVELLED * leg));
+            let [from, to] = LEVELLED.map(|height| height * leg);
+            let most = ease((height - from) / (to - from));
             let share = least(most, |share| raised(share) >= lift);
             let gained = raised(share);
             if gained > 0.0 {

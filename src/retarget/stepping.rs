@@ -50,7 +50,12 @@ pub(super) fn place(
     };
     let standing = standing.filter(|(_, part)| !keeps_pose(*part));
     let standing: Vec<(usize, FigurePartId)> = standing.collect();
-    if standing.is_empty() || length.frames == 0 {
+    let is_sized = leg > 0.0 && leg.is_finite();
+    if standing.is_empty()
+        || length.frames == 0
+        || !is_sized
+        || std::env::var("OKOSHI_NOPLACE").is_ok()
+    {
         return;
     }
     let lacking = lacking(rig, order, rotations, walk, &standing, leg, length);
@@ -99,7 +104,9 @@ fn lacking(
         kinematics.pose(rig, rotations, order, frame);
         let feet = Feet::of(rig, &kinematics, walk);
         let highest = Stance::of(walk, frame, &feet.lowest()).height();
-        let lows = standing.iter().map(|(_, part)| kinematics.lowest(rig, *part));
+        let lows = standing
+            .iter()
+            .map(|(_, part)| kinematics.lowest(rig, *part));
         let lows: Vec<f64> = lows.collect();
         // By how much the root is too high for a foot that stands, or soon will.
         let too_high = standing.iter().zip(&lows).map(|((foot, _), low)| {

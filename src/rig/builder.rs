@@ -12,6 +12,7 @@ use super::diagnostics::{self, MatchProblems};
 use super::figure_clip::{self, FigureClip};
 use super::figures::FigureGroup;
 use super::holding;
+use super::lying;
 use super::moves::{Moves, Role, Roles};
 use super::performed::{self, Channels, Performed};
 use super::rigging::{self, RestNodes};
@@ -232,13 +233,14 @@ impl<'a> ClipBuilder<'a> {
             performance,
         } = requested;
         let group = &matched.group;
-        let rig = Arc::new(rigging::rig(
+        let drawn = rigging::rig(
             self.context,
             &matched.figure,
             group,
             &matched.matching,
             self.rest,
-        ));
+        );
+        let rig = Arc::new(lying::laid_down(drawn.clone()));
         let retargeted = self.retargeted(request, matched, motion, &rig, performance.as_ref());
         let measured = self.measured(&rig, &retargeted);
         let frames = retargeted.grounded.len();
@@ -301,7 +303,7 @@ impl<'a> ClipBuilder<'a> {
             measured,
             animated: Arc::clone(&self.animated),
         };
-        self.note_loose(&clip, group, &rig);
+        self.note_loose(&clip, group, &drawn);
         clip.add_to(scene);
         self.clips.push(clip);
     }

@@ -13,6 +13,7 @@ mod figure_clip;
 mod figures;
 mod holding;
 mod limbless;
+mod lying;
 mod measured;
 mod missing_files;
 mod motion_files;

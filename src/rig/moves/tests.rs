@@ -37,9 +37,14 @@ const DOG: &str = r##"<rect x="100" y="120" width="180" height="60" inkscape:lab
 <rect x="140" y="170" width="20" height="90" inkscape:label="far front leg"/>
 <rect x="220" y="170" width="20" height="90" inkscape:label="near hind leg"/>
 <rect x="250" y="170" width="20" height="90" inkscape:label="far hind leg"/>"##;
+const EEL: &str = r##"<ellipse cx="110" cy="150" rx="60" ry="30" inkscape:label="body"/>
+<rect x="160" y="140" width="220" height="20" rx="10" inkscape:label="tail"/>
+<circle cx="80" cy="142" r="5" inkscape:label="eye"/>"##;
+const WEED: &str = r##"<rect x="170" y="250" width="60" height="40" inkscape:label="pot"/>
+<rect x="192" y="60" width="16" height="200" inkscape:label="stem"/>"##;
 const BOX: &str = r##"<rect x="100" y="120" width="180" height="60"/>"##;
 
-const ALL: [(&str, &str); 8] = [
+const ALL: [(&str, &str); 10] = [
     (CAR, "drive"),
     (BIRD, "fly"),
     (FISH, "swim"),
@@ -48,6 +53,8 @@ const ALL: [(&str, &str); 8] = [
     (SQUID, "float"),
     (DOG, "walk"),
     (BOX, "sway"),
+    (EEL, "swim"),
+    (WEED, "sway"),
 ];
 
 fn playing(figure: &str, motion: &str) -> Compiled {
@@ -157,6 +164,58 @@ fn wings_beat_together() {
     }
     let lowest = left.iter().copied().fold(0.0, f64::min);
     assert!((-1.4..-1.0).contains(&lowest), "{lowest}");
+}
+
+/// A part that bends moves as a wave: each bone later than the one before.
+#[test]
+fn waves_run_along_what_bends() {
+    for (figure, motion, name) in [
+        (EEL, "Motion swim", "tail"),
+        (SQUID, "Motion float", "tentacle 1"),
+        (WEED, "Motion sway Bend 4", "stem"),
+    ] {
+        let compiled = playing(figure, motion);
+        let clip = &compiled.clips[0];
+        let whole = clip.order[part(&compiled, clip, name)].0;
+        let bones = clip.order.iter_enumerated();
+        let bones = bones.filter(|(_, (part, bone))| *part == whole && *bone > 0);
+        let turns = bones.map(|(bone, _)| {
+            let turns = clip.retargeted.rotations[bone].as_ref();
+            turns.unwrap_or_else(|| panic!("{motion}: a bone of {name} stays"))
+        });
+        let turns: Vec<&Vec<DQuat>> = turns.collect();
+        assert!(turns.len() >= 3, "{name} has {} bones", turns.len());
+        let off = |turns: &[DQuat], frame: usize| turns[frame] * turns[0].inverse();
+        let widest = (0..turns[0].len()).max_by(|a, b| {
+            let [a, b] = [*a, *b].map(|frame| off(turns[0], frame).w.abs());
+            b.total_cmp(&a)
+        });
+        let axis = off(turns[0], widest.expect("frames")).xyz().normalize();
+        let phase = |turns: &Vec<DQuat>| {
+            let frames = turns.len() - 1;
+            let angles = (0..frames).map(|frame| angle(off(turns, frame), axis));
+            let angles: Vec<f64> = angles.collect();
+            let [low, high] = angles.iter().fold([0.0_f64; 2], |[low, high], angle| {
+                [low.min(*angle), high.max(*angle)]
+            });
+            assert!(
+                high - low > 0.03,
+                "{motion}: {name} turns by {}",
+                high - low
+            );
+            let waves = angles.iter().enumerate().map(|(frame, angle)| {
+                let time = std::f64::consts::TAU * frame as f64 / frames as f64;
+                [angle * time.cos(), angle * time.sin()]
+            });
+            let [x, y] = waves.fold([0.0; 2], |[x, y], [a, b]| [x + a, y + b]);
+            y.atan2(x) / std::f64::consts::TAU
+        };
+        let phases: Vec<f64> = turns.iter().map(|turns| phase(turns)).collect();
+        for pair in phases.windows(2) {
+            let late = (pair[1] - pair[0]).rem_euclid(1.0);
+            assert!((0.02..0.25).contains(&late), "{motion}: {phases:?}");
+        }
+    }
 }
 
 #[test]

@@ -119,6 +119,7 @@ impl<'a> Played<'a> {
             let part = part_of(compiled, id)?;
             Some((part, model.named(&compiled.bindings.parts[part].name)?))
         };
+        let root = model.named(&compiled.bindings.parts[clip.root].name)?;
         let mut feet = Vec::new();
         let (mut lengths, mut nodes) = (Vec::new(), Vec::new());
         for segments in legs(figure).values() {
@@ -144,18 +145,23 @@ impl<'a> Played<'a> {
             lengths.push(length(model, rest, [top, sole]));
             nodes.extend(model.with_children(top));
         }
-        let low = |nodes: &[usize]| {
-            let heights = model.corners(nodes, rest).map(|corner| corner.y);
+        let low = |nodes: &[usize], world: &[Transform]| {
+            let heights = model.corners(nodes, world).map(|corner| corner.y);
             heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| {
                 (a.min(y), b.max(y))
             })
         };
+        // What is drawn from above lies on the ground as soon as it moves.
+        let first = model.at(&clip.name, 0);
+        let lies = (first[root].rotation * rest[root].rotation.inverse() * DVec3::Z).y > 0.7;
+        let standing = if lies { first.as_slice() } else { rest };
         let all: Vec<usize> = (0..model.nodes.len()).collect();
         let ground = feet
             .iter()
-            .map(|foot| low(&foot.nodes).0)
+            .map(|foot| low(&foot.nodes, standing).0)
             .reduce(f64::min)?;
-        let height = low(&all).1 - ground;
+        let (bottom, top) = low(&all, rest);
+        let height = top - if lies { bottom } else { ground };
         Some(Self {
             leg: (lengths.iter().sum::<f64>() / lengths.len() as f64).max(NO_LEG * height),
             height,
@@ -221,10 +227,17 @@ impl<'a> Played<'a> {
         let moving = lowest(&|foot| self.actor_foot(foot).clearance[frame] > IN_AIR);
         if let (Some(standing), Some(moving)) = (lowest(&stands), moving) {
             if standing > moving + EQUAL && env::var("OKOSHI_DEBUG").is_ok() {
-                eprintln!("DEBUG {} {frame} leg {:.3}", self.clip.name, self.leg / self.height);
+                eprintln!(
+                    "DEBUG {} {frame} leg {:.3}",
+                    self.clip.name,
+                    self.leg / self.height
+                );
                 for (foot, low) in self.feet.iter().zip(lows) {
                     let own = self.actor_foot(foot);
-                    eprintln!("   {} low {low:.4} clearance {:.3} speed {:.2} stands {} turned", foot.node, own.clearance[frame], own.speed[frame], own.stands[frame]);
+                    eprintln!(
+                        "   {} low {low:.4} clearance {:.3} speed {:.2} stands {} turned",
+                        foot.node, own.clearance[frame], own.speed[frame], own.stands[frame]
+                    );
                 }
             }
             totals
@@ -404,7 +417,9 @@ fn arms(
 /// The share of an arm's points that is in the trunk.
 fn inside(model: &Model, world: &[Transform], trunk: &[usize], arm: &Arm) -> f64 {
     let points = arm.points.iter().flat_map(|(node, points)| {
-        let corners = points.iter().map(|corner| &model.nodes[*node].corners[*corner]);
+        let corners = points
+            .iter()
+            .map(|corner| &model.nodes[*node].corners[*corner]);
         corners.map(|corner| corner.place(world))
     });
     let trunk = trunk.iter().map(|node| model.surface(*node, world));

@@ -225,19 +225,22 @@ impl Node {
         match bound.zip(weights) {
             Some((bound, weights)) => {
                 let corners = places.iter().zip(bound.zip(weights));
-                self.corners.extend(corners.map(|(place, (bound, weights))| {
-                    let own = bound.into_iter().zip(weights);
-                    let own = own.filter(|(_, weight)| *weight > 0.0);
-                    let own = own.map(|(joint, weight)| {
-                        let (node, matrix) = &joints[usize::from(joint)];
-                        let local = matrix.transform_point3(*place);
-                        (*node, f64::from(weight), local.as_dvec3())
-                    });
-                    Corner(own.collect())
-                }));
+                self.corners
+                    .extend(corners.map(|(place, (bound, weights))| {
+                        let own = bound.into_iter().zip(weights);
+                        let own = own.filter(|(_, weight)| *weight > 0.0);
+                        let own = own.map(|(joint, weight)| {
+                            let (node, matrix) = &joints[usize::from(joint)];
+                            let local = matrix.transform_point3(*place);
+                            (*node, f64::from(weight), local.as_dvec3())
+                        });
+                        Corner(own.collect())
+                    }));
             }
             None => {
-                let corners = places.iter().map(|place| (joints[0].0, 1.0, place.as_dvec3()));
+                let corners = places
+                    .iter()
+                    .map(|place| (joints[0].0, 1.0, place.as_dvec3()));
                 self.corners.extend(corners.map(|own| Corner(vec![own])));
             }
         }
