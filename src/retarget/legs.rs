@@ -164,7 +164,10 @@ impl Leg {
                     lowest(from_hip.iter().map(|point| turn * *point)) - before
                 };
                 let angle = least(MOST.to_radians(), |angle| raised(angle) >= lift);
-                turns[0] = DQuat::from_axis_angle(axis, angle);
+                // The edge of a wide sole goes down before its middle goes up.
+                if raised(angle) > 0.0 {
+                    turns[0] = DQuat::from_axis_angle(axis, angle);
+                }
             }
             return turns;
         };

@@ -27,7 +27,7 @@ const NEAR: f64 = 0.1;
 /// … and how much lower it would have to reach at the ends of that time, in leg lengths.
 const FAR: f64 = 0.15;
 /// Of feet that stand, some may float by this, in leg lengths: nobody sees it, and their legs need not bend.
-const UNEVEN: f64 = 0.01;
+const UNEVEN: f64 = 0.02;
 /// A foot that reaches down less than others by more than this, in leg lengths, is drawn in the air: legs bend less for it, and at
 /// twice as much not at all.
 const RAISED: f64 = 0.06;
@@ -51,11 +51,7 @@ pub(super) fn place(
     let standing = standing.filter(|(_, part)| !keeps_pose(*part));
     let standing: Vec<(usize, FigurePartId)> = standing.collect();
     let is_sized = leg > 0.0 && leg.is_finite();
-    if standing.is_empty()
-        || length.frames == 0
-        || !is_sized
-        || std::env::var("OKOSHI_NOPLACE").is_ok()
-    {
+    if standing.is_empty() || length.frames == 0 || !is_sized {
         return;
     }
     let lacking = lacking(rig, order, rotations, walk, &standing, leg, length);

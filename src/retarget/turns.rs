@@ -86,6 +86,7 @@ impl<'a> Turns<'a> {
             let mut rotations = rotations::rotations(&mut source, &rest, &order, legs[0]);
             let walk = Walk::of(&mut source, legs);
             let length = Length::of(&rotations, clip.frames, clip.frame_time);
+            stepping::place(rig, &order, &mut rotations, &walk, legs[1], &length);
             room::open(rig, &order, &mut rotations, &length);
             Moving {
                 rotations,
@@ -140,16 +141,6 @@ impl<'a> Turns<'a> {
             };
         };
         let mut rotations = moving.rotations;
-        // The ground holds up what a performance left of the legs' turns.
-        let length = Length::of(&rotations, self.frames, self.frame_time);
-        stepping::place(
-            self.rig,
-            &self.order,
-            &mut rotations,
-            &moving.walk,
-            moving.legs[1],
-            &length,
-        );
         let root_motion =
             root_motion::root_motion(self.rig, &self.order, &rotations, &moving.walk, moving.legs);
         swing::swing(

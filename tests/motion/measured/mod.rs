@@ -60,6 +60,8 @@ struct Foot {
     actor: usize,
     /// Whether it is a part of its own.
     is_foot: bool,
+    /// Whether its leg keeps its drawn pose.
+    is_splayed: bool,
 }
 
 /// An arm of the model: points of its forearm and its hand, as numbers of corners of nodes.
@@ -139,6 +141,9 @@ impl<'a> Played<'a> {
                 nodes: model.with_children(sole),
                 node: sole,
                 actor: own,
+                is_splayed: node(segments.first_key_value()?.1)
+                    .and_then(|(part, _)| clip.part_drive(part))
+                    .is_some_and(|drive| drive.why.contains("keeps its drawn pose")),
                 is_foot: *segment == LimbSegment::End && stands_drawn(model, rest, sole),
             });
             let (_, top) = node(segments.first_key_value()?.1)?;
@@ -226,23 +231,11 @@ impl<'a> Played<'a> {
         };
         let moving = lowest(&|foot| self.actor_foot(foot).clearance[frame] > IN_AIR);
         if let (Some(standing), Some(moving)) = (lowest(&stands), moving) {
-            if standing > moving + EQUAL && env::var("OKOSHI_DEBUG").is_ok() {
-                eprintln!(
-                    "DEBUG {} {frame} leg {:.3}",
-                    self.clip.name,
-                    self.leg / self.height
-                );
-                for (foot, low) in self.feet.iter().zip(lows) {
-                    let own = self.actor_foot(foot);
-                    eprintln!(
-                        "   {} low {low:.4} clearance {:.3} speed {:.2} stands {} turned",
-                        foot.node, own.clearance[frame], own.speed[frame], own.stands[frame]
-                    );
-                }
-            }
-            totals
-                .lowest
-                .add(f64::from(u8::from(standing > moving + EQUAL)));
+            let lowest = match self.feet.iter().any(|foot| foot.is_splayed) {
+                true => &mut totals.lowest_splayed,
+                false => &mut totals.lowest,
+            };
+            lowest.add(f64::from(u8::from(standing > moving + EQUAL)));
         }
         if self.feet.iter().any(stands) {
             // Somebody who kneels stands on more than feet.
