@@ -11,8 +11,8 @@ mod vocabulary;
 pub(crate) use clothes::dress;
 pub(crate) use role::{Role, sides};
 pub(crate) use things::{
-    Garment, Thing, end_of_vehicle, garment, is_bike, is_disc, is_fin, is_light, is_plant,
-    is_rolling, is_sheet, is_supple, is_tentacle, says_far_or_near, thing,
+    Garment, Thing, end_of_vehicle, garment, is_bike, is_crawler, is_disc, is_fin, is_light,
+    is_plant, is_rolling, is_sheet, is_supple, is_tentacle, says_far_or_near, thing,
 };
 pub(crate) use vocabulary::{Term, is_several_limbs, terms};
 

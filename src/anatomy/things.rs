@@ -144,6 +144,14 @@ pub(crate) fn is_plant(name: &str) -> bool {
     has_word(name, PLANTS)
 }
 
+/// Words for small animals that are often drawn from above; katakana words are written in hiragana here.
+const CRAWLERS: &str = "bug beetle ladybird ladybug spider tarantula crab insect tick mite scorpion cockroach roach weevil 虫 むし 甲虫 こうちゅう      かぶと虫 かぶとむし てんとう虫 てんとうむし 蜘蛛 くも 蟹 かに 蠍 さそり";
+
+/// Whether a name is that of a small animal that is often drawn from above.
+pub(crate) fn is_crawler(name: &str) -> bool {
+    has_word(name, CRAWLERS)
+}
+
 /// Words for what is thin and limp; katakana words are written in hiragana here.
 const SHEETS: &str = "cape cloak wing leaf petal flag banner paper veil curtain sail kite page cloth towel blanket マント まんと 翼 つばさ \
      羽 はね 羽根 旗 はた 葉 葉っぱ 花びら 紙 べーる かーてん 帆 布 ぬの";

@@ -170,6 +170,7 @@ fn faced(compiled: &Compiled) -> String {
         let way = match figure.facing {
             "front" => "the viewer".to_owned(),
             "back" => "away from the viewer".to_owned(),
+            "up" => "up".to_owned(),
             side => format!("the drawing's {side}"),
         };
         let against = match figure.doubts {

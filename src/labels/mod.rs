@@ -119,6 +119,10 @@ pub enum Facing {
     Right,
     /// Away from the viewer, who sees its back.
     Away,
+    /// It is seen from above, its head in the drawing's upper half: lying on the ground, it looks away from the viewer.
+    Up,
+    /// It is seen from above, its head in the drawing's lower half: lying on the ground, it looks to the viewer.
+    UpHeadDown,
 }
 
 impl Facing {
@@ -129,12 +133,13 @@ impl Facing {
             Self::Left => "left",
             Self::Right => "right",
             Self::Away => "back",
+            Self::Up | Self::UpHeadDown => "up",
         }
     }
 
     /// What a word of `Facing` means.
     pub(crate) fn from_word(word: &str) -> Option<Self> {
-        let all = [Self::Viewer, Self::Left, Self::Right, Self::Away];
+        let all = [Self::Viewer, Self::Left, Self::Right, Self::Away, Self::Up];
         all.into_iter().find(|facing| facing.word() == word)
     }
 
@@ -143,13 +148,19 @@ impl Facing {
         matches!(self, Self::Left | Self::Right)
     }
 
-    /// The rotation from a body's own axes (x its left, y up, z its front) to the drawing's.
+    /// Whether the figure is seen from above, and lies on the ground when it moves.
+    pub fn is_from_above(self) -> bool {
+        matches!(self, Self::Up | Self::UpHeadDown)
+    }
+
+    /// The rotation from a body's own axes (x its left, y up, z its front) to the drawing's; for a figure that is seen from above, to
+    /// those of the drawing laid on the ground.
     pub fn turn(self) -> glam::DQuat {
         match self {
-            Self::Viewer => glam::DQuat::IDENTITY,
+            Self::Viewer | Self::UpHeadDown => glam::DQuat::IDENTITY,
             Self::Left => glam::DQuat::from_rotation_y(-std::f64::consts::FRAC_PI_2),
             Self::Right => glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
-            Self::Away => glam::DQuat::from_rotation_y(std::f64::consts::PI),
+            Self::Away | Self::Up => glam::DQuat::from_rotation_y(std::f64::consts::PI),
         }
     }
 }

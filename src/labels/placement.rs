@@ -23,6 +23,8 @@ pub(super) enum Front {
         up: f64,
         /// Whether the viewer sees its back, so that its left is drawn left.
         is_away: bool,
+        /// Whether the viewer sees it from above.
+        is_from_above: bool,
     },
     /// To one side of the drawing.
     Beside {
@@ -56,7 +58,7 @@ impl Front {
         match facing {
             Facing::Left => beside(-1.0),
             Facing::Right => beside(1.0),
-            Facing::Viewer | Facing::Away => {
+            Facing::Viewer | Facing::Away | Facing::Up | Facing::UpHeadDown => {
                 let is_head = |draft: &PartDraft| draft.class == Some(Class::Head);
                 let has_trunk = drafts.iter().any(|draft| is_trunk(draft.class));
                 let known = has_trunk && drafts.iter().any(is_head);
@@ -64,7 +66,8 @@ impl Front {
                 Self::Viewer {
                     axis,
                     up: if is_below { -1.0 } else { 1.0 },
-                    is_away: facing == Facing::Away,
+                    is_away: matches!(facing, Facing::Away | Facing::Up),
+                    is_from_above: facing.is_from_above(),
                 }
             }
         }
@@ -142,8 +145,22 @@ pub(super) fn sides(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts:
                     ),
                 );
             }
-            (_, _, Front::Viewer { axis, is_away, .. }) => {
-                from_front(tree, axis.x, *is_away, &open, drafts);
+            (
+                _,
+                _,
+                Front::Viewer {
+                    axis,
+                    is_away,
+                    is_from_above,
+                    ..
+                },
+            ) => {
+                let since = match (is_away, is_from_above) {
+                    (_, true) => "is seen from above",
+                    (true, _) => "turns its back to us",
+                    (false, _) => "faces us",
+                };
+                from_front(tree, axis.x, (*is_away, since), &open, drafts);
             }
             (_, _, Front::Beside { toward, length, .. }) => {
                 from_side(tree, facing, [*toward, *length], &open, drafts);
@@ -160,7 +177,13 @@ fn give(drafts: &mut Drafts, limb: &Limb, side: Side, why: &str) {
 }
 
 /// The drawn left is the figure's right, unless it is seen from behind. Of two limbs the further left one, wherever the middle of the trunk is.
-fn from_front(tree: &PartTree<'_>, axis: f64, is_away: bool, open: &[&Limb], drafts: &mut Drafts) {
+fn from_front(
+    tree: &PartTree<'_>,
+    axis: f64,
+    (is_away, since): (bool, &str),
+    open: &[&Limb],
+    drafts: &mut Drafts,
+) {
     let place = |limb: &Limb| tree.joint(limb.root()).midpoint(tree.tip(limb.root())).x;
     let axis = match open {
         [a, b] if place(a) != place(b) => f64::midpoint(place(a), place(b)),
@@ -172,11 +195,7 @@ fn from_front(tree: &PartTree<'_>, axis: f64, is_away: bool, open: &[&Limb], dra
         } else {
             ("right", Side::Left)
         };
-        let (side, since) = if is_away {
-            (side.other(), "turns its back to us")
-        } else {
-            (side, "faces us")
-        };
+        let side = if is_away { side.other() } else { side };
         let why = format!(
             "; drawn on the {drawn}, so it is the {} one, since the figure {since}",
             side.name()

@@ -19,7 +19,7 @@ pub(super) struct Carriage {
     pub(super) aim: DVec3,
     /// Where the direction points that is down in the drawing.
     pub(super) down: DVec3,
-    /// The node of what it hangs on, relative to its joint.
+    /// The node of what it hangs on, relative to its joint; for a bone, of what the whole part hangs on.
     pub(super) above: Transform,
 }
 
@@ -46,6 +46,7 @@ impl Carried {
     ) -> Self {
         let own = &rig.parts[part];
         let joint = own.node.to_local(own.joint);
+        let holder = held_by(rig, part).unwrap_or(part);
         let back = own.node.rotation.inverse();
         let [axis, down] = [own.tip - own.joint, DVec3::NEG_Y].map(|way| back * way);
         let mut kinematics = ForwardKinematics::new(rig);
@@ -54,7 +55,7 @@ impl Carried {
         for (frame, root) in path.iter().enumerate() {
             kinematics.pose(rig, rotations, order, frame);
             let node = kinematics.transforms[part];
-            let above = kinematics.transforms[own.parent.unwrap_or(part)];
+            let above = kinematics.transforms[holder];
             let place = node.apply(joint);
             let points = [
                 place + *root,
@@ -90,6 +91,11 @@ impl Carried {
             carriage(points, splines[0].velocity(share))
         }
     }
+}
+
+/// What a part hangs on; for a bone, what the whole part hangs on.
+pub(super) fn held_by(rig: &Rig, part: FigurePartId) -> Option<FigurePartId> {
+    rig.parts[rig.parts[part].inside.unwrap_or(part)].parent
 }
 
 /// What the points of [`Paths`] say.

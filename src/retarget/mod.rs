@@ -9,6 +9,7 @@ mod contacts;
 mod ground;
 mod joined;
 mod kinematics;
+mod legs;
 mod matching;
 mod planting;
 mod rest_pose;

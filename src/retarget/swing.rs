@@ -6,7 +6,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Rig;
-use super::carried::{Carriage, Carried};
+use super::carried::{self, Carriage, Carried};
 use super::rotations::{Rotations, arc};
 use crate::labels::FigurePartId;
 use crate::mocap::{Transform, height};
@@ -28,6 +28,8 @@ const HEIGHT: f64 = 1.7;
 const SMOOTHING: f64 = 0.07;
 /// The largest deviation from the drawn pose, degrees.
 const MAX_ANGLE: f64 = 60.0;
+/// The same of each bone of a part that bends: they add up.
+const MAX_ANGLE_OF_BONE: f64 = 25.0;
 /// How often the weight is pushed out of what the part hangs on and back onto its rod.
 const PUSHES: usize = 3;
 /// A clip whose first and last frame differ by less than this, degrees, is a cycle.
@@ -57,14 +59,21 @@ pub(super) fn swing(
             continue;
         }
         let carried = Carried::of(rig, order, *part, path, rotations, deviation);
-        let obstacle = own
-            .parent
-            .and_then(|parent| Obstacle::of(rig, parent, own.tip));
+        // A bone turns where the one before ends, and stays out of what the whole part hangs on.
+        let obstacle =
+            carried::held_by(rig, *part).and_then(|holder| Obstacle::of(rig, holder, own.tip));
+        let bones = bones(rig, *part);
         let pendulum = Pendulum {
             length,
             frame_time,
-            stiffness: stiffness.min(MAX_STIFFNESS) * (std::f64::consts::TAU * FREQUENCY).powi(2),
+            // The deviations of short bones add up: they are as much stiffer as the part has more of them.
+            stiffness: (stiffness * bones as f64).min(MAX_STIFFNESS)
+                * (std::f64::consts::TAU * FREQUENCY).powi(2),
             gravity: GRAVITY * meter,
+            most: match bones {
+                1 => MAX_ANGLE.to_radians(),
+                _ => MAX_ANGLE_OF_BONE.to_radians(),
+            },
             obstacle,
         };
         let directions = pendulum.swing(&carried, warm_up);
@@ -76,6 +85,15 @@ pub(super) fn swing(
         let turns = turns.collect();
         rotations.set(rig, order, *part, turns);
     }
+}
+
+/// How many bones swing in the part that a bone belongs to.
+fn bones(rig: &Rig, part: FigurePartId) -> usize {
+    let whole = rig.parts[part].inside.unwrap_or(part);
+    let inside = rig.parts.iter();
+    1 + inside
+        .filter(|bone| bone.inside == Some(whole) && bone.swing.is_some())
+        .count()
 }
 
 /// Drawing units per metre.
@@ -140,6 +158,8 @@ struct Pendulum {
     /// The spring's force per length, 1/s².
     stiffness: f64,
     gravity: f64,
+    /// The largest deviation from the drawn pose, radians.
+    most: f64,
     obstacle: Option<Obstacle>,
 }
 
@@ -225,7 +245,7 @@ impl Pendulum {
             }
             offset = self.on_rod(offset, drawn);
         }
-        let most = MAX_ANGLE.to_radians();
+        let most = self.most;
         let cross = drawn.cross(offset);
         let angle = cross.length().atan2(drawn.dot(offset));
         if angle <= most || angle.is_nan() {

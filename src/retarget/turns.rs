@@ -86,7 +86,7 @@ impl<'a> Turns<'a> {
             let mut rotations = rotations::rotations(&mut source, &rest, &order, legs[0]);
             let walk = Walk::of(&mut source, legs);
             let length = Length::of(&rotations, clip.frames, clip.frame_time);
-            stepping::clear(rig, &order, &mut rotations, &walk, legs[1], &length);
+            stepping::place(rig, &order, &mut rotations, &walk, legs[1], &length);
             room::open(rig, &order, &mut rotations, &length);
             Moving {
                 rotations,

@@ -12,6 +12,7 @@ use super::diagnostics::{self, MatchProblems};
 use super::figure_clip::{self, FigureClip};
 use super::figures::FigureGroup;
 use super::holding;
+use super::lying;
 use super::moves::{Moves, Role, Roles};
 use super::performed::{self, Channels, Performed};
 use super::rigging::{self, RestNodes};
@@ -239,7 +240,9 @@ impl<'a> ClipBuilder<'a> {
         let main = turn::main(turns);
         let (matched, motion) = (&turns[main].matched, &turns[main].motion);
         let group = &matched.group;
-        let rigs: Vec<Arc<Rig>> = turns.iter().map(|turn| self.rig(&turn.matched)).collect();
+        let drawn: Vec<Rig> = turns.iter().map(|turn| self.rig(&turn.matched)).collect();
+        let lying = |rig: &Rig| Arc::new(lying::laid_down(rig.clone()));
+        let rigs: Vec<Arc<Rig>> = drawn.iter().map(lying).collect();
         let single = |turn: usize, performance: Option<&FoundPerformance<'_>>| {
             self.retargeted(request, &turns[turn], &rigs[turn], performance)
         };
@@ -323,7 +326,7 @@ impl<'a> ClipBuilder<'a> {
             measured,
             animated: Arc::clone(&self.animated),
         };
-        self.note_loose(&clip, group, &rig);
+        self.note_loose(&clip, group, &drawn[main]);
         clip.add_to(scene);
         self.clips.push(clip);
     }
@@ -350,14 +353,15 @@ impl<'a> ClipBuilder<'a> {
         }
     }
 
-    fn rig(&self, matched: &MatchedFigure) -> Arc<Rig> {
-        Arc::new(rigging::rig(
+    /// A figure as it is drawn.
+    fn rig(&self, matched: &MatchedFigure) -> Rig {
+        rigging::rig(
             self.context,
             &matched.figure,
             &matched.group,
             &matched.matching,
             self.rest,
-        ))
+        )
     }
 
     /// A motion on a figure, as it is performed, or as it is.

@@ -40,7 +40,8 @@ pub(crate) fn seen(bindings: &Bindings, figures: &[FigureFacing]) -> TiVec<PartI
         .filter(|figure| figure.has_names || figure.found.by_string);
     for figure in known {
         let from = match figure.found.facing {
-            Facing::Viewer => Seen::FromFront,
+            // What is seen from above stays as it is drawn until it moves.
+            Facing::Viewer | Facing::Up | Facing::UpHeadDown => Seen::FromFront,
             Facing::Away => Seen::FromBehind,
             Facing::Left | Facing::Right if figure.found.is_vehicle => Seen::VehicleInProfile,
             Facing::Left | Facing::Right => Seen::InProfile,

@@ -40,9 +40,14 @@ pub(super) const DOG: &str = r##"<rect x="100" y="120" width="180" height="60" i
 <rect x="140" y="170" width="20" height="90" inkscape:label="far front leg"/>
 <rect x="220" y="170" width="20" height="90" inkscape:label="near hind leg"/>
 <rect x="250" y="170" width="20" height="90" inkscape:label="far hind leg"/>"##;
+pub(super) const EEL: &str = r##"<ellipse cx="110" cy="150" rx="60" ry="30" inkscape:label="body"/>
+<rect x="160" y="140" width="220" height="20" rx="10" inkscape:label="tail"/>
+<circle cx="80" cy="142" r="5" inkscape:label="eye"/>"##;
+pub(super) const WEED: &str = r##"<rect x="170" y="250" width="60" height="40" inkscape:label="pot"/>
+<rect x="192" y="60" width="16" height="200" inkscape:label="stem"/>"##;
 pub(super) const BOX: &str = r##"<rect x="100" y="120" width="180" height="60"/>"##;
 
-pub(super) const ALL: [(&str, &str); 8] = [
+pub(super) const ALL: [(&str, &str); 10] = [
     (CAR, "drive"),
     (BIRD, "fly"),
     (FISH, "swim"),
@@ -51,6 +56,8 @@ pub(super) const ALL: [(&str, &str); 8] = [
     (SQUID, "float"),
     (DOG, "walk"),
     (BOX, "sway"),
+    (EEL, "swim"),
+    (WEED, "sway"),
 ];
 
 /// A drawing in which all figures play a motion: the text of a `%` string. `kick.bvh` and `walk.bvh` are beside it.

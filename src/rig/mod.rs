@@ -15,6 +15,7 @@ mod figures;
 mod fixtures;
 mod holding;
 mod limbless;
+mod lying;
 mod measured;
 mod missing_files;
 mod motion_files;

@@ -167,9 +167,10 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
         }
     }
     assert!(looked_at >= 4 * clip.frames, "only {looked_at} directions");
-    // Most parts point where the motion says; the others have made room.
+    // Most parts point where the motion says; the others have made room. A dog's hind and fore legs reach down differently far, so that
+    // those of one pair bend wherever both stand.
     assert!(
-        2 * moved <= looked_at,
+        5 * moved <= 3 * looked_at,
         "{moved} of {looked_at} have made room"
     );
     let is_beetle = compiled

@@ -66,11 +66,11 @@ impl Body {
         let [left, front] = self.left_and_front(pose).map(|axis| axis.dot(way));
         let up = self.up.dot(way);
         match self.facing {
-            Facing::Viewer => DVec3::new(left, up, front),
+            Facing::Viewer | Facing::UpHeadDown => DVec3::new(left, up, front),
             // Its right side is near the viewer.
             Facing::Right => DVec3::new(front, up, -left),
             Facing::Left => DVec3::new(-front, up, left),
-            Facing::Away => DVec3::new(-left, up, -front),
+            Facing::Away | Facing::Up => DVec3::new(-left, up, -front),
         }
     }
 

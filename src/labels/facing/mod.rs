@@ -4,6 +4,7 @@
 //! eyes. So everything votes. What votes for a side also votes for a profile; the figure is seen in profile if these votes weigh more
 //! than those for the front, and it faces the side that has more of them.
 
+mod above;
 mod face;
 mod vehicle;
 
@@ -127,7 +128,11 @@ pub(super) fn find(tree: &PartTree<'_>, drafts: &Drafts) -> FoundFacing {
     };
     if let Some(facing) = tree.facing {
         return FoundFacing {
-            facing,
+            facing: if facing.is_from_above() {
+                observed.up()
+            } else {
+                facing
+            },
             by_string: true,
             reasons: vec![format!("its string says `Facing {}`", facing.word())],
             doubts: Vec::new(),
@@ -147,8 +152,16 @@ pub(super) fn find(tree: &PartTree<'_>, drafts: &Drafts) -> FoundFacing {
         more if more < 0.0 => Facing::Left,
         _ => Facing::Right,
     };
+    let from_above = observed.from_above();
+    if let Some((facing, why)) = from_above.filter(|_| facing == Facing::Viewer) {
+        return FoundFacing {
+            facing,
+            reasons: vec![why],
+            ..seen
+        };
+    }
     let agrees = |says: For| match facing {
-        Facing::Viewer | Facing::Away => says == For::Front,
+        Facing::Viewer | Facing::Away | Facing::Up | Facing::UpHeadDown => says == For::Front,
         Facing::Left => matches!(says, For::Profile) || says == For::Side(-1.0),
         Facing::Right => matches!(says, For::Profile) || says == For::Side(1.0),
     };

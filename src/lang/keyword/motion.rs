@@ -139,7 +139,10 @@ pub(super) static FACING: Row = Row {
            row, and words such as `front leg` and `far leg`; two eyes and a symmetric face speak for \
            the front. `okoshi inspect` tells which, and why. Where it is wrong, `Facing` in the \
            string of one of the figure's parts says so; in a `%` string, it says so of all figures. \
-           `back` is a figure that is seen from behind: its left arm is drawn on the left.",
+           `back` is a figure that is seen from behind: its left arm is drawn on the left. `up` is an \
+           animal that is seen from above, such as a beetle: the model stands as it is drawn, and its \
+           clips lay it on the ground, with its head away from us if that is drawn above, else \
+           towards us.",
     example: "Dog$Facing left",
     ..Row::ROW
 };

@@ -84,11 +84,15 @@ pub(crate) static SIDE: [Word; 2] = [
 ];
 
 /// The words of `Facing`.
-pub(crate) static FACING: [Word; 4] = [
+pub(crate) static FACING: [Word; 5] = [
     word("left", "to the drawing's left"),
     word("right", "to the drawing's right"),
     word("front", "towards the viewer"),
     word("back", "away from the viewer, who sees its back"),
+    word(
+        "up",
+        "up: it is seen from above, and lies on the ground when it moves",
+    ),
 ];
 
 /// The signed axes of `Axes`.

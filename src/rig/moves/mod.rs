@@ -14,8 +14,11 @@ use typed_index_collections::TiVec;
 use crate::clips::BuiltIn;
 use crate::labels::FigurePartId;
 use crate::mocap::{JointId, Transform};
-use crate::retarget::{Drive, Follow, MatchedPart, Matching, RestSource, RetargetedClip, Rig};
+use crate::retarget::{
+    Drive, Follow, MatchedPart, Matching, RestSource, RetargetedClip, Rig, RigPart,
+};
 
+use poses::Piece;
 pub(super) use roles::{Role, Roles};
 
 /// A clip of a figure's parts.
@@ -93,14 +96,54 @@ impl Moves {
         }
     }
 
-    /// What a part moves as; `None` if it follows its parent.
+    /// What a part moves as; `None` if it follows its parent, or is a bone inside of another part.
     fn moves(&self, part: FigurePartId) -> Option<Role> {
         if part == self.roles.root {
             return Some(Role::Body);
         }
-        // The bones inside of a part that bends follow after the parts of the figure.
         let role = self.roles.parts.get(part)?.role?;
         poses::moves(self.which, role).then_some(role)
+    }
+
+    /// What the parts of a rig are to the clip, bones inside of parts included, which follow after the parts of the figure.
+    fn pieces(&self, rig: &Rig) -> TiVec<FigurePartId, Option<MovingPiece>> {
+        let mut joints: TiVec<FigurePartId, usize> = vec![0; rig.parts.len()].into();
+        for part in rig.parts.iter().filter(|part| part.shared.is_none()) {
+            if let Some(of) = part.inside {
+                joints[of] += 1;
+            }
+        }
+        // Per part the number of the joint that comes next, and the share of its turn that is made before.
+        let mut next: TiVec<FigurePartId, (usize, f64)> = vec![(0, 0.0); rig.parts.len()].into();
+        let piece = |(index, part): (FigurePartId, &RigPart)| {
+            let of = part.inside.unwrap_or(index);
+            let mut role = self.moves(of);
+            let piece = match part.inside {
+                None if joints[of] == 0 || role == Some(Role::Body) => Piece::WHOLE,
+                None => Piece::FIRST,
+                Some(of) => {
+                    let (joint, before) = next[of];
+                    let share = part.shared.map_or(1.0, |shared| shared.share);
+                    next[of] = match part.shared {
+                        Some(_) => (joint, share),
+                        None => (joint + 1, 0.0),
+                    };
+                    role = role.map(|role| match role {
+                        Role::Body => poses::role_of_root(self.which),
+                        role => role,
+                    });
+                    // A wheel is round however it bends.
+                    role = role.filter(|role| !matches!(role, Role::Body | Role::Wheel));
+                    Piece::inside(share - before, joint, joints[of])
+                }
+            };
+            Some(MovingPiece {
+                of,
+                role: role?,
+                piece,
+            })
+        };
+        rig.parts.iter_enumerated().map(piece).collect()
     }
 
     /// The clip on the figure's rig, at its place or in place.
@@ -109,6 +152,7 @@ impl Moves {
         let order = rig.order();
         let frames = self.frames();
         let count = rig.parts.len();
+        let pieces = self.pieces(rig);
         let mut rotations: TiVec<FigurePartId, Option<Vec<DQuat>>> = vec![None; count].into();
         let mut translations: TiVec<FigurePartId, Option<Vec<DVec3>>> = vec![None; count].into();
         let mut placed: TiVec<FigurePartId, Transform> =
@@ -121,7 +165,7 @@ impl Moves {
             for &index in &order {
                 let part = &rig.parts[index];
                 let carried = self.carried(rig, index, &placed, [whole, offset]);
-                let turn = self.turn(index, time);
+                let turn = pieces[index].map_or(DQuat::IDENTITY, |piece| self.turn(piece, time));
                 let pivot = self.pivot(rig, index);
                 let node = carried.apply(about(pivot, turn).apply(part.node.position));
                 let rotation = (carried.rotation * turn * part.node.rotation).normalize();
@@ -133,7 +177,7 @@ impl Moves {
                 if above.is_none() {
                     translations[index].get_or_insert_default().push(node);
                 }
-                if part.is_rooted || above.is_none() || self.moves(index).is_some() {
+                if part.is_rooted || above.is_none() || pieces[index].is_some() {
                     let inner = above.map_or(rotation, |above| {
                         placed[above].rotation.inverse() * rotation
                     });
@@ -182,11 +226,11 @@ impl Moves {
         }
     }
 
-    fn turn(&self, part: FigurePartId, time: f64) -> DQuat {
-        match self.moves(part) {
-            Some(Role::Body) => poses::body(self.which, &self.roles, time),
-            Some(role) => poses::turn(self.which, role, &self.roles, part, time),
-            None => DQuat::IDENTITY,
+    fn turn(&self, moving: MovingPiece, time: f64) -> DQuat {
+        let MovingPiece { of, role, piece } = moving;
+        match role {
+            Role::Body => poses::body(self.which, &self.roles, time),
+            role => poses::turn(self.which, role, &self.roles, of, time, piece),
         }
     }
 
@@ -200,6 +244,16 @@ impl Moves {
             _ => own.joint,
         }
     }
+}
+
+/// A node that moves.
+#[derive(Debug, Clone, Copy)]
+struct MovingPiece {
+    /// The part of the figure that it is, or is inside of.
+    of: FigurePartId,
+    /// What that moves as.
+    role: Role,
+    piece: Piece,
 }
 
 /// A rotation about a point.

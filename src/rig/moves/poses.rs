@@ -146,16 +146,59 @@ fn swing_of_body(roles: &Roles) -> f64 {
     }
 }
 
-/// How a part turns about its joint, in the drawing's axes as its parent carries them.
+/// Which piece of a part turns: a part that bends moves as a wave that runs from its joint to its far end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Piece {
+    /// The share of the part's turn that it makes.
+    pub(super) size: f64,
+    /// How far along the part it begins, as a share of the part's length.
+    pub(super) along: f64,
+}
+
+impl Piece {
+    /// The share of the turn of a part that bends which is made at its joint: the rest is made along it …
+    const AT_JOINT: f64 = 0.5;
+    /// … and more, as pieces that turn one after the other never turn to one side together.
+    const ALONG: f64 = 1.2;
+
+    /// A part without pieces.
+    pub(super) const WHOLE: Self = Self {
+        size: 1.0,
+        along: 0.0,
+    };
+    /// The first piece of a part that bends.
+    pub(super) const FIRST: Self = Self {
+        size: Self::AT_JOINT,
+        along: 0.0,
+    };
+
+    /// A further piece, which makes a share of the turn of one of several joints.
+    pub(super) fn inside(share: f64, joint: usize, joints: usize) -> Self {
+        Self {
+            size: Self::ALONG * share / joints as f64,
+            along: (joint + 1) as f64 / (joints + 1) as f64,
+        }
+    }
+
+    /// How much later it moves than the part's joint, if parts that hang on each other are late by one.
+    fn late(self) -> f64 {
+        const LATE: f64 = 2.5;
+        LATE * self.along
+    }
+}
+
+/// How a piece of a part of this role turns about its joint, in the drawing's axes as what it hangs on carries it.
 pub(super) fn turn(
     which: BuiltIn,
     role: Role,
     roles: &Roles,
     part: FigurePartId,
     time: f64,
+    piece: Piece,
 ) -> DQuat {
     let actor = &roles.parts[part];
-    let depth = actor.depth as f64;
+    let depth = actor.depth as f64 + piece.late();
+    let size = piece.size;
     match (which, role) {
         (BuiltIn::Drive, _) => {
             let (turns, largest) = turns(roles);
@@ -163,14 +206,18 @@ pub(super) fn turn(
             let angle = turns as f64 * TAU * largest * time / actor.radius.max(f64::MIN_POSITIVE);
             DQuat::from_axis_angle(left(roles), angle)
         }
-        (BuiltIn::Fly, Role::Wing) => flap(roles, part, time),
-        (BuiltIn::Fly, Role::Leg) if actor.depth == 0 => pitch(roles, 35.0),
-        (BuiltIn::Fly, Role::Tail) => pitch(roles, 6.0 * (2.0 * time * TAU).sin()),
+        (BuiltIn::Fly, Role::Wing) => flap(roles, part, time, piece),
+        (BuiltIn::Fly, Role::Leg) if actor.depth == 0 => pitch(roles, 35.0 * size),
+        (BuiltIn::Fly, Role::Tail) => {
+            let late = 0.06 * piece.late();
+            pitch(roles, 6.0 * size * (2.0 * (time - late) * TAU).sin())
+        }
         (BuiltIn::Swim, Role::Tail) => {
-            yaw(24.0 / (1.0 + 0.5 * depth) * ((time - 0.15 - 0.12 * depth) * TAU).sin())
+            let angle = 24.0 / (1.0 + 0.5 * actor.depth as f64);
+            yaw(size * angle * ((time - 0.15 - 0.12 * depth) * TAU).sin())
         }
         (BuiltIn::Swim, Role::Fin | Role::Wing) => {
-            let angle = 14.0 * actor.side * ((time - 0.1 * depth) * TAU).sin();
+            let angle = 14.0 * size * actor.side * ((time - 0.1 * depth) * TAU).sin();
             DQuat::from_axis_angle(roles.forward, angle.to_radians())
         }
         (BuiltIn::Float, _) => {
@@ -180,29 +227,41 @@ pub(super) fn turn(
             let pulse = 9.0 * ((time + 0.25 - late) * TAU).sin() * outward;
             let wave = 8.0 * ((time - late - actor.lag) * TAU).sin();
             let out = 7.0 * ((time - late - 2.0 * actor.lag) * TAU).cos();
-            roll(pulse + wave) * DQuat::from_rotation_x(out.to_radians())
+            roll(size * (pulse + wave)) * DQuat::from_rotation_x((size * out).to_radians())
         }
         (BuiltIn::Sway, _) => {
             let late = 0.08 * (depth + 1.0) + 0.25 * actor.lag;
             let angle = 5.0 * ((time - late) * TAU).sin() + 1.5 * ((2.0 * time - late) * TAU).sin();
             let out = 4.0 * ((time - late) * TAU).cos();
-            roll(angle) * DQuat::from_rotation_x(out.to_radians())
+            roll(size * angle) * DQuat::from_rotation_x((size * out).to_radians())
         }
         _ => DQuat::IDENTITY,
     }
 }
 
+/// The role in which the bones of the root move: what it carries moves on its own.
+pub(super) fn role_of_root(which: BuiltIn) -> Role {
+    match which {
+        BuiltIn::Swim | BuiltIn::Fly => Role::Tail,
+        BuiltIn::Float => Role::Tentacle,
+        BuiltIn::Sway => Role::Twig,
+        _ => Role::Body,
+    }
+}
+
 /// A wing in a beat. In profile it is first spread sideways, however it is drawn: folded, hanging or raised.
-fn flap(roles: &Roles, part: FigurePartId, time: f64) -> DQuat {
+fn flap(roles: &Roles, part: FigurePartId, time: f64, piece: Piece) -> DQuat {
     let actor = &roles.parts[part];
-    let late = 0.08 * actor.depth as f64;
-    let angle = match actor.depth {
-        0 => 6.0 + 34.0 * beat(time),
-        _ => 16.0 * beat(time - late),
+    let is_first = actor.depth == 0 && piece.along == 0.0;
+    let late = 0.08 * actor.depth as f64 + 0.04 * piece.late();
+    let angle = match is_first {
+        // The whole wing beats, whether it bends or not.
+        true => 6.0 + 34.0 * beat(time),
+        false => 16.0 * piece.size * beat(time - late),
     };
     // forward × left = up, so what points to the left rises.
     let raise = DQuat::from_axis_angle(roles.forward, (angle * actor.side).to_radians());
-    if actor.depth > 0 || !roles.facing.facing.is_profile() {
+    if !is_first || !roles.facing.facing.is_profile() {
         return raise;
     }
     raise * spread(roles, actor.span, actor.side)

@@ -200,8 +200,8 @@ impl Roles {
         let center = (low + high) / 2.0;
         let side = self.labels[index].as_ref().and_then(|label| label.side);
         let by_place = match facing {
-            Facing::Viewer => center.x - self.middle().x,
-            Facing::Away => self.middle().x - center.x,
+            Facing::Viewer | Facing::UpHeadDown => center.x - self.middle().x,
+            Facing::Away | Facing::Up => self.middle().x - center.x,
             // The near side is the left one of whoever faces left.
             Facing::Left => 1.0,
             Facing::Right => -1.0,

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::super::FigureClip;
-use super::super::fixtures::{ALL, BIRD, CAR, DOG, SLIME, playing};
+use super::super::fixtures::{ALL, BIRD, CAR, DOG, EEL, SLIME, SQUID, WEED, playing};
 use crate::compile::Compiled;
 use crate::labels::FigurePartId;
 
@@ -107,6 +107,58 @@ fn wings_beat_together() {
     }
     let lowest = left.iter().copied().fold(0.0, f64::min);
     assert!((-1.4..-1.0).contains(&lowest), "{lowest}");
+}
+
+/// A part that bends moves as a wave: each bone later than the one before.
+#[test]
+fn waves_run_along_what_bends() {
+    for (figure, motion, name) in [
+        (EEL, "Motion swim", "tail"),
+        (SQUID, "Motion float", "tentacle 1"),
+        (WEED, "Motion sway Bend 4", "stem"),
+    ] {
+        let compiled = playing(figure, motion);
+        let clip = &compiled.clips[0];
+        let whole = clip.order[part(&compiled, clip, name)].0;
+        let bones = clip.order.iter_enumerated();
+        let bones = bones.filter(|(_, (part, bone))| *part == whole && *bone > 0);
+        let turns = bones.map(|(bone, _)| {
+            let turns = clip.retargeted.rotations[bone].as_ref();
+            turns.unwrap_or_else(|| panic!("{motion}: a bone of {name} stays"))
+        });
+        let turns: Vec<&Vec<DQuat>> = turns.collect();
+        assert!(turns.len() >= 3, "{name} has {} bones", turns.len());
+        let off = |turns: &[DQuat], frame: usize| turns[frame] * turns[0].inverse();
+        let widest = (0..turns[0].len()).max_by(|a, b| {
+            let [a, b] = [*a, *b].map(|frame| off(turns[0], frame).w.abs());
+            b.total_cmp(&a)
+        });
+        let axis = off(turns[0], widest.expect("frames")).xyz().normalize();
+        let phase = |turns: &Vec<DQuat>| {
+            let frames = turns.len() - 1;
+            let angles = (0..frames).map(|frame| angle(off(turns, frame), axis));
+            let angles: Vec<f64> = angles.collect();
+            let [low, high] = angles.iter().fold([0.0_f64; 2], |[low, high], angle| {
+                [low.min(*angle), high.max(*angle)]
+            });
+            assert!(
+                high - low > 0.03,
+                "{motion}: {name} turns by {}",
+                high - low
+            );
+            let waves = angles.iter().enumerate().map(|(frame, angle)| {
+                let time = std::f64::consts::TAU * frame as f64 / frames as f64;
+                [angle * time.cos(), angle * time.sin()]
+            });
+            let [x, y] = waves.fold([0.0; 2], |[x, y], [a, b]| [x + a, y + b]);
+            y.atan2(x) / std::f64::consts::TAU
+        };
+        let phases: Vec<f64> = turns.iter().map(|turns| phase(turns)).collect();
+        for pair in phases.windows(2) {
+            let late = (pair[1] - pair[0]).rem_euclid(1.0);
+            assert!((0.02..0.25).contains(&late), "{motion}: {phases:?}");
+        }
+    }
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! with the actor's feet (`actor.rs`), which are computed from joints alone. Half of the figures are held back: rules were fitted to the
 //! others only, and both halves are printed.
 //!
+//! `OKOSHI_FIGURE="cat dog"` measures these figures only, without checking the shares, and `OKOSHI_EACH=1` prints every clip.
 //! `OKOSHI_BVH=FOLDER cargo test --test motion measured -- --nocapture` also measures the motions of another folder.
 
 mod actor;
@@ -25,7 +26,7 @@ use crate::common::{compiled, glb};
 use crate::figures::{Choice, DrawnFigure, figures, part_of};
 use crate::retarget::clips::FILES;
 use actor::{Actor, ActorFoot};
-use model::Model;
+use model::{Model, Surface};
 use totals::{Half, Totals};
 
 /// The figures that rules were fitted to and whose pictures were looked at; the others are held back.
@@ -59,12 +60,14 @@ struct Foot {
     actor: usize,
     /// Whether it is a part of its own.
     is_foot: bool,
+    /// Whether its leg keeps its drawn pose.
+    is_splayed: bool,
 }
 
-/// An arm of the model: points of its forearm and its hand, by node, in the node's frame.
+/// An arm of the model: points of its forearm and its hand, as numbers of corners of nodes.
 struct Arm {
     side: Side,
-    points: Vec<(usize, Vec<DVec3>)>,
+    points: Vec<(usize, Vec<usize>)>,
     /// The share of these points that is in the trunk as drawn.
     drawn: f64,
 }
@@ -76,6 +79,8 @@ struct Played<'a> {
     clip: &'a FigureClip,
     actor: &'a Actor,
     feet: Vec<Foot>,
+    /// The nodes of its legs, feet and the bones inside included.
+    legs: Vec<usize>,
     /// The length of its legs, from hip to sole.
     leg: f64,
     /// The height of the ground, and the figure's own.
@@ -116,8 +121,9 @@ impl<'a> Played<'a> {
             let part = part_of(compiled, id)?;
             Some((part, model.named(&compiled.bindings.parts[part].name)?))
         };
+        let root = model.named(&compiled.bindings.parts[clip.root].name)?;
         let mut feet = Vec::new();
-        let mut lengths = Vec::new();
+        let (mut lengths, mut nodes) = (Vec::new(), Vec::new());
         for segments in legs(figure).values() {
             let mut drives = segments
                 .values()
@@ -135,23 +141,32 @@ impl<'a> Played<'a> {
                 nodes: model.with_children(sole),
                 node: sole,
                 actor: own,
+                is_splayed: node(segments.first_key_value()?.1)
+                    .and_then(|(part, _)| clip.part_drive(part))
+                    .is_some_and(|drive| drive.why.contains("keeps its drawn pose")),
                 is_foot: *segment == LimbSegment::End && stands_drawn(model, rest, sole),
             });
             let (_, top) = node(segments.first_key_value()?.1)?;
             lengths.push(length(model, rest, [top, sole]));
+            nodes.extend(model.with_children(top));
         }
-        let low = |nodes: &[usize]| {
-            let heights = model.corners(nodes, rest).map(|corner| corner.y);
+        let low = |nodes: &[usize], world: &[Transform]| {
+            let heights = model.corners(nodes, world).map(|corner| corner.y);
             heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| {
                 (a.min(y), b.max(y))
             })
         };
+        // What is drawn from above lies on the ground as soon as it moves.
+        let first = model.at(&clip.name, 0);
+        let lies = (first[root].rotation * rest[root].rotation.inverse() * DVec3::Z).y > 0.7;
+        let standing = if lies { first.as_slice() } else { rest };
         let all: Vec<usize> = (0..model.nodes.len()).collect();
         let ground = feet
             .iter()
-            .map(|foot| low(&foot.nodes).0)
+            .map(|foot| low(&foot.nodes, standing).0)
             .reduce(f64::min)?;
-        let height = low(&all).1 - ground;
+        let (bottom, top) = low(&all, rest);
+        let height = top - if lies { bottom } else { ground };
         Some(Self {
             leg: (lengths.iter().sum::<f64>() / lengths.len() as f64).max(NO_LEG * height),
             height,
@@ -160,6 +175,7 @@ impl<'a> Played<'a> {
             clip,
             actor,
             feet,
+            legs: nodes,
             ground,
         })
     }
@@ -170,6 +186,7 @@ impl<'a> Played<'a> {
 
     fn measure(&self, totals: &mut Totals) {
         let mut before: Option<Vec<Transform>> = None;
+        let mut earlier: Option<Vec<Transform>> = None;
         let frames = self.actor.poses.len();
         let mut heights = Vec::with_capacity(frames);
         for frame in 0..frames {
@@ -186,8 +203,11 @@ impl<'a> Played<'a> {
             if let Some(before) = &before {
                 self.slide(frame, [before, &world], totals);
             }
+            if let (Some(earlier), Some(before)) = (&earlier, &before) {
+                self.jerk([earlier, before, &world], totals);
+            }
             heights.push(lows.into_iter().fold(f64::INFINITY, f64::min));
-            before = Some(world);
+            earlier = before.replace(world);
         }
         self.fly(&heights, totals);
     }
@@ -211,9 +231,11 @@ impl<'a> Played<'a> {
         };
         let moving = lowest(&|foot| self.actor_foot(foot).clearance[frame] > IN_AIR);
         if let (Some(standing), Some(moving)) = (lowest(&stands), moving) {
-            totals
-                .lowest
-                .add(f64::from(u8::from(standing > moving + EQUAL)));
+            let lowest = match self.feet.iter().any(|foot| foot.is_splayed) {
+                true => &mut totals.lowest_splayed,
+                false => &mut totals.lowest,
+            };
+            lowest.add(f64::from(u8::from(standing > moving + EQUAL)));
         }
         if self.feet.iter().any(stands) {
             // Somebody who kneels stands on more than feet.
@@ -248,6 +270,18 @@ impl<'a> Played<'a> {
         });
         if let Some(slide) = slides.reduce(f64::min) {
             totals.slide.add(slide.max(0.0));
+        }
+    }
+
+    /// By how much the turns of legs change.
+    fn jerk(&self, poses: [&Vec<Transform>; 3], totals: &mut Totals) {
+        for node in &self.legs {
+            let [a, b, c] = poses.map(|world| world[*node].rotation);
+            let [first, second] = [b * a.inverse(), c * b.inverse()].map(|turn| {
+                let turn = if turn.w < 0.0 { -turn } else { turn };
+                turn.to_scaled_axis()
+            });
+            totals.jerks.add((second - first).length().to_degrees());
         }
     }
 
@@ -353,16 +387,12 @@ fn arms(
         let points = points.map(|(segment, node)| {
             let corners = &model.nodes[*node].corners;
             let top = rest[nodes[0].1].position;
-            let far = |corner: &&DVec3| {
-                (rest[*node].position + rest[*node].rotation * **corner).distance(top)
-            };
-            let farthest = corners
-                .iter()
-                .map(|corner| far(&corner))
-                .fold(0.0, f64::max);
+            let far = |corner: usize| corners[corner].place(rest).distance(top);
+            let all = 0..corners.len();
+            let farthest = all.clone().map(far).fold(0.0, f64::max);
             let is_forearm =
-                |corner: &&DVec3| *segment != LimbSegment::Whole || far(corner) > farthest / 2.0;
-            let own: Vec<DVec3> = corners.iter().filter(is_forearm).copied().collect();
+                |corner: &usize| *segment != LimbSegment::Whole || far(*corner) > farthest / 2.0;
+            let own: Vec<usize> = all.filter(is_forearm).collect();
             let step = own.len().div_ceil(POINTS).max(1);
             (*node, own.into_iter().step_by(step).collect())
         });
@@ -380,18 +410,17 @@ fn arms(
 /// The share of an arm's points that is in the trunk.
 fn inside(model: &Model, world: &[Transform], trunk: &[usize], arm: &Arm) -> f64 {
     let points = arm.points.iter().flat_map(|(node, points)| {
-        let placed = world[*node];
-        points
+        let corners = points
             .iter()
-            .map(move |point| placed.position + placed.rotation * *point)
+            .map(|corner| &model.nodes[*node].corners[*corner]);
+        corners.map(|corner| corner.place(world))
     });
+    let trunk = trunk.iter().map(|node| model.surface(*node, world));
+    let trunk: Vec<Surface<'_>> = trunk.collect();
     let (mut all, mut within) = (0.0, 0.0);
     for point in points {
         all += 1.0;
-        if trunk
-            .iter()
-            .any(|node| model.is_inside(*node, world, point))
-        {
+        if trunk.iter().any(|surface| surface.contains(point)) {
             within += 1.0;
         }
     }
@@ -452,8 +481,8 @@ fn trunk(figure: &DrawnFigure, compiled: &Compiled, model: &Model) -> Vec<usize>
     nodes.collect()
 }
 
-/// Measures a figure with all clips.
-fn measure(figure: &DrawnFigure, files: &[(String, Vec<u8>)], half: &mut Half) {
+/// Measures a figure with all clips, whose limbs of one piece bend or not.
+fn measure(figure: &DrawnFigure, files: &[(String, Vec<u8>)], bends: bool, half: &mut Half) {
     let mut resolver = MemoryResolver::default();
     let mut words: Vec<String> = CLIPS.map(|clip| format!("Motion {clip}")).to_vec();
     for (name, bytes) in files {
@@ -462,7 +491,7 @@ fn measure(figure: &DrawnFigure, files: &[(String, Vec<u8>)], half: &mut Half) {
     }
     let drawing = figure.drawing.replacen(
         "Motion \"clip.bvh\"",
-        &format!("Bend 0 {}", words.join(" ")),
+        &format!("{}{}", if bends { "" } else { "Bend 0 " }, words.join(" ")),
         1,
     );
     assert_ne!(drawing, figure.drawing, "{} plays nothing", figure.name);
@@ -479,7 +508,8 @@ fn measure(figure: &DrawnFigure, files: &[(String, Vec<u8>)], half: &mut Half) {
             measure_arms(&arms, &trunk, &played, &mut totals);
         }
         if env::var("OKOSHI_EACH").is_ok() {
-            eprintln!("{} {}: {totals}", figure.name, clip.name);
+            let legs = if bends { "bent" } else { "rigid" };
+            eprintln!("{} {} {legs}: {totals}", figure.name, clip.name);
         }
         half.add(&totals);
     }
@@ -493,17 +523,26 @@ fn read(paths: impl Iterator<Item = PathBuf>) -> Vec<(String, Vec<u8>)> {
     paths.map(file).collect()
 }
 
-/// Measures all figures, and prints both halves: those that were seen, and those that were held back.
-fn halves(files: &[(String, Vec<u8>)]) -> [Half; 2] {
-    let mut halves = [Half::default(), Half::default()];
-    for figure in figures() {
-        let is_held_back = !SEEN.contains(&figure.name.as_str());
-        measure(&figure, files, &mut halves[usize::from(is_held_back)]);
+/// Measures all figures, and prints both halves: those that were seen, and those that were held back. First with limbs of one piece that
+/// bend, and then with rigid ones.
+fn halves(files: &[(String, Vec<u8>)]) -> Vec<Half> {
+    let mut all = Vec::new();
+    for (bends, legs) in [(true, "that bend"), (false, "that are rigid")] {
+        let mut halves = [Half::default(), Half::default()];
+        let only = env::var("OKOSHI_FIGURE").ok();
+        let is_wanted =
+            |figure: &DrawnFigure| only.as_ref().is_none_or(|name| name.contains(&figure.name));
+        for figure in figures().into_iter().filter(is_wanted) {
+            let is_held_back = !SEEN.contains(&figure.name.as_str());
+            let half = &mut halves[usize::from(is_held_back)];
+            measure(&figure, files, bends, half);
+        }
+        for (half, name) in halves.iter().zip(["seen", "held back"]) {
+            eprintln!("{name}, legs {legs}:\n{half}");
+        }
+        all.extend(halves);
     }
-    for (half, name) in halves.iter().zip(["seen", "held back"]) {
-        eprintln!("{name}:\n{half}");
-    }
-    halves
+    all
 }
 
 #[test]
@@ -511,6 +550,9 @@ fn figures_stand_fly_and_hold_their_arms_as_the_actor_does() {
     let project = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = read(FILES.iter().map(|file| project.join(file)));
     let halves = halves(&files);
+    if env::var("OKOSHI_FIGURE").is_ok() {
+        return;
+    }
     if let Ok(folder) = env::var("OKOSHI_BVH") {
         let entries = fs::read_dir(folder).expect("a folder of motions");
         let mut paths: Vec<PathBuf> = entries.map(|file| file.expect("a file").path()).collect();

@@ -1,17 +1,51 @@
-//! A model as other programs get it: the vertices of a GLB, moved by its clips.
+//! A model as other programs get it: the vertices of a GLB, moved by the nodes and the skins of its clips.
 
 use std::collections::BTreeMap;
 
-use glam::{DQuat, DVec3, Quat, Vec3};
+use glam::{DQuat, DVec3, Mat4, Quat, Vec3};
 use gltf::animation::util::ReadOutputs;
 use okoshi::internals::mocap::Transform;
 
-/// A node with its mesh, in its own frame.
+/// A node with its mesh, or with the mesh of the skin whose first joint it is.
 pub(super) struct Node {
     pub(super) parent: Option<usize>,
     local: Transform,
-    pub(super) corners: Vec<DVec3>,
-    pub(super) triangles: Vec<[u32; 3]>,
+    pub(super) corners: Vec<Corner>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// A corner of a mesh: the nodes that move it, each with its weight and with the corner's place in its frame.
+pub(super) struct Corner(Vec<(usize, f64, DVec3)>);
+
+impl Corner {
+    /// Where it is in the world.
+    pub(super) fn place(&self, world: &[Transform]) -> DVec3 {
+        let places = self.0.iter().map(|(node, weight, local)| {
+            let placed = world[*node];
+            (placed.position + placed.rotation * *local) * *weight
+        });
+        places.sum()
+    }
+}
+
+/// A surface in the world.
+pub(super) struct Surface<'a> {
+    corners: Vec<DVec3>,
+    triangles: &'a [[u32; 3]],
+}
+
+impl Surface<'_> {
+    /// Whether a point is inside: the sum of the solid angles of its triangles (van Oosterom & Strackee 1983) is that of a whole sphere.
+    pub(super) fn contains(&self, point: DVec3) -> bool {
+        let angles = self.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|corner| self.corners[corner as usize] - point);
+            let [x, y, z] = [a, b, c].map(DVec3::length);
+            let volume = a.dot(b.cross(c));
+            let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+            2.0 * volume.atan2(below)
+        });
+        angles.sum::<f64>() > 2.0 * std::f64::consts::PI
+    }
 }
 
 /// The keys of a node in a clip, one per frame.
@@ -44,9 +78,14 @@ impl Model {
         for node in file.nodes() {
             let name = node.name().unwrap_or_default().to_owned();
             model.names.entry(name).or_insert(node.index());
-            model.nodes.push(read_node(&node, blob));
+            model.nodes.push(read_node(&node));
         }
         for node in file.nodes() {
+            let joints = joints(&node, blob);
+            let owner = &mut model.nodes[joints[0].0];
+            for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
+                owner.add(&primitive, &joints, blob);
+            }
             for child in node.children() {
                 model.nodes[child.index()].parent = Some(node.index());
             }
@@ -131,35 +170,27 @@ impl Model {
         nodes: &'a [usize],
         world: &'a [Transform],
     ) -> impl Iterator<Item = DVec3> + 'a {
-        nodes.iter().flat_map(|node| {
-            let placed = world[*node];
-            let corners = self.nodes[*node].corners.iter();
-            corners.map(move |corner| placed.position + placed.rotation * *corner)
-        })
+        let corners = nodes.iter().flat_map(|node| &self.nodes[*node].corners);
+        corners.map(|corner| corner.place(world))
     }
 
-    /// Whether a point of the world is inside a node's mesh: the sum of the solid angles of its triangles (van Oosterom & Strackee
-    /// 1983) is that of a whole sphere.
-    pub(super) fn is_inside(&self, node: usize, world: &[Transform], point: DVec3) -> bool {
-        let Node {
-            corners, triangles, ..
-        } = &self.nodes[node];
-        let placed = world[node];
-        let point = placed.rotation.inverse() * (point - placed.position);
-        let angles = triangles.iter().map(|triangle| {
-            let [a, b, c] = triangle.map(|corner| corners[corner as usize] - point);
-            let [x, y, z] = [a, b, c].map(DVec3::length);
-            let volume = a.dot(b.cross(c));
-            let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
-            2.0 * volume.atan2(below)
-        });
-        angles.sum::<f64>() > 2.0 * std::f64::consts::PI
+    /// A node's mesh in the world.
+    pub(super) fn surface(&self, node: usize, world: &[Transform]) -> Surface<'_> {
+        let node = &self.nodes[node];
+        Surface {
+            corners: node
+                .corners
+                .iter()
+                .map(|corner| corner.place(world))
+                .collect(),
+            triangles: &node.triangles,
+        }
     }
 }
 
-fn read_node(node: &gltf::Node<'_>, blob: &[u8]) -> Node {
+fn read_node(node: &gltf::Node<'_>) -> Node {
     let (place, turn, _) = node.transform().decomposed();
-    let mut own = Node {
+    Node {
         parent: None,
         local: Transform {
             rotation: Quat::from_array(turn).as_dquat(),
@@ -167,17 +198,55 @@ fn read_node(node: &gltf::Node<'_>, blob: &[u8]) -> Node {
         },
         corners: Vec::new(),
         triangles: Vec::new(),
+    }
+}
+
+/// The nodes that move the mesh of a node, each with the matrix that leads from the mesh to its frame.
+fn joints(node: &gltf::Node<'_>, blob: &[u8]) -> Vec<(usize, Mat4)> {
+    let Some(skin) = node.skin() else {
+        return vec![(node.index(), Mat4::IDENTITY)];
     };
-    for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
+    let reader = skin.reader(|_| Some(blob));
+    let matrices = reader.read_inverse_bind_matrices().expect("bind matrices");
+    let joints = skin.joints().map(|joint| joint.index());
+    let matrices = matrices.map(|columns| Mat4::from_cols_array_2d(&columns));
+    joints.zip(matrices).collect()
+}
+
+impl Node {
+    /// Adds a primitive of a mesh that these nodes move.
+    fn add(&mut self, primitive: &gltf::Primitive<'_>, joints: &[(usize, Mat4)], blob: &[u8]) {
         let reader = primitive.reader(|_| Some(blob));
-        let first = own.corners.len() as u32;
-        let corners = reader.read_positions().expect("positions");
-        own.corners
-            .extend(corners.map(|at| Vec3::from(at).as_dvec3()));
+        let first = self.corners.len() as u32;
+        let places = reader.read_positions().expect("positions");
+        let places: Vec<Vec3> = places.map(Vec3::from).collect();
+        let bound = reader.read_joints(0).map(|joints| joints.into_u16());
+        let weights = reader.read_weights(0).map(|weights| weights.into_f32());
+        match bound.zip(weights) {
+            Some((bound, weights)) => {
+                let corners = places.iter().zip(bound.zip(weights));
+                self.corners
+                    .extend(corners.map(|(place, (bound, weights))| {
+                        let own = bound.into_iter().zip(weights);
+                        let own = own.filter(|(_, weight)| *weight > 0.0);
+                        let own = own.map(|(joint, weight)| {
+                            let (node, matrix) = &joints[usize::from(joint)];
+                            let local = matrix.transform_point3(*place);
+                            (*node, f64::from(weight), local.as_dvec3())
+                        });
+                        Corner(own.collect())
+                    }));
+            }
+            None => {
+                let corners = places
+                    .iter()
+                    .map(|place| (joints[0].0, 1.0, place.as_dvec3()));
+                self.corners.extend(corners.map(|own| Corner(vec![own])));
+            }
+        }
         let indices: Vec<u32> = reader.read_indices().expect("indices").into_u32().collect();
         let triangles = indices.chunks_exact(3);
-        own.triangles
+        self.triangles
             .extend(triangles.map(|t| [t[0] + first, t[1] + first, t[2] + first]));
     }
-    own
 }
