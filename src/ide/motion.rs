@@ -89,7 +89,7 @@ impl Analysis {
             let in_turn = if turns.is_empty() {
                 String::new()
             } else {
-                let turns: Vec<String> = turns.iter().map(|turn| escaped(turn)).collect();
+                let turns: Vec<String> = turns.iter().map(|turn| code(turn)).collect();
                 format!("; in turn {}", turns.join(", "))
             };
             format!(
@@ -306,7 +306,7 @@ mod tests {
         }
         assert!(hover("Rarm@Body", "%Mo¦tion \"none.bvh\"").starts_with("No figure plays it."));
         let card = hover("Rarm@Body", "%Mo¦tion idle \"kick.bvh\" wave 6 hello");
-        let expected = "- clip `hello` of `Body`: 8.50 s, 205 frames, 205 drawings; in turn idle 3.00 s, kick.bvh 0.50 s, wave 5.00 s (2 cycles); ";
+        let expected = "- clip `hello` of `Body`: 8.50 s, 205 frames, 205 drawings; in turn `idle 3.00 s`, `kick.bvh 0.50 s`, `wave 5.00 s (2 cycles)`; ";
         assert!(card.contains(expected), "{card}");
     }
 

@@ -202,3 +202,62 @@ pub(crate) fn travel(
     }
     (places, turns)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A motion of so many steps that goes one ahead in each, along z.
+    fn ahead(steps: usize) -> Vec<DVec3> {
+        let place = |step: u32| DVec3::new(5.0, 1.0, f64::from(step));
+        (0..=steps as u32).map(place).collect()
+    }
+
+    #[test]
+    fn a_turned_body_goes_on_where_it_is_heading() {
+        let motion = |steps, cycles, is_loop| Playing {
+            steps,
+            cycles,
+            is_loop,
+        };
+        let playing = [motion(20, 1, false), motion(10, 2, true)];
+        let moments = moments(&playing, 6, false);
+        assert_eq!(moments.len(), 41);
+        let quarter = DQuat::from_rotation_y(90_f64.to_radians());
+        let roots = [ahead(20), ahead(10)];
+        let paths = [0, 1].map(|index| Path {
+            root: &roots[index],
+            turn: [quarter, DQuat::IDENTITY][index],
+        });
+        let (places, turns) = travel(&moments, &paths, DVec3::Y);
+        assert!(places[20].distance(DVec3::Z * 20.0) < 1e-9);
+        // The first motion stands still at its end, so the body starts slowly, to its new front.
+        assert!((turns[1] * DVec3::Z).distance(DVec3::X) < 1e-9);
+        let steps: Vec<DVec3> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        assert!(
+            steps[20].x < 0.2 && steps[20].z.abs() < 1e-9,
+            "{}",
+            steps[20]
+        );
+        for step in &steps[26..] {
+            assert!(step.distance(DVec3::X) < 1e-9, "{step}");
+        }
+    }
+
+    #[test]
+    fn a_loop_fades_from_its_end_into_its_beginning() {
+        let one = Playing {
+            steps: 8,
+            cycles: 1,
+            is_loop: false,
+        };
+        let shown = moments(&[one, one], 4, true);
+        let first = shown[0].fading.expect("a blend");
+        assert_eq!((first.motion, first.place.frame, first.share), (1, 8, 1.0));
+        let last = shown[16];
+        assert_eq!((last.motion, last.place.frame, last.fading), (1, 8, None));
+        // Nothing fades into the first motion otherwise.
+        assert_eq!(moments(&[one, one], 4, false)[0].fading, None);
+        assert!(moments(&[], 4, true).is_empty());
+    }
+}

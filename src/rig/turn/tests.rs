@@ -37,6 +37,26 @@ fn largest_step(clip: &FigureClip) -> f64 {
     steps.fold(0.0, f64::max)
 }
 
+/// The largest step of the middle of any part; no part of these figures has a parent, so each has a place of its own.
+fn largest_step_of_parts(clip: &FigureClip) -> f64 {
+    let paths = clip.retargeted.translations.iter().flatten();
+    let steps = paths.flat_map(|path| path.windows(2).map(|pair| pair[0].distance(pair[1])));
+    steps.fold(0.0, f64::max)
+}
+
+/// How far the middle of any part is from where it is in another pose, relative to the root.
+fn places_apart(a: (&FigureClip, usize), b: (&FigureClip, usize)) -> f64 {
+    let place = |(clip, frame): (&FigureClip, usize), part: FigurePartId| {
+        let path = clip.retargeted.translations[part].as_ref();
+        path.map(|path| path[frame] - ground(clip, frame))
+    };
+    let apart =
+        a.0.order
+            .keys()
+            .filter_map(|part| Some(place(a, part)?.distance(place(b, part)?)));
+    apart.fold(0.0, f64::max)
+}
+
 /// How different two poses are: the largest difference of a rotation, radians, or of a place relative to the root, drawing units.
 fn apart(a: (&FigureClip, usize), b: (&FigureClip, usize)) -> f64 {
     let mut most = 0.0_f64;
@@ -121,13 +141,18 @@ proptest! {
             let seam = apart((all, 0), (all, first));
             prop_assert!(seam < 1e-6, "{seam}");
         }
-        // No seam is larger than twice the largest step of a clip.
-        let speeds = singles.iter().flat_map(|single| only(single).speeds());
-        let fastest = speeds.fold(0.0, f64::max).sqrt();
-        let speeds = all.speeds();
-        let seams = speeds.iter().map(|speed| speed.sqrt());
-        let seam = seams.fold(0.0, f64::max);
-        prop_assert!(seam <= 2.0 * fastest + 1e-9, "{seam} > 2 × {fastest}");
+        // A step in a blend is at most that of one of its clips, and the fastest part of the way from one pose to the other, on an arc.
+        let fastest = singles.iter().map(|single| largest_step_of_parts(only(single)));
+        let fastest = fastest.fold(0.0, f64::max);
+        let differences = (1..words.len() + 1).flat_map(|next| {
+            let [before, own] = [next - 1, next % words.len()].map(|index| only(&singles[index]));
+            let frames = 0..=BLEND.min(own.source_frames() - 1);
+            frames.map(move |frame| places_apart((before, before.source_frames() - 1), (own, frame)))
+        });
+        let difference = differences.fold(0.0, f64::max);
+        let blended = 1.5 / BLEND as f64 * std::f64::consts::FRAC_PI_2 * difference;
+        let seam = largest_step_of_parts(all);
+        prop_assert!(seam <= 2.0 * fastest + blended, "{seam} > 2 × {fastest} + {blended}");
     }
 }
 
