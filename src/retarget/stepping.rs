@@ -94,6 +94,7 @@ fn lacking(
         envelope(&stands, length.frames_in(NEAR), length.is_cycle)
     });
     let near: Vec<Vec<f64>> = near.collect();
+    let nearness = |foot: usize, frame: usize| near[foot][frame];
     let mut kinematics = ForwardKinematics::new(rig);
     let mut lacking = vec![Vec::with_capacity(length.frames); standing.len()];
     for frame in 0..length.frames {
@@ -107,7 +108,7 @@ fn lacking(
         // By how much the root is too high for a foot that stands, or soon will.
         let too_high = standing.iter().zip(&lows).map(|((foot, _), low)| {
             let lift = walk.feet[*foot].lift[frame];
-            let height = lift - low + (1.0 - near[*foot][frame]) * FAR * leg;
+            let height = lift - low + (1.0 - nearness(*foot, frame)) * FAR * leg;
             let too_high = highest - height;
             too_high.min(2.0 * RAISED * leg - too_high)
         });

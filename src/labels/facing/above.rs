@@ -26,7 +26,7 @@ impl Observed<'_> {
     /// How a figure faces that is drawn from above, and why it seems to be. Its legs, three or more on each side, point ahead in front
     /// and back behind, so they do not stand on a ground that is at the drawing's bottom; and no face is turned to us, unless a name says
     /// that it is a beetle or the like.
-    pub(super) fn from_above(&self) -> Option<(Facing, String)> {
+    pub(super) fn seen_from_above(&self) -> Option<(Facing, String)> {
         let trunk = self.trunk?;
         let facing = self.up();
         let up = if facing == Facing::UpHeadDown {

@@ -152,7 +152,7 @@ pub(super) fn find(tree: &PartTree<'_>, drafts: &Drafts) -> FoundFacing {
         more if more < 0.0 => Facing::Left,
         _ => Facing::Right,
     };
-    let from_above = observed.from_above();
+    let from_above = observed.seen_from_above();
     if let Some((facing, why)) = from_above.filter(|_| facing == Facing::Viewer) {
         return FoundFacing {
             facing,
