@@ -207,7 +207,7 @@ const USES: &[(&str, &[&str])] = &[
     ("main", &["cli"]),
     ("mark_tracks", &["index"]),
     ("memo", &["resolver", "threads"]),
-    ("mocap", &["index"]),
+    ("mocap", &["index", "smoothing"]),
     (
         "motion",
         &[

@@ -9,12 +9,11 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::facings::FigureFacing;
 use crate::anatomy::{self, Term};
 use crate::bend::{Bend, Centerline};
-use crate::bind::{Bindings, Part, PartId, PartKind, SetBy};
+use crate::bind::{Bindings, Part, PartId, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{self, Outline, area, y_up};
 use crate::index::par_keys;
 use crate::labels::{Class, Label, LimbSegment};
-use crate::lang::keyword::Keyword;
 use crate::svg::Drawing;
 
 /// A part that is at least this much longer than it is wide bends without a string that says so.
@@ -80,10 +79,9 @@ pub(crate) fn idle_bends(
     bends: &TiSlice<PartId, Option<Arc<Bend>>>,
 ) -> Vec<Diagnostic> {
     let idle = |(index, part): (PartId, &Part)| {
-        let source = bindings.setting(index, Keyword::Bend)?;
+        let span = bindings.bend_span(index)?;
         let joints = bindings.attributes(index).bend().unwrap_or(0);
-        let is_idle = part.kind == PartKind::Main && joints > 0 && bends[index].is_none();
-        if source.from != SetBy::Own || !is_idle {
+        if part.kind != PartKind::Main || joints == 0 || bends[index].is_some() {
             return None;
         }
         let (reason, help) = if bindings.profile(drawing, index).is_none() {
@@ -99,7 +97,6 @@ pub(crate) fn idle_bends(
         };
         let name = &part.name;
         let message = format!("`Bend` has no effect: `{name}` {reason}");
-        let span = bindings.span_of(&source);
         Some(Diagnostic::new(Code::IdleBend, span, message).help(help))
     };
     bindings.parts.iter_enumerated().filter_map(idle).collect()

@@ -270,6 +270,12 @@ impl Bindings {
         self.attributes(part).source(keyword)
     }
 
+    /// Where a part's own string says `Bend`.
+    pub(crate) fn bend_span(&self, part: PartId) -> Option<Span> {
+        let source = self.setting(part, Keyword::Bend)?;
+        (source.from == SetBy::Own).then(|| self.span_of(&source))
+    }
+
     /// The source that a part's attribute would have without the part's own string.
     pub fn inherited(&self, part: PartId, keyword: Keyword) -> Option<Source<'_>> {
         let attributes = self.setters().attributes(None, self.parts[part].legend);
