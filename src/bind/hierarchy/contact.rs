@@ -22,7 +22,7 @@ use crate::threads::GRAIN;
 const GAP: f64 = 0.02;
 /// How many points the outlines may have whose overlaps are computed. After that, bounding boxes decide.
 const MAX_OVERLAP_POINTS: usize = 1 << 19;
-/// A part that shares less than this with another one, as a share of the most that it shares with any, only brushes it.
+/// A part that shares less than this with another one, as a share of the most that it shares with a part of a body, only brushes it.
 const BRUSH: f64 = 0.1;
 /// What a way to a part that is only brushed costs more, in parts.
 const BRUSHED: u32 = 2;
@@ -265,12 +265,12 @@ impl NamedBodies {
         }
     }
 
-    /// Whether a part shares so little with another one, beside what it shares with a third one, that it hardly hangs on it: a shield on
-    /// an arm, whose edge is at the body's.
+    /// Whether a part shares so little with another one, beside what it shares with a part of a body, that it hardly hangs on it: a
+    /// shield on an arm, whose edge is at the body's. Wheels carry nothing, however much lies over them.
     fn brushes(&self, from: usize, to: usize) -> bool {
         let others = self.touching[to]
             .iter()
-            .filter(|other| self.bodies[**other].named);
+            .filter(|other| self.bodies[**other].role.is_some());
         let most = others.map(|other| self.shared(*other, to));
         self.shared(from, to) < BRUSH * most.fold(0.0, f64::max)
     }

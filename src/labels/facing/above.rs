@@ -11,7 +11,6 @@ const FEWEST: usize = 3;
 const POINTS: f64 = 0.15;
 /// The feet of what is called a beetle are spread over at least this share of the trunk's length.
 const SPREAD: f64 = 0.5;
-
 /// A head that is narrower than this share of the trunk's width shows no face, whatever is drawn on it.
 const SMALL: f64 = 0.5;
 

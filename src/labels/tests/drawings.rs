@@ -165,7 +165,7 @@ fn spider() -> Vec<Row<'static>> {
 }
 
 #[test]
-fn a_spider_faces_the_viewer_on_eight_legs() {
+fn a_spider_that_is_seen_from_above_walks_on_eight_legs() {
     let mut expected: Vec<String> = ["body 1", "body", "head"].map(str::to_owned).into();
     for pair in ["", " 1", " 2", " 3"] {
         for side in ["right", "left"] {
@@ -177,7 +177,7 @@ fn a_spider_faces_the_viewer_on_eight_legs() {
     let expected: Vec<&str> = expected.iter().map(String::as_str).collect();
     check(&spider(), &expected);
     let labeled = label_drawn(&figure(&spider()));
-    assert_eq!(labeled.facing.facing, Facing::Viewer);
+    assert_eq!(labeled.facing.facing, Facing::UpHeadDown);
     assert_eq!(labeled.splayed.raw[..3], [false; 3]);
     assert!(labeled.splayed.raw[3..].iter().all(|splayed| *splayed));
 }

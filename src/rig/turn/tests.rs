@@ -141,7 +141,8 @@ proptest! {
             let seam = apart((all, 0), (all, first));
             prop_assert!(seam < 1e-6, "{seam}");
         }
-        // A step in a blend is at most that of one of its clips, and the fastest part of the way from one pose to the other, on an arc.
+        // A step in a blend is at most that of one of its clips, and the fastest part of the way from one pose to the other, which may be
+        // an arc of what moves on an arc itself: twice half a circle. Without a blend it would be the whole way.
         let fastest = singles.iter().map(|single| largest_step_of_parts(only(single)));
         let fastest = fastest.fold(0.0, f64::max);
         let differences = (1..words.len() + 1).flat_map(|next| {
@@ -150,7 +151,7 @@ proptest! {
             frames.map(move |frame| places_apart((before, before.source_frames() - 1), (own, frame)))
         });
         let difference = differences.fold(0.0, f64::max);
-        let blended = 1.5 / BLEND as f64 * std::f64::consts::FRAC_PI_2 * difference;
+        let blended = 1.5 / BLEND as f64 * std::f64::consts::PI * difference;
         let seam = largest_step_of_parts(all);
         prop_assert!(seam <= 2.0 * fastest + blended, "{seam} > 2 × {fastest} + {blended}");
     }
