@@ -183,8 +183,8 @@ fn only_what_changed_is_sent() {
     let (_, delta) = got(port, &format!("/{after}?since={before}"));
     let (_, unknown) = got(port, &format!("/{after}?since=builds/99.glb"));
     assert_eq!(common::nodes(&delta).expect("a sound model").len(), 1);
-    // The root, the body, the arm with three bones inside, and the node that shows its mesh.
-    assert_eq!(common::nodes(&whole).expect("a sound model").len(), 7);
+    // The root, the body and the arm.
+    assert_eq!(common::nodes(&whole).expect("a sound model").len(), 3);
     assert!(unknown == whole);
 
     // A text that is not XML at the moment keeps the list of parts, also for pages that are opened now.

@@ -24,12 +24,13 @@ const TIMES: usize = 24;
 /// How many points of a part are compared with what it hangs on.
 const POINTS: usize = 240;
 /// The drawings of `tests/motion/figures` and of the examples in which a figure walks to a side: −1 to the drawing's left.
-const PROFILES: [(&str, f64); 13] = [
+const PROFILES: [(&str, f64); 14] = [
     ("examples/clockwork-dragon.svg", 1.0),
     ("examples/dog.svg", 1.0),
     ("examples/motion/beetle.svg", 1.0),
     ("examples/motion/bird.svg", -1.0),
     ("examples/motion/dog.svg", 1.0),
+    ("examples/motion/horse.svg", 1.0),
     ("examples/motion/spider.svg", -1.0),
     ("tests/motion/figures/bird.svg", 1.0),
     ("tests/motion/figures/cat.svg", 1.0),
@@ -125,7 +126,7 @@ fn distance_squared(point: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
 }
 
 /// The same for parts that bend: a thigh swings farther than a whole leg, and takes one off that hardly overlaps the body.
-const MAX_BENT_GROWTH: f64 = 0.06;
+const MAX_BENT_GROWTH: f64 = 0.03;
 
 /// A part that turns, and what it hangs on.
 struct Pair {
