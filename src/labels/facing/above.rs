@@ -9,8 +9,10 @@ use crate::labels::{Class, Facing, FigurePartId};
 const FEWEST: usize = 3;
 /// A leg points ahead or back if its tip is so far before or behind its joint, as a share of its length.
 const POINTS: f64 = 0.15;
-/// The feet of what is called a beetle are spread over at least this share of the trunk's length.
+/// Feet are spread if they are apart by at least this share of the trunk's length.
 const SPREAD: f64 = 0.5;
+/// A head leads if its middle is so far ahead of the trunk's, as a share of the trunk's length.
+const LEADS: f64 = 0.35;
 /// A head that is narrower than this share of the trunk's width shows no face, whatever is drawn on it.
 const SMALL: f64 = 0.5;
 
@@ -23,8 +25,8 @@ struct Leg {
 
 impl Observed<'_> {
     /// How a figure faces that is drawn from above, and why it seems to be. Its legs, three or more on each side, point ahead in front
-    /// and back behind, so they do not stand on a ground that is at the drawing's bottom; and no face is turned to us, unless a name says
-    /// that it is a beetle or the like.
+    /// and back behind, so they do not stand on a ground that is at the drawing's bottom; and no face is turned to us, unless it is on a
+    /// head at the end of a body along which the feet are spread, or a name says that it is a beetle or the like.
     pub(super) fn seen_from_above(&self) -> Option<(Facing, String)> {
         let trunk = self.trunk?;
         let facing = self.up();
@@ -58,12 +60,16 @@ impl Observed<'_> {
             .iter()
             .all(|legs| points(legs, 1.0) && points(legs, -1.0));
         let spread = sides.iter().all(|legs| is_spread(legs, trunk, up));
+        let leads = self.head.is_some_and(|head| {
+            let ahead = (middle(head).y - middle(trunk).y) * up;
+            ahead > LEADS * (trunk[1].y - trunk[0].y)
+        });
         let count = 2 * left.len();
         let why = match name {
             Some(name) if point_both_ways || spread => {
                 format!("`{name}` is drawn from above: its {count} legs spread to both sides")
             }
-            None if point_both_ways && !self.shows_face(trunk) => {
+            None if point_both_ways && (spread && leads || !self.shows_face(trunk)) => {
                 format!("its {count} legs point ahead and back at both sides, as seen from above")
             }
             _ => return None,

@@ -221,16 +221,22 @@ fn legs_that_spread_to_all_sides_are_seen_from_above() {
     let level = [-1.0, -1.0, -1.0];
     assert_eq!(facing(&beetle("Trunk", 1.0, level)).0, Facing::Viewer);
     assert_eq!(facing(&beetle("Beetle", 1.0, level)).0, Facing::Up);
-    // A face that is turned to us shows its front.
-    let mut rows = beetle("Trunk", 1.0, spread);
-    rows[1].4 = 5.0;
-    rows.push(("Eye1", "Head", [-1.5, 12.0], [-1.4, 12.0], 0.6));
-    rows.push(("Eye2", "Head", [1.4, 12.0], [1.5, 12.0], 0.6));
-    let mut eyed = figure(&rows);
-    for part in eyed.parts.iter_mut().skip(2).take(6) {
-        part.name.insert_str(0, "Leg ");
+    // Eyes on its head are seen from above as well, but a face on the body is turned to us.
+    for (on, height, expected) in [("Head", 12.0, Facing::Up), ("Trunk", 2.0, Facing::Viewer)] {
+        let mut rows = beetle("Trunk", 1.0, spread);
+        rows[1].4 = 5.0;
+        if on == "Trunk" {
+            rows.remove(1);
+        }
+        let legs = rows.len() - 6;
+        rows.push(("Eye1", on, [-1.5, height], [-1.4, height], 0.6));
+        rows.push(("Eye2", on, [1.4, height], [1.5, height], 0.6));
+        let mut eyed = figure(&rows);
+        for part in eyed.parts.iter_mut().skip(legs).take(6) {
+            part.name.insert_str(0, "Leg ");
+        }
+        assert_eq!(label_drawn(&eyed).facing.facing, expected, "{on}");
     }
-    assert_eq!(label_drawn(&eyed).facing.facing, Facing::Viewer);
     // A string says it too, wherever the legs are.
     let mut said = figure(&beetle("Trunk", -1.0, standing));
     said.facing = Facing::from_word("up");
