@@ -192,7 +192,7 @@ impl Checker<'_> {
             .find(|(own, _)| own.clip == slot.clip && own.role == Role::Source);
         let whose = match source.map(|(_, argument)| &argument.kind) {
             Some(ArgumentKind::Word(word)) => format!("`{word}`, a clip that comes along"),
-            _ => "the clip that comes along and fits".to_owned(),
+            _ => "`Motion` without a file".to_owned(),
         };
         let (what, help) = match slot.role {
             Role::Up => (
