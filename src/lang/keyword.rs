@@ -10,6 +10,8 @@ mod part;
 mod terrain;
 mod views;
 
+pub(crate) use motion::SPEED as MOTION_SPEED;
+
 pub(crate) mod colors;
 pub(crate) mod kinds;
 pub(crate) mod signature;

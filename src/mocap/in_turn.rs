@@ -8,7 +8,12 @@ use glam::{DQuat, DVec3};
 use crate::smoothing::ease;
 
 /// How long a blend takes, seconds.
-pub(crate) const BLEND_SECONDS: f64 = 0.25;
+const BLEND: f64 = 0.25;
+
+/// How many frames a blend takes, given the seconds from frame to frame.
+pub(crate) fn blend_frames(frame_time: f64) -> usize {
+    (BLEND / frame_time).round() as usize
+}
 
 /// How long a motion plays among others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::Turn;
 use crate::mocap::Clip;
-use crate::mocap::in_turn::{BLEND_SECONDS, Moment, Path, Place, Playing, moments, travel};
+use crate::mocap::in_turn::{Moment, Path, Place, Playing, blend_frames, moments, travel};
 use crate::mocap::resample::{Mix, mixed};
 use crate::mocap::travel::{Ending, root_positions};
 
@@ -12,8 +12,7 @@ use crate::mocap::travel::{Ending, root_positions};
 pub(super) fn in_turn(turns: &[Turn], is_loop: bool, up: DVec3) -> Clip {
     let clip = &turns[0].clip.clip;
     let playing: Vec<Playing> = turns.iter().map(Turn::playing).collect();
-    let blend = (BLEND_SECONDS / clip.frame_time).round() as usize;
-    let moments = moments(&playing, blend, is_loop);
+    let moments = moments(&playing, blend_frames(clip.frame_time), is_loop);
     // All frames of all clips, one after the other, and where each clip begins.
     let mut values = Vec::new();
     let mut starts = Vec::with_capacity(turns.len());

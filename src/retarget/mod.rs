@@ -64,6 +64,13 @@ impl Rig {
         }
         order
     }
+
+    /// Whether a part is another one, or hangs on it.
+    pub(crate) fn is_below(&self, part: FigurePartId, top: FigurePartId) -> bool {
+        let above = |part: &FigurePartId| self.parts[*part].parent;
+        let mut ways = std::iter::successors(Some(part), above).take(self.parts.len());
+        ways.any(|part| part == top)
+    }
 }
 
 /// A part of a rig.

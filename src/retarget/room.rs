@@ -149,12 +149,8 @@ impl Arm {
         let chest = own
             .parent
             .filter(|parent| own.is_arm && !rig.parts[*parent].is_arm)?;
-        let is_below = |part: &FigurePartId| {
-            let above = |part: &FigurePartId| rig.parts[*part].parent;
-            let mut ways = std::iter::successors(Some(*part), above).take(rig.parts.len());
-            ways.any(|part| part == top)
-        };
-        let carried: Vec<FigurePartId> = order.iter().copied().filter(is_below).collect();
+        let carried = order.iter().copied();
+        let carried: Vec<FigurePartId> = carried.filter(|part| rig.is_below(*part, top)).collect();
         let pieces: Vec<FigurePartId> = carried
             .iter()
             .copied()

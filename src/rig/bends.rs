@@ -52,8 +52,11 @@ pub(crate) fn bends(
             None if part.parent.is_some() => joints(part, labels.get(&index).copied()),
             None => 0,
         };
+        if joints == 0 {
+            return None;
+        }
         let profile = bindings.profile(drawing, index)?;
-        if joints == 0 || asked.is_none() && !profile.is_flexible() {
+        if asked.is_none() && !profile.is_flexible() {
             return None;
         }
         let outline = outline(bindings, index, &parts_of_node[index]);
@@ -79,11 +82,14 @@ pub(crate) fn idle_bends(
     bends: &TiSlice<PartId, Option<Arc<Bend>>>,
 ) -> Vec<Diagnostic> {
     let idle = |(index, part): (PartId, &Part)| {
-        let span = bindings.bend_span(index)?;
-        let joints = bindings.attributes(index).bend().unwrap_or(0);
-        if part.kind != PartKind::Main || joints == 0 || bends[index].is_some() {
+        if part.kind != PartKind::Main || bends[index].is_some() {
             return None;
         }
+        let span = bindings.bend_span(index)?;
+        bindings
+            .attributes(index)
+            .bend()
+            .filter(|joints| *joints > 0)?;
         let (reason, help) = if bindings.profile(drawing, index).is_none() {
             (
                 "has no solid",

@@ -240,9 +240,9 @@ impl<'a> ClipBuilder<'a> {
         let main = turn::main(turns);
         let (matched, motion) = (&turns[main].matched, &turns[main].motion);
         let group = &matched.group;
-        let drawn: Vec<Rig> = turns.iter().map(|turn| self.rig(&turn.matched)).collect();
-        let lying = |rig: &Rig| Arc::new(lying::laid_down(rig.clone()));
-        let rigs: Vec<Arc<Rig>> = drawn.iter().map(lying).collect();
+        let drawn = turns.iter().map(|turn| Arc::new(self.rig(&turn.matched)));
+        let drawn: Vec<Arc<Rig>> = drawn.collect();
+        let rigs: Vec<Arc<Rig>> = drawn.iter().map(lying::laid_down).collect();
         let single = |turn: usize, performance: Option<&FoundPerformance<'_>>| {
             self.retargeted(request, &turns[turn], &rigs[turn], performance)
         };

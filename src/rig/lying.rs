@@ -1,5 +1,7 @@
 //! Figures that are drawn from above: as drawn they are upright like a picture on a wall, and as soon as they move, they lie on the ground.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 
 use crate::labels::FigurePartId;
@@ -15,16 +17,17 @@ const STEPS: usize = 160;
 
 /// The same rig, laid down on the ground under it if its figure is seen from above: what faces the viewer faces up, and what is drawn
 /// above is farther away. Legs that are drawn beside the middle of the body are lowered, so that they stand.
-pub(super) fn laid_down(mut rig: Rig) -> Rig {
-    if !rig.facing.is_from_above() {
-        return rig;
+pub(super) fn laid_down(drawn: &Arc<Rig>) -> Arc<Rig> {
+    if !drawn.facing.is_from_above() {
+        return Arc::clone(drawn);
     }
+    let mut rig = Rig::clone(drawn);
     let parts = rig.parts.iter();
     let points = parts.flat_map(|part| part.surface.iter().copied().chain([part.joint, part.tip]));
     let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     let [low, high] = points.fold(none, |[low, high], point| [low.min(point), high.max(point)]);
     if !(low.is_finite() && high.is_finite()) {
-        return rig;
+        return Arc::clone(drawn);
     }
     let all: Vec<FigurePartId> = rig.parts.keys().collect();
     let middle = DVec3::Y * f64::midpoint(low.y, high.y);
@@ -35,7 +38,7 @@ pub(super) fn laid_down(mut rig: Rig) -> Rig {
     if down.is_finite() {
         shift(&mut rig, DVec3::NEG_Y * down);
     }
-    rig
+    Arc::new(rig)
 }
 
 /// Lowers legs that end above the belly to the ground below it.
@@ -55,7 +58,10 @@ fn lower_legs(rig: &mut Rig) {
         rig.parts.keys().filter(is_top).collect()
     };
     for top in tops {
-        let leg = below(rig, top);
+        let leg: Vec<FigurePartId> = {
+            let all = rig.parts.keys();
+            all.filter(|part| rig.is_below(*part, top)).collect()
+        };
         let hip = rig.parts[top].joint;
         let points = leg.iter().flat_map(|part| {
             let part = &rig.parts[*part];
@@ -80,16 +86,6 @@ fn lower_legs(rig: &mut Rig) {
         let step = (0..=STEPS).find(reaches).unwrap_or(STEPS);
         turn(rig, &leg, lowered(step), hip);
     }
-}
-
-/// A part and all that hangs on it.
-fn below(rig: &Rig, top: FigurePartId) -> Vec<FigurePartId> {
-    let above = |part: &FigurePartId| rig.parts[*part].parent;
-    let hangs = |part: &FigurePartId| {
-        let mut ways = std::iter::successors(Some(*part), above).take(rig.parts.len());
-        ways.any(|part| part == top)
-    };
-    rig.parts.keys().filter(hangs).collect()
 }
 
 /// The height of the lowest point of some parts.
@@ -135,7 +131,7 @@ mod tests {
     use crate::retarget::RigPart;
 
     /// A body with a leg to the right.
-    fn rig(facing: Facing) -> Rig {
+    fn rig(facing: Facing) -> Arc<Rig> {
         let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
         let part = RigPart {
             parent: None,
@@ -178,16 +174,16 @@ mod tests {
             is_leg: true,
             ..part.clone()
         };
-        Rig {
+        Arc::new(Rig {
             parts: vec![part, leg].into(),
             facing,
-        }
+        })
     }
 
     #[test]
     fn what_is_seen_from_above_lies_with_its_back_up() {
         let drawn = rig(Facing::Up);
-        let lying = laid_down(drawn.clone());
+        let lying = laid_down(&drawn);
         let part = &lying.parts.raw[0];
         let heights = |part: &RigPart| {
             let heights = part.surface.iter().map(|point| point.y);
@@ -209,6 +205,6 @@ mod tests {
                 assert!(own.distance(drawn) < 1e-9, "{own} {drawn}");
             }
         }
-        assert_eq!(laid_down(rig(Facing::Viewer)), rig(Facing::Viewer));
+        assert_eq!(laid_down(&rig(Facing::Viewer)), rig(Facing::Viewer));
     }
 }

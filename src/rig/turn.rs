@@ -8,7 +8,7 @@ use super::builder::MatchedFigure;
 use super::figure_clip::FigureTurn;
 use crate::bind::MotionTurn;
 use crate::memo::{Exactly, Memo, Same};
-use crate::mocap::in_turn::{BLEND_SECONDS, Playing};
+use crate::mocap::in_turn::{Playing, blend_frames};
 use crate::mocap::travel::Ending;
 use crate::prepare::{self, PreparedClip};
 use crate::retarget::{self, RetargetedClip, Rig};
@@ -136,7 +136,7 @@ pub(super) fn joined(
         let turns: Vec<retarget::Turn<'_>> = turns.collect();
         let first = key.turns.first();
         let frame_time = first.map_or(1.0, |turn| turn.motion.0.clip.frame_time);
-        let blend = (BLEND_SECONDS / frame_time).round() as usize;
+        let blend = blend_frames(frame_time);
         Arc::new(retarget::joined(&key.rig.0, &turns, blend, key.is_loop))
     });
     (rig, clip)

@@ -122,12 +122,11 @@ impl Tracker {
             area: component.area * scale * scale,
             tint: component.tint,
             is_beside_clutter: self.touches_clutter(mark, component),
-            often: self.learned.clutter.often(
-                mark,
-                (component.middle * scale / self.learned.step as f64)
-                    .to_array()
-                    .map(|place| place as usize),
-            ),
+            often: {
+                let place = component.middle * scale / self.learned.step as f64;
+                let place = place.to_array().map(|side| side as usize);
+                self.learned.clutter.often(mark, place)
+            },
         };
         let things = self.components[mark].iter().map(thing);
         let is_possible =
@@ -266,9 +265,7 @@ impl Tracker {
             || self.touches_clutter(mark, component)
             || (0..expected.len()).any(is_beside_another)
     }
-}
 
-impl Tracker {
     /// Whether a component is beside what looks like the mark and stands still.
     fn touches_clutter(&self, mark: usize, component: &Component) -> bool {
         let [least, most] = [component.least, component.most]

@@ -17,15 +17,19 @@ cp "$room"/*.bvh "$room/full"
 for drawing in "$room"/*.svg; do
   sed -E 's/ ?Limited [0-9]+ [0-9]+//' "$drawing" > "$room/full/$(basename "$drawing")"
 done
+# smaller PICTURE COLOURS: with so many colours.
+smaller() {
+  python3 -c "
+import sys
+from PIL import Image
+Image.open(sys.argv[1]).convert('RGB').quantize(int(sys.argv[2])).save(sys.argv[1], optimize=True)" "$@"
+}
 wanted="$*"
 want() { [ -z "$wanted" ] || [[ " $wanted " == *" $1 "* ]]; }
 # strip DRAWING OUT VIEW FROM TO SIZE CELLS
 strip() {
   "$okoshi" render --quiet "$1" -o "$2" --clip 1 --view="$3" --from "$4" --to "$5" --size "$6" --strip "$7" --background '#ffffff'
-  python3 -c "
-import sys
-from PIL import Image
-Image.open(sys.argv[1]).convert('RGB').quantize(128).save(sys.argv[1], optimize=True)" "$2"
+  smaller "$2" 128
 }
 pair() {
   want "$1" || return 0
@@ -43,10 +47,7 @@ clip() {
   name=$(basename "$1" .svg)-$2
   sed -E "s/Motion( -[il]+)?( \"[^\"]*\"( \"[^\"]*\")?| [a-z]+)/Motion -i $2/; s/ ?Limited [0-9]+ [0-9]+//" "$1" > "$room/$name.svg"
   "$okoshi" render --quiet "$room/$name.svg" -o "docs/motion/$name.png" --clip 1 --view="$3" --size "$4" --strip "$5" --background '#ffffff'
-  python3 -c "
-import sys
-from PIL import Image
-Image.open(sys.argv[1]).convert('RGB').quantize(96).save(sys.argv[1], optimize=True)" "docs/motion/$name.png"
+  smaller "docs/motion/$name.png" 96
 }
 # A walk has no fast part from which in-betweens could be omitted.
 sed -i 's/Motion "walk.bvh" "walk"/& Limited 0 24/' "$room/dog.svg"
@@ -73,10 +74,7 @@ alone() {
   want "$1" || return 0
   sed -E 's/Motion</Motion -i</' "examples/motion/$1.svg" > "$room/$1.svg"
   "$okoshi" render --quiet "$room/$1.svg" -o "docs/motion/$1-$2.png" --clip "$2" --view="$3" --size "$4" --strip "$5" --background '#ffffff'
-  python3 -c "
-import sys
-from PIL import Image
-Image.open(sys.argv[1]).convert('RGB').quantize(96).save(sys.argv[1], optimize=True)" "docs/motion/$1-$2.png"
+  smaller "docs/motion/$1-$2.png" 96
 }
 alone parade float 20,10 260x190 4
 alone girl walk -30,8 150x180 8
@@ -87,10 +85,7 @@ alone motorbike drive 20,10 200x150 6
 perform() {
   want ant-hook || return 0
   "$okoshi" render --quiet "$room/ant-hook.svg" -o "docs/motion/$1.png" --clip "$2" --size 120x160 --strip 8 --background '#ffffff' "${@:3}"
-  python3 -c "
-import sys
-from PIL import Image
-Image.open(sys.argv[1]).convert('RGB').quantize(64).save(sys.argv[1], optimize=True)" "docs/motion/$1.png"
+  smaller "docs/motion/$1.png" 64
 }
 perform ant-hook-before before --view 0,5
 perform ant-hook-after after --view 0,5

@@ -120,6 +120,8 @@ struct NamedBodies {
     touching: Vec<Vec<usize>>,
     /// Per pair that touches, lower place first, the area that both share.
     shared: FxHashMap<(usize, usize), f64>,
+    /// Per part the largest area that it shares with a part of a body. Wheels carry nothing, however much lies over them.
+    most_on_body: Vec<f64>,
 }
 
 impl NamedBodies {
@@ -173,13 +175,24 @@ impl NamedBodies {
             read_names(names, &parts, figure, &mut bodies);
         }
         let shared = shared(&areas, &touching);
-        Self {
+        let mut read = Self {
             parts,
             bodies,
             followers,
             touching,
             shared,
-        }
+            most_on_body: Vec::new(),
+        };
+        let places = 0..read.parts.len();
+        read.most_on_body = places.map(|place| read.most_on_body(place)).collect();
+        read
+    }
+
+    fn most_on_body(&self, place: usize) -> f64 {
+        let others = self.touching[place].iter();
+        let of_body = others.filter(|other| self.bodies[**other].role.is_some());
+        let areas = of_body.map(|other| self.shared(place, *other));
+        areas.fold(0.0, f64::max)
     }
 
     fn shared(&self, one: usize, other: usize) -> f64 {
@@ -265,16 +278,6 @@ impl NamedBodies {
         }
     }
 
-    /// Whether a part shares so little with another one, beside what it shares with a part of a body, that it hardly hangs on it: a
-    /// shield on an arm, whose edge is at the body's. Wheels carry nothing, however much lies over them.
-    fn brushes(&self, from: usize, to: usize) -> bool {
-        let others = self.touching[to]
-            .iter()
-            .filter(|other| self.bodies[**other].role.is_some());
-        let most = others.map(|other| self.shared(*other, to));
-        self.shared(from, to) < BRUSH * most.fold(0.0, f64::max)
-    }
-
     /// Queues the ways from a part that was reached to those that it touches.
     fn extend(&self, from: usize, steps: u32, carriers: &[Option<usize>], search: &mut Search) {
         let through = if self.bodies[from].named { 1 } else { UNNAMED };
@@ -288,12 +291,18 @@ impl NamedBodies {
                 None if self.bodies[from].role.is_none() || self.bodies[to].role.is_none() => 1,
                 _ => 2,
             };
-            let brushed = if self.brushes(from, to) { BRUSHED } else { 0 };
+            let shared = self.shared(from, to);
+            // A shield on an arm, whose edge is at the body's, hardly hangs on the body.
+            let brushed = if shared < BRUSH * self.most_on_body[to] {
+                BRUSHED
+            } else {
+                0
+            };
             search.queue.push(Reverse(Way {
                 doubt,
                 steps: steps.saturating_add(through + brushed),
                 // Areas are not negative, so their bits are in their order.
-                shared: Reverse(self.shared(from, to).max(0.0).to_bits()),
+                shared: Reverse(shared.max(0.0).to_bits()),
                 to,
                 from,
             }));

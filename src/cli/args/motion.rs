@@ -6,6 +6,8 @@ use clap::{Args, ValueEnum};
 
 use crate::clips::Legs;
 use crate::export::extensions;
+use crate::lang::keyword::MOTION_SPEED;
+use crate::lang::keyword::signature::Bounds;
 use crate::limited::Camera;
 use crate::mocap::UpAxis;
 use crate::mocap::resample::{Range, parse_range};
@@ -198,11 +200,13 @@ fn seconds(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a number of seconds, for example `1.2`".to_owned())
 }
 
+/// How fast a motion is played, as strings may say it.
 fn speed(text: &str) -> Result<f64, String> {
+    let Bounds { min, max, .. } = MOTION_SPEED;
     let number = text.parse().ok();
     number
-        .filter(|speed| (0.01..=100.0).contains(speed))
-        .ok_or_else(|| "expected a number from 0.01 to 100; 2 is twice as fast".to_owned())
+        .filter(|speed| (min..=max).contains(speed))
+        .ok_or_else(|| format!("expected a number from {min} to {max}; 2 is twice as fast"))
 }
 
 fn range(text: &str) -> Result<Range, String> {

@@ -1,5 +1,6 @@
 //! Labels of skeletons and figures.
 
+mod above;
 mod conventions;
 mod drawings;
 mod facing;

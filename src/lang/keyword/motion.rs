@@ -24,7 +24,7 @@ const SECONDS: Parameter = number(
     "how long it plays: as many whole cycles as come nearest to it; of a file that is no loop, so much of its beginning",
 );
 /// A motion is played at most so much faster, or slower.
-const SPEED: Bounds = Bounds::new(0.01, 100.0, Restriction::None);
+pub(crate) const SPEED: Bounds = Bounds::new(0.01, 100.0, Restriction::None);
 const SPEED_WORD: Parameter = choice("speed", &vocabulary::SPEED, "how fast it plays");
 const FACTOR: Parameter = number("factor", SPEED, "2 is twice as fast, .5 half as fast");
 static OF_FILES: [Parameter; 7] = [
