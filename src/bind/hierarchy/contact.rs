@@ -1,7 +1,7 @@
-//! The hierarchy of a drawing in which no string names a part, but labels or ids do: parts that touch hang on each other.
+//! The hierarchy of a drawing in which no string names a part, but labels or ids do, or which moves: parts that touch hang on each other.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, VecDeque};
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -29,7 +29,10 @@ const BRUSHED: u32 = 2;
 /// What a way through a part without a name costs, in parts.
 const UNNAMED: u32 = 1000;
 
-/// Whether the hierarchy comes from contact: no string names a part, but people named at least two otherwise.
+/// In larger groups of parts without names the largest part is the root.
+const MAX_MEMBERS: usize = 400;
+
+/// Whether the hierarchy comes from contact: no string names a part, but people named at least two otherwise, or want the drawing to move.
 pub(super) fn decides(
     drawing: &Drawing,
     matched: &Matched,
@@ -42,7 +45,8 @@ pub(super) fn decides(
     let otherwise = |part: &PartId| {
         !names[*part].name.is_empty() || names::of_main_part(drawing, matched, *part).is_some()
     };
-    !mains.clone().any(by_string) && mains.filter(otherwise).nth(1).is_some()
+    !mains.clone().any(by_string)
+        && (mains.filter(otherwise).nth(1).is_some() || matched.asks_for_motion())
 }
 
 fn is_named(name: &OwnName) -> bool {
@@ -51,7 +55,8 @@ fn is_named(name: &OwnName) -> bool {
 
 /// Finds the parents of all parts that touch others, apart from those that a string attaches.
 ///
-/// In each connected group the root is the trunk by its name, else the largest named part. From there the others are attached
+/// In each connected group the root is the trunk by its name, else the largest named part. If at most one part of the drawing has a
+/// name, all count as named, and the root is the part in the middle, from which the others are least far. From there the others are attached
 /// in the order of their distance: to the part that carries them by anatomy if they touch it, else to the one that
 /// they overlap most of those nearest to the root. A part without a name hangs on the named part that it overlaps most.
 pub(super) fn parents(context: Context<'_>, names: &Names) -> Vec<(PartId, Option<PartId>)> {
@@ -114,6 +119,10 @@ impl NamedBody {
 /// The main parts of a drawing, with those that they touch. Places are indices into `parts`.
 struct NamedBodies {
     parts: Vec<PartId>,
+    /// Whether at most one of them has a name of its own, so that all count as named.
+    nameless: bool,
+    /// Per part the longer side of its bounding box.
+    lengths: Vec<f64>,
     bodies: Vec<NamedBody>,
     /// Per part those that their strings attach to it.
     followers: Vec<Vec<usize>>,
@@ -134,6 +143,10 @@ impl NamedBodies {
             .iter()
             .map(|part| NamedBody::read(matched, names, *part, &places))
             .collect();
+        let nameless = bodies.iter().filter(|body| body.named).nth(1).is_none();
+        for body in &mut bodies {
+            body.named |= nameless;
+        }
         let mut followers = vec![vec![]; parts.len()];
         for (place, body) in bodies.iter().enumerate() {
             if let Some(Some(parent)) = body.attached {
@@ -174,9 +187,15 @@ impl NamedBodies {
         for figure in geometry::connected(&touching) {
             read_names(names, &parts, figure, &mut bodies);
         }
+        let lengths = areas
+            .iter()
+            .map(|body| (body.bounds.1 - body.bounds.0).max_element());
+        let lengths = lengths.collect();
         let shared = shared(&areas, &touching);
         let mut read = Self {
             parts,
+            nameless,
+            lengths,
             bodies,
             followers,
             touching,
@@ -227,12 +246,32 @@ impl NamedBodies {
             let trunk = self.bodies[place].role.and_then(Role::trunk);
             trunk.unwrap_or(u8::MAX)
         };
-        named.copied().min_by(|one, other| {
-            let sizes = [*other, *one].map(|place| self.bodies[place].area);
-            rank(*one)
-                .cmp(&rank(*other))
-                .then(sizes[0].total_cmp(&sizes[1]))
-        })
+        // The least is taken.
+        let size = |place: usize| match self.nameless && members.len() <= MAX_MEMBERS {
+            true => self.distance_to_all(place),
+            false => -self.bodies[place].area,
+        };
+        let ranked = named.map(|place| (rank(*place), size(*place), *place));
+        let least = ranked.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        least.map(|(.., place)| place)
+    }
+
+    /// How far a part is from all others of its group: how many parts on, each as often as it is long.
+    fn distance_to_all(&self, place: usize) -> f64 {
+        let mut steps = FxHashMap::from_iter([(place, 0.0)]);
+        let mut queue = VecDeque::from([place]);
+        let mut sum = 0.0;
+        while let Some(place) = queue.pop_front() {
+            let own: f64 = steps[&place];
+            sum += own * self.lengths[place];
+            for &other in &self.touching[place] {
+                steps.entry(other).or_insert_with(|| {
+                    queue.push_back(other);
+                    own + 1.0
+                });
+            }
+        }
+        sum
     }
 
     /// The places with their parents, for all parts in groups with a name that no string attaches.

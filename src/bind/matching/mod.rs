@@ -42,7 +42,8 @@ use typed_index_collections::TiVec;
 use super::bindings::{DrawingString, PartId, PartKind, StringId};
 use crate::diagnostic::Diagnostic;
 use crate::lang::Variables;
-use crate::lang::value::Setting;
+use crate::lang::ast::Annotation;
+use crate::lang::value::{Setting, Value};
 use crate::memo::Memo;
 use crate::svg::Drawing;
 use areas::Area;
@@ -180,6 +181,17 @@ impl Matched {
             binder::stacking(drawing, &self.parts, &self.node_groups, is_scoped, memo)
         };
         self.stacking.clone().unwrap_or_else(read)
+    }
+
+    /// Whether a string asks for a motion.
+    pub(in crate::bind) fn asks_for_motion(&self) -> bool {
+        // As `Bindings::clip_requests`.
+        self.strings.iter().any(|string| {
+            let applies = matches!(string.annotation, Annotation::Defaults(_));
+            let mut settings = string.settings.iter();
+            (applies || string.binding.is_some())
+                && settings.any(|setting| matches!(setting.value, Value::Motion(_)))
+        })
     }
 
     /// The string of a part.

@@ -7,19 +7,11 @@ use crate::bind::matching::Matched;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
-use crate::lang::value::Value;
 use crate::source::Span;
 
 /// Reports `Limited`, `Bone`, `Carry`, `Swing` and `Perform`, each once, in a drawing without a motion.
 pub(super) fn without_motion(matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
-    // As `Bindings::clip_requests`.
-    let asks_for_motion = |string: &DrawingString| {
-        let applies = matches!(string.annotation, Annotation::Defaults(_));
-        let mut settings = string.settings.iter();
-        (applies || string.binding.is_some())
-            && settings.any(|setting| matches!(setting.value, Value::Motion(_)))
-    };
-    if matched.strings.iter().any(asks_for_motion) {
+    if matched.asks_for_motion() {
         return;
     }
     for keyword in [
