@@ -119,6 +119,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::UnreadNames, "text-bare-names-too-far"),
     (Code::UnusualSize, "figure-of-unusual-size"),
     (Code::LinesLeftOut, "ink-outside-is-a-guide"),
+    (Code::Lettering, "lettering-beside-shapes"),
     (Code::FirstLook, "first-look"),
 ];
 

@@ -41,22 +41,46 @@ pub(crate) use vehicles::VehiclePart;
 
 use typed_index_collections::TiVec;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::memo::Memo;
 use crate::svg::Drawing;
 use attributes::PartAttributes;
 use hierarchy::Tree;
-use matching::Matched;
+use matching::{Matched, Texts};
 
 /// Binds the strings of a drawing to its parts.
+///
+/// Strings that may be lettering, and do not make sense together, are lettering: art is built whatever is written on it.
 pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
-    let mut matched = matching::find(drawing, memo, diagnostics);
+    let mut found = Vec::new();
+    let (bindings, is_doubtful) = bind_as(drawing, Texts::Strings, memo, &mut found);
+    let error = found
+        .iter()
+        .find(|finding| finding.severity() == Severity::Error);
+    let Some(error) = error.filter(|_| is_doubtful) else {
+        diagnostics.append(&mut found);
+        return bindings;
+    };
+    diagnostics.push(reports::lettering(&bindings.strings, error));
+    let (bindings, _) = bind_as(drawing, Texts::Lettering, memo, diagnostics);
+    bindings
+}
+
+/// Binds the strings of a drawing, if its texts are some. Also returns whether they may be lettering.
+fn bind_as(
+    drawing: &Drawing,
+    texts: Texts,
+    memo: &Memo,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> (Bindings, bool) {
+    let mut matched = matching::find(drawing, texts, memo, diagnostics);
     let attributes = attributes::resolve(drawing, &matched, diagnostics);
     let tree = hierarchy::build(drawing, &matched, &attributes, memo, diagnostics);
     bodies::soften(drawing, &mut matched, &tree);
     discs::find(&mut matched, &tree);
-    diagnostics.extend(reports::all(drawing, &matched, &attributes, &tree));
-    assembled(matched, attributes, tree)
+    diagnostics.extend(reports::all(drawing, texts, &matched, &attributes, &tree));
+    let is_doubtful = matched.is_doubtful;
+    (assembled(matched, attributes, tree), is_doubtful)
 }
 
 /// Puts the results of all steps together.

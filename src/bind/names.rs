@@ -6,6 +6,8 @@ use super::bindings::NamedBy;
 use super::words::{PROGRAM_WORDS, PROGRAM_WORDS_WITH_NUMBERS};
 use crate::svg::{Element, GroupId};
 
+/// The name of the virtual node that is the parent of parts without one.
+pub(super) const ROOT: &str = "Root";
 /// Longer labels are texts, not names; in characters.
 const MAX_NAME: usize = 64;
 /// The least length of a run of hexadecimal digits that no person writes.

@@ -741,6 +741,17 @@ codes! {
     /// Leave it as it is, or choose: `%Shape default` makes plates of all shapes, `%Shape inflate` inflates all, and
     /// `%Strokes lines` leaves outlines out. One shape gets its own by its string: `Head$Shape round`.
     FirstLook = "H417", "no string says `Shape`";
+    /// The texts of a drawing look like names of parts or like strings, but make no sense together: there are more than shapes, two
+    /// are the same, or a parent is not in the drawing. None has a keyword, and most name nothing that figures have. So they are taken
+    /// for lettering, as the pins of a chip, a price or an address, and the drawing is built without strings.
+    ///
+    /// ```text
+    /// the words GND, VCC and P$1 beside the only shape
+    /// ```
+    ///
+    /// Leave it as it is if the texts are lettering. If they name parts, write a text with a keyword too, such as `%Scale 1`: then all
+    /// texts are read as strings, and what is wrong with each is reported.
+    Lettering = "H418", "texts are taken as lettering";
 }
 
 impl Code {

@@ -1,5 +1,6 @@
 //! File access. No other module opens, reads, writes or renames files.
 
+mod bounded;
 mod cache;
 mod folder;
 mod poll;

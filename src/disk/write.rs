@@ -3,10 +3,11 @@
 //! An output keeps its permissions and symbolic links, and can be a device or a pipe, which crates for atomic writes do
 //! not cover.
 
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
+use super::bounded::{self, Bounded};
 use super::scratch::Scratch;
 use super::temporary::Temporary;
 use crate::export::{Output, SeekableOutput};
@@ -96,7 +97,7 @@ pub(super) fn write_atomic<T>(
         Ok(metadata) if metadata.is_dir() => return Err(WriteError::Folder(path.to_owned())),
         Ok(metadata) if !metadata.is_file() => {
             // A file must not replace the null device or a pipe.
-            let device = File::options().write(true).open(&target).map_err(failed)?;
+            let device = bounded::open_device(&target, bounded::PATIENCE).map_err(failed)?;
             return fill_stream(device, fill).map_err(failed);
         }
         Ok(metadata) if metadata.permissions().readonly() => {
@@ -112,7 +113,7 @@ pub(super) fn write_atomic<T>(
 
     let mut temporary =
         Temporary::new(folder_of(&target)).map_err(|error| folder_failure(&target, path, error))?;
-    let mut out = SeekableOutput::new(temporary.file());
+    let mut out = SeekableOutput::new(Bounded::new(temporary.file()));
     let answer = fill(&mut out)
         .and_then(|answer| out.finish().map(|_| answer))
         .map_err(failed)?;
@@ -159,7 +160,8 @@ pub(crate) fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     let failed = |source| failure(path, source);
     let mut temporary =
         Temporary::new(folder_of(path)).map_err(|error| folder_failure(path, path, error))?;
-    temporary.file().write_all(content).map_err(failed)?;
+    let mut file = Bounded::new(temporary.file());
+    file.write_all(content).map_err(failed)?;
     temporary.create(path).map_err(|error| match error.kind() {
         // Another program created the file meanwhile.
         io::ErrorKind::AlreadyExists => WriteError::Exists(path.to_owned()),

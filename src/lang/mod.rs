@@ -29,7 +29,7 @@ pub(crate) use normalize::normalize;
 pub(crate) use parameter::{ParameterRef, parameter_at};
 pub use parse::{Container, parse};
 pub(crate) use parse::{
-    annotates, describes, is_name_char, is_word_char, looks_like_string, strings_in,
+    annotates, describes, is_name_char, is_word_char, looks_like_string, says_keyword, strings_in,
 };
 pub(crate) use variables::Variables;
 

@@ -66,6 +66,19 @@ pub fn annotates(text: &str) -> bool {
     }
 }
 
+/// Whether a keyword, which may be misspelled, follows a sign of `text`, or nothing follows its `$`: hardly anybody writes that by
+/// chance.
+pub fn says_keyword(text: &str) -> bool {
+    let normalized = Normalized::new(text);
+    let text = normalized.as_str().trim_start();
+    let attributes = match text.strip_prefix('%') {
+        Some(defaults) => Some(defaults),
+        None => text.split_once('$').map(|(_, attributes)| attributes),
+    };
+    let is_bare = text.len() > 1 && text.trim_end().ends_with('$');
+    is_bare || attributes.is_some_and(starts_with_near_keyword)
+}
+
 /// Whether a description is a string: what [annotates] a drawing, a `*`, or the parent of a part without a name, which nobody
 /// describes a shape with by chance.
 pub fn describes(text: &str) -> bool {

@@ -1,5 +1,8 @@
 //! How a part that swings is carried by what it hangs on.
 
+use std::collections::VecDeque;
+use std::rc::Rc;
+
 use glam::{DQuat, DVec3};
 
 use super::Rig;
@@ -38,10 +41,10 @@ impl Carried {
     /// The part of a rig whose root part's node is at these places. Paths are smoothed by a Gaussian of this deviation, in frames.
     pub(super) fn of(
         rig: &Rig,
-        order: &[FigurePartId],
         part: FigurePartId,
         path: &[DVec3],
         rotations: &Rotations,
+        tracks: &mut Tracks,
         deviation: f64,
     ) -> Self {
         let own = &rig.parts[part];
@@ -49,13 +52,11 @@ impl Carried {
         let holder = held_by(rig, part).unwrap_or(part);
         let back = own.node.rotation.inverse();
         let [axis, down] = [own.tip - own.joint, DVec3::NEG_Y].map(|way| back * way);
-        let mut kinematics = ForwardKinematics::new(rig);
+        let above = tracks.of(rig, rotations, holder, path.len());
+        let nodes = tracks.of(rig, rotations, part, path.len());
         let mut turns = Vec::with_capacity(path.len());
         let mut paths: [Vec<DVec3>; 6] = Default::default();
-        for (frame, root) in path.iter().enumerate() {
-            kinematics.pose(rig, rotations, order, frame);
-            let node = kinematics.transforms[part];
-            let above = kinematics.transforms[holder];
+        for ((root, node), above) in path.iter().zip(&*nodes).zip(&*above) {
             let place = node.apply(joint);
             let points = [
                 place + *root,
@@ -90,6 +91,66 @@ impl Carried {
             let points = splines.each_ref().map(|spline| spline.position(share));
             carriage(points, splines[0].velocity(share))
         }
+    }
+}
+
+/// How many places of nodes are kept: a part that swings needs those of what it hangs on, which hangs on others that swing.
+const MOST_KEPT: usize = 1 << 18;
+
+/// The nodes of parts in all frames, with the root part's node at the origin. Of those that were needed last some are kept, so that
+/// in a long chain none is found again for each part below it.
+pub(super) struct Tracks {
+    kinematics: ForwardKinematics,
+    /// The oldest first.
+    kept: VecDeque<(FigurePartId, Rc<[Transform]>)>,
+}
+
+impl Tracks {
+    pub(super) fn new(rig: &Rig) -> Self {
+        Self {
+            kinematics: ForwardKinematics::new(rig),
+            kept: VecDeque::new(),
+        }
+    }
+
+    /// Forgets a part, which turns otherwise now.
+    pub(super) fn forget(&mut self, part: FigurePartId) {
+        self.kept.retain(|(kept, _)| *kept != part);
+    }
+
+    /// The nodes of a part.
+    fn of(
+        &mut self,
+        rig: &Rig,
+        rotations: &Rotations,
+        part: FigurePartId,
+        frames: usize,
+    ) -> Rc<[Transform]> {
+        let find = |part: FigurePartId| self.kept.iter().rev().find(|(kept, _)| *kept == part);
+        let mut missing = vec![];
+        let mut above = None;
+        let mut next = Some(part);
+        while let Some(part) = next {
+            if let Some((_, track)) = find(part) {
+                above = Some(Rc::clone(track));
+                break;
+            }
+            missing.push(part);
+            next = rig.parts[part].parent;
+        }
+        for missing in missing.into_iter().rev() {
+            let node = |frame: usize| {
+                let parent = above.as_ref().map(|above| above[frame]);
+                (self.kinematics).placed(missing, rotations.at(missing, frame), parent)
+            };
+            let track: Rc<[Transform]> = (0..frames).map(node).collect();
+            self.kept.push_back((missing, Rc::clone(&track)));
+            while self.kept.len() > 2 && self.kept.len() * frames > MOST_KEPT {
+                self.kept.pop_front();
+            }
+            above = Some(track);
+        }
+        above.unwrap_or_default()
     }
 }
 

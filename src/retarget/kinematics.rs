@@ -42,16 +42,25 @@ impl ForwardKinematics {
     ) {
         for part in order.iter().copied() {
             let rotation = rotations.at(part, frame);
-            let [above, own] = self.joints[part];
-            let position = match rig.parts[part].parent {
-                Some(parent) => {
-                    let parent = self.transforms[parent];
-                    parent.rotation * above + parent.position - rotation * own
-                }
-                None => DVec3::ZERO,
-            };
-            self.transforms[part] = Transform { rotation, position };
+            let parent = rig.parts[part].parent;
+            let parent = parent.map(|parent| self.transforms[parent]);
+            self.transforms[part] = self.placed(part, rotation, parent);
         }
+    }
+
+    /// A part with this rotation, on its parent.
+    pub(super) fn placed(
+        &self,
+        part: FigurePartId,
+        rotation: DQuat,
+        parent: Option<Transform>,
+    ) -> Transform {
+        let [above, own] = self.joints[part];
+        let position = match parent {
+            Some(parent) => parent.rotation * above + parent.position - rotation * own,
+            None => DVec3::ZERO,
+        };
+        Transform { rotation, position }
     }
 
     /// The height of the lowest point of a part's surface.

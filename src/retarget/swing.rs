@@ -6,7 +6,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Rig;
-use super::carried::{self, Carriage, Carried};
+use super::carried::{self, Carriage, Carried, Tracks};
 use super::rotations::{Rotations, arc};
 use crate::labels::FigurePartId;
 use crate::mocap::{Transform, height};
@@ -50,6 +50,7 @@ pub(super) fn swing(
     }
     let deviation = SMOOTHING / frame_time;
     let warm_up = is_cycle(rotations, path.len());
+    let mut tracks = Tracks::new(rig);
     for part in order {
         let own = &rig.parts[*part];
         let Some(stiffness) = own.swing else { continue };
@@ -58,7 +59,7 @@ pub(super) fn swing(
         if !(length > 0.0 && length.is_finite() && stiffness > 0.0) {
             continue;
         }
-        let carried = Carried::of(rig, order, *part, path, rotations, deviation);
+        let carried = Carried::of(rig, *part, path, rotations, &mut tracks, deviation);
         // A bone turns where the one before ends, and stays out of what the whole part hangs on.
         let obstacle =
             carried::held_by(rig, *part).and_then(|holder| Obstacle::of(rig, holder, own.tip));
@@ -84,6 +85,7 @@ pub(super) fn swing(
         });
         let turns = turns.collect();
         rotations.set(rig, order, *part, turns);
+        tracks.forget(*part);
     }
 }
 

@@ -12,7 +12,9 @@ use super::style::Styles;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::threads::nesting_limit;
 
-/// How many elements a drawing may expand to.
+/// How many elements a drawing may expand to, if it has fewer than twice as many bytes.
+const LEAST: u64 = 1 << 19;
+/// How many elements the largest drawings may expand to.
 const MOST: u64 = 1 << 22;
 
 /// How many elements its clones may expand to. Each becomes a part.
@@ -52,7 +54,9 @@ pub(super) fn check(
         blamed_clone: None,
         has_detailed_clones: false,
         has_references: prepared.draws_again,
+        most: (prepared.text.len() as u64 / 2).clamp(LEAST, MOST),
     };
+    let most = growth.most;
     let Size { elements, .. } = growth.size(document.root_element());
     if let Some(clone) = growth.blamed_clone.and_then(|node| document.get_node(node)) {
         let message = if growth.has_detailed_clones {
@@ -65,7 +69,7 @@ pub(super) fn check(
             Diagnostic::new(Code::LimitPassed, start_tag(clone, prepared), message).help(help),
         ));
     }
-    if elements <= MOST {
+    if elements <= most {
         return Ok(());
     }
     let blamed = growth.blamed.and_then(|node| document.get_node(node));
@@ -74,7 +78,7 @@ pub(super) fn check(
     let message = if growth.too_deep {
         format!("{what} are more than {} levels deep", nesting_limit())
     } else {
-        format!("{what} expand to more than {MOST} elements")
+        format!("{what} expand to more than {most} elements")
     };
     let help = "remove the nesting: use patterns of plain shapes, and clips of a single path";
     Err(Box::new(
@@ -112,6 +116,8 @@ struct Growth<'a, 'input> {
     has_detailed_clones: bool,
     /// Whether there are definitions that are drawn again at each reference, besides clones.
     has_references: bool,
+    /// How many elements the drawing may expand to.
+    most: u64,
 }
 
 impl<'a, 'input> Growth<'a, 'input> {
@@ -160,7 +166,7 @@ impl<'a, 'input> Growth<'a, 'input> {
                 size.elements = size.elements.saturating_add(grown);
             }
         }
-        if size.elements > MOST && self.blamed.is_none() {
+        if size.elements > self.most && self.blamed.is_none() {
             self.blamed = Some(node.id());
         }
         size
@@ -198,7 +204,7 @@ impl<'a, 'input> Growth<'a, 'input> {
         if self.depth >= nesting_limit() {
             // usvg expands references recursively.
             self.too_deep = true;
-            let elements = MOST + 1;
+            let elements = self.most + 1;
             return Size {
                 elements,
                 ..Size::default()

@@ -24,6 +24,7 @@ mod replacements;
 mod round;
 mod separate;
 mod shapes;
+mod sheets;
 mod style;
 mod tangles;
 mod text;

@@ -19,7 +19,8 @@ use super::tangles::Tangles;
 use super::unsolid::Who;
 use super::walk::{Inherited, Leaf, Task, Walk, group_kind};
 use super::{
-    Drawing, Element, Paint, PaintKey, PictureSource, Shape, ShapeId, dropped, growth, unseen,
+    Drawing, Element, Paint, PaintKey, PictureSource, Shape, ShapeId, dropped, growth, sheets,
+    unseen,
 };
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{FillRule, Outline, resolve_crossings, resolve_overlaps};
@@ -36,7 +37,9 @@ pub(super) fn read(
 ) -> Result<Drawing, Box<Diagnostic>> {
     let unshown = Mutex::new(Vec::new());
     let viewports = ImageViewports::of(document);
+    sheets::check_lengths(document, prepared)?;
     let styles = Styles::read(document);
+    sheets::check_comparisons(document, prepared, &styles)?;
     let early_ids = if prepared.draws_again || prepared.has_clones {
         let ids = Ids::read(document, prepared);
         growth::check(document, prepared, &styles, &ids)?;

@@ -91,6 +91,18 @@ impl<'a> Styles<'a> {
         }
     }
 
+    /// The number of rules.
+    pub(super) fn rule_count(&self) -> usize {
+        self.sheet.rules.len()
+    }
+
+    /// Compares an element with all rules, for an element that counts it.
+    pub(super) fn compare_all(&self, element: &impl simplecss::Element) {
+        for rule in &self.sheet.rules {
+            rule.selector.matches(element);
+        }
+    }
+
     /// What rules set and is wanted, by name and value.
     pub(super) fn rules_with(&self, wanted: impl Fn(&str, &str) -> bool) -> Vec<Rule<'_>> {
         let rules = self.sheet.rules.iter();

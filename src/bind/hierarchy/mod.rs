@@ -35,9 +35,6 @@ use joints::Joints;
 use limbs::Limbs;
 use names::Names;
 
-/// The name of the virtual node that is the parent of parts without one.
-const ROOT: &str = "Root";
-
 /// The parts as nodes of the hierarchy.
 pub(in crate::bind) struct Tree {
     /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.

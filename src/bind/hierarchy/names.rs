@@ -6,7 +6,7 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::Context;
 use crate::bind::bindings::{DrawingString, NamedBy, PartId, PartKind, StringHolder};
 use crate::bind::matching::Matched;
-use crate::bind::names::{OwnName, of_element};
+use crate::bind::names::{OwnName, ROOT, of_element};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::{self, Annotation, Name};
 use crate::source::Span;
@@ -115,7 +115,7 @@ impl Names {
             let Some(own) = of_main_part(context.drawing, context.matched, part) else {
                 continue;
             };
-            let is_free = |name: &str| self.is_free(name) && name != super::ROOT;
+            let is_free = |name: &str| self.is_free(name) && name != ROOT;
             let name = if is_free(&own.name) {
                 own.name
             } else {

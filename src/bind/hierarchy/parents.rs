@@ -3,10 +3,11 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
+use super::Context;
 use super::names::Names;
-use super::{Context, ROOT};
 use crate::bind::bindings::{DrawingString, PartId, PartKind};
 use crate::bind::matching::{LayerId, LayerKind, Matched};
+use crate::bind::names::ROOT;
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};

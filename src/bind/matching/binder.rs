@@ -192,7 +192,7 @@ impl<'a> Binder<'a> {
             if let Some(point) = leaders.points.get(&string)
                 && is_legend
                 && self.waiting_label(string).is_some()
-                && let Some(part) = self.stacking().at(*point).first()
+                && let Some(part) = self.stacking().topmost(*point, 1).first()
             {
                 self.bind(string, *part, BoundBy::Leader);
             }

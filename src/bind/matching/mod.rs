@@ -4,6 +4,7 @@ mod areas;
 mod bare_names;
 mod binder;
 mod converted;
+mod doubt;
 mod fills;
 mod ground_shadows;
 mod held;
@@ -33,7 +34,7 @@ pub(crate) use nearest::DistanceMode;
 pub(in crate::bind) use parts::MatchedPart;
 pub(crate) use settings::{BindRule, DrawingSettings, Strokes};
 pub(in crate::bind) use stacking::Stacking;
-pub(in crate::bind) use strings::wants_part;
+pub(in crate::bind) use strings::{Texts, wants_part};
 
 use std::sync::Arc;
 
@@ -54,6 +55,8 @@ use node_groups::{NodeGroups, PartSource};
 pub(in crate::bind) struct Matched {
     /// Whether the drawing is annotated at all.
     pub(in crate::bind) annotated: bool,
+    /// Whether the strings may be lettering that looks like strings.
+    pub(in crate::bind) is_doubtful: bool,
     /// Whether no string says `Shape`, so that what is rounded is inflated.
     pub(in crate::bind) is_first_look: bool,
     /// The strings, in the order of the file.
@@ -84,10 +87,11 @@ pub(super) const ROUNDED: f64 = 0.5;
 /// Reads the strings of a drawing, finds its parts, and binds each string to the part that it means.
 pub(in crate::bind) fn find(
     drawing: &Drawing,
+    texts: Texts,
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Matched {
-    let read = strings::read(drawing, diagnostics);
+    let read = strings::read(drawing, texts, diagnostics);
     let settings = read.settings;
     let layers = layers::find(drawing, &read.all, diagnostics);
     let mut node_groups = NodeGroups::read(drawing, &read.all, &layers);
@@ -135,6 +139,7 @@ pub(in crate::bind) fn find(
     let kinds = kinds::classify(drawing, &strings, &parts, &layers, backgrounds);
     Matched {
         annotated: read.annotated,
+        is_doubtful: read.is_doubtful,
         is_first_look: read.is_first_look,
         strings,
         parts,

@@ -23,6 +23,8 @@ const GROUND_CORNERS: usize = 2;
 const LIES_ON: f64 = 0.9;
 /// How many parts are compared with a part at most: in a higher pile, the rest would hardly be seen.
 const MAX_NEIGHBORS: usize = 512;
+/// How many parts under a point are sorted at a time, at least.
+const SORTED: usize = 64;
 /// As soon as it is known what is seen directly under a part, no more than this many of the parts that it lies on are recorded.
 const MAX_HOSTS: usize = 8;
 
@@ -176,14 +178,26 @@ impl Stacking {
         }
     }
 
-    /// The parts at a point, the topmost first.
-    pub(super) fn at(&self, point: DVec2) -> Vec<PartId> {
+    /// The parts at a point, the topmost first, and at most so many.
+    pub(super) fn topmost(&self, point: DVec2, count: usize) -> Vec<PartId> {
         let boxes = self.tree.locate_all_at_point([point.x, point.y]);
-        let found = boxes.map(|found| found.data);
-        let mut found: Vec<PartId> = found
-            .filter(|part| contains(&self.parts[*part].outline, point))
-            .collect();
-        found.sort_unstable_by(|a, b| b.cmp(a));
+        let mut near: Vec<PartId> = boxes.map(|found| found.data).collect();
+        let later_first = |a: &PartId, b: &PartId| b.cmp(a);
+        let mut found = Vec::new();
+        // In pieces, as thousands may lie in one place of which few are wanted.
+        let mut rest = near.as_mut_slice();
+        while !rest.is_empty() && found.len() < count {
+            let some = (2 * count).max(SORTED).min(rest.len());
+            if some < rest.len() {
+                rest.select_nth_unstable_by(some - 1, later_first);
+            }
+            let (first, others) = rest.split_at_mut(some);
+            first.sort_unstable_by(later_first);
+            let on = first.iter().copied();
+            let on = on.filter(|part| contains(&self.parts[*part].outline, point));
+            found.extend(on.take(count - found.len()));
+            rest = others;
+        }
         found
     }
 

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::bare_names;
+use super::doubt;
 use super::layers::LayerKind;
 use super::settings::{DrawingSettings, Strokes};
 use crate::bind::bindings::{StringHolder, StringId};
@@ -19,11 +20,22 @@ use crate::source::{Span, Text};
 use crate::svg::{Drawing, GroupKind, Label};
 use crate::threads::GRAIN;
 
+/// What the texts and descriptions of a drawing are taken for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::bind) enum Texts {
+    /// Strings, if one of them looks like one.
+    Strings,
+    /// Lettering, which is nothing of ours.
+    Lettering,
+}
+
 /// The strings of a drawing, and what its `%` strings set.
 #[derive(Debug, Default)]
 pub(super) struct Strings {
     /// Whether the drawing is annotated at all.
     pub(super) annotated: bool,
+    /// Whether the strings may be lettering that looks like strings.
+    pub(super) is_doubtful: bool,
     /// Whether no string says `Shape`.
     pub(super) is_first_look: bool,
     /// In the order of the file.
@@ -80,7 +92,13 @@ fn is_about_all(text: &str) -> bool {
 }
 
 /// Finds and parses the strings.
-pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Strings {
+pub(super) fn read(drawing: &Drawing, texts: Texts, diagnostics: &mut Vec<Diagnostic>) -> Strings {
+    if texts == Texts::Lettering {
+        return Strings {
+            is_first_look: true,
+            ..Strings::default()
+        };
+    }
     let mut signed = drawing
         .labels
         .iter()
@@ -132,6 +150,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
         }
         annotations.push((holder, text, annotation));
     }
+    let is_doubtful = doubt::is_doubtful(drawing, &annotations);
     let words = || {
         listed(
             captions
@@ -185,6 +204,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Stri
     };
     Strings {
         annotated,
+        is_doubtful,
         settings: DrawingSettings::read(drawing, &defaults, strokes),
         is_first_look,
         all,

@@ -4,6 +4,7 @@ mod backgrounds;
 mod first_look;
 mod idle;
 mod legends;
+mod lettering;
 mod located;
 mod misplaced;
 mod off_page;
@@ -13,17 +14,19 @@ mod unbound;
 mod uncertain;
 mod unseen;
 
+pub(in crate::bind) use lettering::lettering;
 pub(crate) use located::locate;
 
 use super::attributes::PartAttributes;
 use super::hierarchy::Tree;
-use super::matching::Matched;
+use super::matching::{Matched, Texts};
 use crate::diagnostic::Diagnostic;
 use crate::svg::Drawing;
 
 /// All reports.
 pub(in crate::bind) fn all(
     drawing: &Drawing,
+    texts: Texts,
     matched: &Matched,
     attributes: &PartAttributes,
     tree: &Tree,
@@ -44,6 +47,8 @@ pub(in crate::bind) fn all(
     off_page::far_away(drawing, matched, attributes, tree, &mut found);
     unseen::hidden(drawing, matched, &mut found);
     unseen::converted(drawing, &mut found);
-    unseen::names(drawing, matched, &mut found);
+    if texts == Texts::Strings {
+        unseen::names(drawing, matched, &mut found);
+    }
     found
 }

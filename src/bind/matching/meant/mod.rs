@@ -18,7 +18,7 @@ use crate::memo::{Bits, Memo};
 use units::{Candidate, Candidates, Units};
 pub(in crate::bind::matching) use units::{Scope, TextPlace, UnitName};
 use words::NEVER;
-pub(in crate::bind::matching) use words::{Sense, said_side};
+pub(in crate::bind::matching) use words::{Sense, Topic, said_side};
 
 /// How many of the nearest units a text can have at first.
 const NEAREST: usize = 8;

@@ -270,7 +270,7 @@ impl Units {
         let distinct = if text.has_leader { 1 } else { points.len() };
         for (index, point) in points[..distinct].iter().enumerate() {
             let place = if index == 2 { END } else { 0.0 };
-            let stack = self.stacking.at(*point);
+            let stack = self.stacking.topmost(*point, count.max(1));
             let mut seen = stack.first().map(|part| self.of_part[*part]);
             let mut shows = true;
             while let Some(unit) = seen {
@@ -279,7 +279,7 @@ impl Units {
                 shows = false;
             }
             // As many as of those beside it: each is looked for among those found so far.
-            for part in stack.into_iter().take(count) {
+            for part in stack {
                 offer(self.of_part[part], place + COVERED, false);
             }
             let Some(tree) = self.trees.get(&text.scope) else {
