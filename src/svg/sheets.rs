@@ -15,9 +15,9 @@ const MOST_STEPS: usize = 1 << 30;
 /// The same for each byte of the drawing.
 const STEPS_A_BYTE: usize = 1 << 10;
 /// How often an element may be compared with a piece of a selector.
-const MOST_COMPARISONS: usize = 1 << 23;
+const MOST_COMPARISONS: usize = 1 << 24;
 /// The same for each byte of the drawing.
-const COMPARISONS_A_BYTE: usize = 8;
+const COMPARISONS_A_BYTE: usize = 16;
 
 /// Rejects a drawing whose styles would take very long to read.
 pub(super) fn check_lengths(
