@@ -49,6 +49,14 @@ pub(super) fn decides(
         && (mains.filter(otherwise).nth(1).is_some() || matched.asks_for_motion())
 }
 
+/// Whether at most one part has a name of its own, so that names say nothing about what hangs on what.
+pub(super) fn is_nameless(context: Context<'_>, names: &Names) -> bool {
+    let mut named = context
+        .mains()
+        .filter(|part| is_named(&names.of_part[*part]));
+    named.nth(1).is_none()
+}
+
 fn is_named(name: &OwnName) -> bool {
     name.by != NamedBy::Automatic && !name.name.is_empty()
 }
@@ -56,9 +64,9 @@ fn is_named(name: &OwnName) -> bool {
 /// Finds the parents of all parts that touch others, apart from those that a string attaches.
 ///
 /// In each connected group the root is the trunk by its name, else the largest named part. If at most one part of the drawing has a
-/// name, all count as named, and the root is the part in the middle, from which the others are least far. From there the others are attached
-/// in the order of their distance: to the part that carries them by anatomy if they touch it, else to the one that
-/// they overlap most of those nearest to the root. A part without a name hangs on the named part that it overlaps most.
+/// name, all count as named, and the root is the part in the middle, from which the others are least far. From there the others are
+/// attached in the order of their distance: to the part that carries them by anatomy if they touch it, else to the one that they
+/// overlap most of those nearest to the root. A part without a name hangs on the named part that it overlaps most.
 pub(super) fn parents(context: Context<'_>, names: &Names) -> Vec<(PartId, Option<PartId>)> {
     let bodies = NamedBodies::read(context, names);
     let part = |place: usize| bodies.parts[place];
@@ -143,7 +151,7 @@ impl NamedBodies {
             .iter()
             .map(|part| NamedBody::read(matched, names, *part, &places))
             .collect();
-        let nameless = bodies.iter().filter(|body| body.named).nth(1).is_none();
+        let nameless = is_nameless(context, names);
         for body in &mut bodies {
             body.named |= nameless;
         }

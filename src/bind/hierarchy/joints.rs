@@ -34,6 +34,8 @@ pub(super) struct Joints<'a> {
     pub(super) necks: &'a FxHashMap<PartId, PartId>,
     /// What holds lines, and where, by these.
     pub(super) holders: &'a FxHashMap<PartId, (PartId, DVec2)>,
+    /// Whether parts without names hang on what they touch, so that all that is long is a limb.
+    pub(super) is_nameless: bool,
 }
 
 impl Joints<'_> {
@@ -72,7 +74,9 @@ impl Joints<'_> {
     fn of_child(&self, index: PartId, parent: PartId, [start, end]: [DVec2; 2]) -> DVec2 {
         let measure = self.measure(index);
         let terms = anatomy::terms(self.names.of(index));
-        if is_hinged_by(&terms, self.names, self.parents, index) {
+        let is_automatic = self.names.of_part[index].by == NamedBy::Automatic;
+        let may_be_limb = self.is_nameless && is_automatic && measure.certain;
+        if may_be_limb || is_hinged_by(&terms, self.names, self.parents, index) {
             // On the axis, so that the limb points along it.
             let on_axis = |at: DVec2| (at - measure.center).dot(measure.axis);
             let met = self.limbs.joint([index, parent]).map(on_axis);

@@ -170,6 +170,7 @@ pub(in crate::bind) fn build(
         axes: &axes,
         necks: &necks,
         holders: &holders,
+        is_nameless: by_contact && contact::is_nameless(context, &names),
     };
     let mains: Vec<PartId> = context.mains().collect();
     let found: Vec<(PartId, DVec2, Option<Diagnostic>)> = mains
