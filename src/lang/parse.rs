@@ -66,8 +66,8 @@ pub fn annotates(text: &str) -> bool {
     }
 }
 
-/// Whether a keyword, which may be misspelled, follows a sign of `text`, or nothing follows its `$`: hardly anybody writes that by
-/// chance.
+/// Whether a keyword, which may be misspelled, follows a sign of `text`, or nothing follows its `$` or `@`, as while it is typed: hardly
+/// anybody writes that by chance.
 pub fn says_keyword(text: &str) -> bool {
     let normalized = Normalized::new(text);
     let text = normalized.as_str().trim_start();
@@ -75,7 +75,7 @@ pub fn says_keyword(text: &str) -> bool {
         Some(defaults) => Some(defaults),
         None => text.split_once('$').map(|(_, attributes)| attributes),
     };
-    let is_bare = text.len() > 1 && text.trim_end().ends_with('$');
+    let is_bare = text.len() > 1 && text.trim_end().ends_with(['$', '@']);
     is_bare || attributes.is_some_and(starts_with_near_keyword)
 }
 

@@ -17,7 +17,6 @@ mod room;
 mod root_motion;
 mod rotations;
 mod soles;
-mod splayed;
 mod spline;
 mod stance;
 mod stepping;

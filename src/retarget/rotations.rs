@@ -6,7 +6,6 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 use super::axes::Axes;
 use super::rest_pose::RestPose;
 use super::soles::{FootEnd, Sole, foot_axes};
-use super::splayed::{self, Kept, Splay};
 use super::{Rig, RigPart, SharedTurn, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
@@ -189,26 +188,23 @@ pub(super) fn rotations(
     leg: f64,
 ) -> Rotations {
     let count = source.rig.parts.len();
-    let mut known = splayed::kept(source);
+    let mut known = mean_references(source);
     for part in order {
         let drive = source.rig.parts[*part].drive;
         if let Some(drive) = drive.filter(|drive| drive.follow == Follow::Sole) {
-            known[*part] = Some(Kept {
-                reference: Reference::on_sole(source, *part, &drive, leg),
-                splay: None,
-            });
+            known[*part] = Some(Reference::on_sole(source, *part, &drive, leg));
         }
     }
     let solver = |part: &FigurePartId| {
         let drive = source.rig.parts[*part].drive?;
-        let kept = known[*part].unwrap_or_else(|| {
-            let axes = rest.axes_for(&drive, &source.clip.skeleton, source.landmarks);
-            Kept {
-                reference: Reference::of(source.clip, &drive, axes, &rest.pose),
-                splay: None,
+        let reference = match known[*part] {
+            Some(known) => known,
+            None => {
+                let axes = rest.axes_for(&drive, &source.clip.skeleton, source.landmarks);
+                Reference::of(source.clip, &drive, axes, &rest.pose)
             }
-        });
-        let rotation = PartRotation::new(&source.rig.parts[*part], drive, &source.axes, kept);
+        };
+        let rotation = PartRotation::new(&source.rig.parts[*part], drive, &source.axes, reference);
         Some((*part, rotation))
     };
     let solvers: Vec<(FigurePartId, PartRotation)> = order.iter().filter_map(solver).collect();
@@ -236,11 +232,11 @@ pub(super) fn rotations(
 
 /// What a joint's rotations are measured from.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reference {
+struct Reference {
     /// From the drawing's axes to the joint's own: Rⱼ(r)ᵀ · Cᵣ.
-    pub(super) turn: DQuat,
+    turn: DQuat,
     /// The direction of the chain, if the part follows one, in the drawing's axes: Cᵣᵀ · d(r).
-    pub(super) direction: Option<DVec3>,
+    direction: Option<DVec3>,
 }
 
 impl Reference {
@@ -256,18 +252,47 @@ impl Reference {
     }
 
     /// A pose as the reference, in which the body has these axes.
-    pub(super) fn of(
-        clip: &Clip,
-        drive: &Drive,
-        axes: DQuat,
-        pose: &TiSlice<JointId, Transform>,
-    ) -> Self {
+    fn of(clip: &Clip, drive: &Drive, axes: DQuat, pose: &TiSlice<JointId, Transform>) -> Self {
         let direction = drive.direction(&clip.skeleton, pose);
         Self {
             turn: pose[drive.joint].rotation.inverse() * axes,
             direction: direction.map(|direction| axes.inverse() * direction),
         }
     }
+}
+
+/// Per part the mean over all frames, for limbs that keep their drawn pose: wings are drawn as they are on average, not as the arms
+/// of a T-pose. `None` for all others, and for limbs that point everywhere.
+fn mean_references(source: &mut Source<'_>) -> TiVec<FigurePartId, Option<Reference>> {
+    /// The length of the mean of the directions, below which a limb has no main direction.
+    const MAIN: f64 = 0.2;
+
+    let keeps_pose = |drive: &Drive| drive.follow == Follow::Change && drive.tip.is_some();
+    let none = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+    let sum = |part: &RigPart| Some((part.drive.filter(keeps_pose)?, none, DVec3::ZERO));
+    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = source.rig.parts.iter().map(sum).collect();
+    if sums.iter().all(Option::is_none) {
+        return ti_vec![None; source.rig.parts.len()];
+    }
+    for frame in 0..source.clip.frames {
+        let pose = source.poses.at(frame);
+        let body = source.axes.at(source.landmarks, pose);
+        for (drive, turns, directions) in sums.iter_mut().flatten() {
+            let own = Reference::of(source.clip, drive, body, pose);
+            let is_opposite = turns.dot(own.turn) < 0.0;
+            *turns += if is_opposite { -own.turn } else { own.turn };
+            *directions += own.direction.unwrap_or_default();
+        }
+    }
+    let mean = |(_, turns, directions): (Drive, DQuat, DVec3)| {
+        let frames = source.clip.frames as f64;
+        let is_clear = turns.length() > MAIN * frames && directions.length() > MAIN * frames;
+        is_clear.then(|| Reference {
+            turn: turns.normalize(),
+            direction: directions.try_normalize(),
+        })
+    };
+    sums.into_iter().map(|sum| sum.and_then(mean)).collect()
 }
 
 /// The level direction in which a foot is drawn: where the figure faces, or to a side if the foot reaches more to that side of its leg
@@ -301,7 +326,6 @@ fn drawn_toes(rig: &Rig, part: FigurePartId) -> DVec3 {
 struct PartRotation {
     drive: Drive,
     reference: Reference,
-    splay: Option<Splay>,
     /// From the clip's world to the drawing's axes: C₀ᵀ.
     to_drawing: DQuat,
     /// The rotation that the joint's change is applied to: A · D for limbs, D for bodies.
@@ -311,8 +335,7 @@ struct PartRotation {
 }
 
 impl PartRotation {
-    fn new(part: &RigPart, drive: Drive, axes: &Axes, kept: Kept) -> Self {
-        let Kept { reference, splay } = kept;
+    fn new(part: &RigPart, drive: Drive, axes: &Axes, reference: Reference) -> Self {
         let axis = (part.tip - part.joint).try_normalize();
         let align = match (drive.follow, axis, reference.direction) {
             (Follow::Direction, Some(axis), Some(direction)) => arc(axis, direction, DVec3::Z),
@@ -321,7 +344,6 @@ impl PartRotation {
         Self {
             drive,
             reference,
-            splay,
             to_drawing: axes.first.inverse(),
             drawn: align * part.node.rotation,
             viewer: axes.first * DVec3::Z,
@@ -329,7 +351,7 @@ impl PartRotation {
     }
 
     /// G(k) · D with G(k) = C₀ᵀ · S(k) · Rⱼ(k) · Rⱼ(r)ᵀ · Cᵣ · A; A is the identity for parts that keep the drawn pose, S for those
-    /// that follow no chain. What a splayed leg does is seen from it.
+    /// that follow no chain.
     fn at(&self, clip: &Clip, pose: &TiSlice<JointId, Transform>) -> DQuat {
         let turn = pose[self.drive.joint].rotation * self.reference.turn;
         let now = self.drive.direction(&clip.skeleton, pose);
@@ -337,12 +359,7 @@ impl PartRotation {
             (Some(rest), Some(now)) => arc(turn * rest, now, self.viewer),
             _ => DQuat::IDENTITY,
         };
-        let change = self.to_drawing * straighten * turn;
-        let change = self.splay.map_or(change, |splay| {
-            let carrier = pose[splay.carrier()].rotation;
-            splay.apply(change, self.to_drawing, carrier)
-        });
-        (change * self.drawn).normalize()
+        (self.to_drawing * straighten * turn * self.drawn).normalize()
     }
 }
 

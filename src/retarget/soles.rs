@@ -1,7 +1,7 @@
 //! The soles of a clip's feet: the points of a foot that touch the ground.
 //!
-//! Skeletons have ankles and toes, but no soles. While a foot stands, it is mostly flat; there the ground is as far below the ankle as
-//! the toes are. Where it never stands still, it is flat where ankle and toes are lowest.
+//! Skeletons have ankles and toes, but no soles. Where a foot stands flat, ankle and toes are as low as they get, and slow; there the
+//! ground is as far below the ankle as the toes are.
 
 use glam::{DMat3, DQuat, DVec3};
 use typed_index_collections::TiSlice;
@@ -13,17 +13,8 @@ use crate::labels::Tip;
 use crate::mocap::{JointId, Skeleton, Transform};
 use crate::retarget::Drive;
 
-/// A foot that never stands still is flat where ankle and toes together are higher by less than this than where they are lowest, in leg
-/// lengths.
+/// A foot is flat where ankle and toes together are higher by less than this than where they are lowest, in leg lengths.
 const FLAT: f64 = 0.015;
-/// A foot stands where ankle and toes together are higher by less than this than where they are lowest, in leg lengths …
-const STANDS: f64 = 0.15;
-/// … and ankle and toes together move less than this, in leg lengths a second.
-const STILL: f64 = 0.15;
-/// The cosine of the tilt up to which a foot stands as it does in another frame: 4 degrees.
-const ALIKE: f64 = 0.997_56;
-/// As many frames in which a foot stands are enough to know how it does.
-const MOST: usize = 500;
 /// How far a foot that moves is higher than it is, seconds of its way.
 const MOVING: f64 = 0.03;
 /// How far the heel is behind the ankle, in distances from ankle to toes.
@@ -171,49 +162,27 @@ impl Track {
             lowest(self.ankles.iter().map(|ankle| ankle.position.y)),
             lowest(self.toes.iter().map(|toes| toes.y)),
         ];
-        let last = self.toes.len() - 1;
-        let height = |frame: usize| {
+        let heights = |frame: usize| {
             let own = [self.ankles[frame].position.y, self.toes[frame].y];
-            let above = own.iter().zip(floors).map(|(own, floor)| own - floor);
-            above.map(|height| height.max(0.0)).sum::<f64>()
+            (0..2)
+                .map(move |end| (own[end] - floors[end]).max(0.0))
+                .sum::<f64>()
         };
-        // How fast it moves, in the clip's unit a second.
-        let speed = |frame: usize| {
-            let [before, after] = [frame.saturating_sub(1), (frame + 1).min(last)];
-            let ankle = self.ankles[after].position - self.ankles[before].position;
-            let toes = self.toes[after] - self.toes[before];
-            let way = (ankle.length() + toes.length()) / (after - before).max(1) as f64;
-            if frame_time > 0.0 {
-                way / frame_time
+        let height = |frame: usize| {
+            let [before, after] = [
+                frame.saturating_sub(1),
+                (frame + 1).min(self.toes.len() - 1),
+            ];
+            let way = self.ankles[after].position - self.ankles[before].position;
+            let way = way.length() / (after - before).max(1) as f64;
+            let moving = if frame_time > 0.0 {
+                way / frame_time * MOVING
             } else {
                 0.0
-            }
+            };
+            heights(frame) + moving
         };
-        let frames = 0..self.toes.len();
-        let least = frames.clone().map(height).fold(f64::INFINITY, f64::min);
-        let stands =
-            |frame: &usize| height(*frame) <= least + STANDS * leg && speed(*frame) <= STILL * leg;
-        let standing: Vec<usize> = frames.clone().filter(stands).collect();
-        let standing: Vec<usize> = {
-            let step = standing.len().div_ceil(MOST).max(1);
-            standing.into_iter().step_by(step).collect()
-        };
-        let up = |frame: usize| self.ankles[frame].rotation.inverse() * DVec3::Y;
-        let like = |frame: usize| {
-            let own = up(frame);
-            let others = standing.iter().copied();
-            others.filter(move |other| up(*other).dot(own) >= ALIKE)
-        };
-        // Heels and toes are lifted for a moment; for most of the time a foot stands flat.
-        let usual = standing
-            .iter()
-            .rev()
-            .max_by_key(|frame| like(**frame).count());
-        if let Some(usual) = usual {
-            return like(*usual).collect();
-        }
-        let heights = frames.map(|frame| height(frame) + speed(frame) / 2.0 * MOVING);
-        let heights: Vec<f64> = heights.collect();
+        let heights: Vec<f64> = (0..self.toes.len()).map(height).collect();
         let least = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let is_flat = |frame: &usize| heights[*frame] <= least + FLAT * leg;
         (0..heights.len()).filter(is_flat).collect()

@@ -122,23 +122,14 @@ impl Sole {
         let floor = lowest(poses.iter().map(height));
         let toes = |pose: &Pose| tip.map_or(0.0, |tip| tip_place(clip, pose, tip).dot(up));
         let toes_floor = lowest(poses.iter().map(toes));
-        // It is flat where ankle and toes are low and slow together, and as they are for most of the time.
+        // It is flat where ankle and toes are low and slow together.
         let cost = |frame: usize| {
             let before = frame.saturating_sub(1);
             let moved = poses[frame][ankle].position - poses[before][ankle].position;
             height(&poses[frame]) - floor + toes(&poses[frame]) - toes_floor + moved.length()
         };
-        let mut frames: Vec<usize> = (0..poses.len()).collect();
-        frames.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));
-        frames.truncate(poses.len().div_ceil(3));
-        let tilt = |frame: usize| poses[frame][ankle].rotation.inverse() * up;
-        let off = |frame: usize| {
-            let own = tilt(frame);
-            let others = frames.iter().map(|other| tilt(*other).angle_between(own));
-            others.sum::<f64>()
-        };
-        let usual = frames.iter().min_by(|a, b| off(**a).total_cmp(&off(**b)));
-        let pose = &poses[*usual.expect("a frame")];
+        let frames = (0..poses.len()).min_by(|a, b| cost(*a).total_cmp(&cost(*b)));
+        let pose = &poses[frames.expect("a frame")];
         let placed = pose[ankle];
         let mut points = vec![placed.position];
         let mut drop = 0.0;

@@ -160,11 +160,12 @@ impl<'a> Played<'a> {
         let lies = (first[root].rotation * rest[root].rotation.inverse() * DVec3::Z).y > 0.7;
         let standing = if lies { first.as_slice() } else { rest };
         let all: Vec<usize> = (0..model.nodes.len()).collect();
-        let ground = feet
+        let lowest = feet
             .iter()
             .map(|foot| low(&foot.nodes, standing).0)
             .reduce(f64::min)?;
         let (bottom, top) = low(&all, rest);
+        let ground = if lies { bottom } else { lowest };
         let height = top - if lies { bottom } else { ground };
         Some(Self {
             leg: (lengths.iter().sum::<f64>() / lengths.len() as f64).max(NO_LEG * height),
