@@ -46,41 +46,39 @@ use crate::memo::Memo;
 use crate::svg::Drawing;
 use attributes::PartAttributes;
 use hierarchy::Tree;
-use matching::{Matched, Texts};
+use matching::{Matched, Texts, is_doubtful};
 
 /// Binds the strings of a drawing to its parts.
 ///
 /// Strings that may be lettering, and do not make sense together, are lettering: art is built whatever is written on it.
 pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
     let mut found = Vec::new();
-    let (bindings, is_doubtful) = bind_as(drawing, Texts::Strings, memo, &mut found);
+    let bindings = bind_as(drawing, Texts::Strings, memo, &mut found);
     let error = found
         .iter()
         .find(|finding| finding.severity() == Severity::Error);
-    let Some(error) = error.filter(|_| is_doubtful) else {
+    let Some(error) = error.filter(|_| is_doubtful(drawing, &bindings.strings)) else {
         diagnostics.append(&mut found);
         return bindings;
     };
     diagnostics.push(reports::lettering(&bindings.strings, error));
-    let (bindings, _) = bind_as(drawing, Texts::Lettering, memo, diagnostics);
-    bindings
+    bind_as(drawing, Texts::Lettering, memo, diagnostics)
 }
 
-/// Binds the strings of a drawing, if its texts are some. Also returns whether they may be lettering.
+/// Binds the strings of a drawing, if its texts are some.
 fn bind_as(
     drawing: &Drawing,
     texts: Texts,
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
-) -> (Bindings, bool) {
+) -> Bindings {
     let mut matched = matching::find(drawing, texts, memo, diagnostics);
     let attributes = attributes::resolve(drawing, &matched, diagnostics);
     let tree = hierarchy::build(drawing, &matched, &attributes, memo, diagnostics);
     bodies::soften(drawing, &mut matched, &tree);
     discs::find(&mut matched, &tree);
     diagnostics.extend(reports::all(drawing, texts, &matched, &attributes, &tree));
-    let is_doubtful = matched.is_doubtful;
-    (assembled(matched, attributes, tree), is_doubtful)
+    assembled(matched, attributes, tree)
 }
 
 /// Puts the results of all steps together.

@@ -220,11 +220,12 @@ impl<'a, 'input> Growth<'a, 'input> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use crate::diagnostic::Code;
     use crate::resolver::MemoryResolver;
 
-    fn refused(body: &str) -> Option<String> {
+    /// The limit that a drawing with this content passes, if it does.
+    pub(in crate::svg) fn refused(body: &str) -> Option<String> {
         let text = format!(
             "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' width='9' height='9'>{body}</svg>"
         );

@@ -7,7 +7,7 @@ use simplecss::{AttributeOperator, PseudoClass};
 
 use super::elements::start_tag;
 use super::prepare::Prepared;
-use super::style::Styles;
+use super::style::{Matched, Styles};
 use crate::diagnostic::{Code, Diagnostic};
 
 /// Declarations, each times the length of what it is in, in bytes: the parser counts lines up to each.
@@ -18,6 +18,9 @@ const STEPS_A_BYTE: usize = 1 << 10;
 const MOST_COMPARISONS: usize = 1 << 24;
 /// The same for each byte of the drawing.
 const COMPARISONS_A_BYTE: usize = 16;
+
+/// What to do about too many or too long styles.
+const HELP: &str = "save the drawing with presentation attributes (in Illustrator, Save As SVG → More Options), or split it into several files";
 
 /// Rejects a drawing whose styles would take very long to read.
 pub(super) fn check_lengths(
@@ -41,10 +44,7 @@ pub(super) fn check_lengths(
             let message = format!(
                 "the style sheets and `style` attributes are too long: the number of declarations times their length passes {most}"
             );
-            let help = "save the drawing with presentation attributes (in Illustrator, Save As SVG → More Options), or split it into several files";
-            return Err(Box::new(
-                Diagnostic::new(Code::LimitPassed, start_tag(node, prepared), message).help(help),
-            ));
+            return Err(refusal(node, prepared, message));
         }
     }
     Ok(())
@@ -66,7 +66,7 @@ pub(super) fn check_comparisons(
     let left = Cell::new(most);
     for element in elements() {
         styles.compare_all(&Counted {
-            node: element,
+            element: Matched(element),
             left: &left,
         });
         if left.get() == 0 {
@@ -74,19 +74,19 @@ pub(super) fn check_comparisons(
             let message = format!(
                 "the style sheets have too many rules for a drawing of this size: to find out which of {rules} rules apply to which of {count} elements takes more than {most} comparisons"
             );
-            let help = "save the drawing with presentation attributes (in Illustrator, Save As SVG → More Options), or split it into several files";
-            let place = start_tag(sheet.unwrap_or(element), prepared);
-            return Err(Box::new(
-                Diagnostic::new(Code::LimitPassed, place, message).help(help),
-            ));
+            return Err(refusal(sheet.unwrap_or(element), prepared, message));
         }
     }
     Ok(())
 }
 
+fn refusal(node: Node<'_, '_>, prepared: &Prepared, message: String) -> Box<Diagnostic> {
+    Box::new(Diagnostic::new(Code::LimitPassed, start_tag(node, prepared), message).help(HELP))
+}
+
 /// An element that counts how often it is compared, and matches nothing once that is too often.
 struct Counted<'a, 'input> {
-    node: Node<'a, 'input>,
+    element: Matched<'a, 'input>,
     left: &'a Cell<usize>,
 }
 
@@ -101,47 +101,36 @@ impl Counted<'_, '_> {
 
 impl simplecss::Element for Counted<'_, '_> {
     fn parent_element(&self) -> Option<Self> {
-        let node = self.node.parent_element().filter(|_| self.count())?;
-        Some(Counted { node, ..*self })
+        let element = self.element.parent_element().filter(|_| self.count())?;
+        Some(Self { element, ..*self })
     }
 
     fn prev_sibling_element(&self) -> Option<Self> {
-        let node = self.node.prev_sibling_element().filter(|_| self.count())?;
-        Some(Counted { node, ..*self })
+        let element = self.element.prev_sibling_element();
+        let element = element.filter(|_| self.count())?;
+        Some(Self { element, ..*self })
     }
 
     fn has_local_name(&self, name: &str) -> bool {
-        self.count() && self.node.tag_name().name() == name
+        self.count() && self.element.has_local_name(name)
     }
 
     fn attribute_matches(&self, local_name: &str, operator: AttributeOperator<'_>) -> bool {
-        let value = self.node.attribute(local_name);
-        self.count() && value.is_some_and(|value| operator.matches(value))
+        self.count() && self.element.attribute_matches(local_name, operator)
     }
 
     fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
-        self.count()
-            && class == PseudoClass::FirstChild
-            && self.node.prev_sibling_element().is_none()
+        self.count() && self.element.pseudo_class_matches(class)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::diagnostic::Code;
-    use crate::resolver::MemoryResolver;
+    use crate::svg::growth::tests::refused as refused_body;
 
     /// The limit that a drawing passes, if it does.
     fn refused(style: &str, body: &str) -> Option<String> {
-        let text = format!(
-            "<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'><style>{style}</style>{body}</svg>"
-        );
-        let (_, diagnostics) =
-            crate::svg::read(&text, 0.001, &MemoryResolver::default(), &|_| vec![].into());
-        let limit = diagnostics
-            .into_iter()
-            .find(|found| found.code == Code::LimitPassed);
-        limit.map(|found| found.message)
+        refused_body(&format!("<style>{style}</style>{body}"))
     }
 
     fn rects(count: usize) -> String {

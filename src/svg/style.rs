@@ -9,7 +9,7 @@ pub(super) struct Styles<'a> {
 }
 
 /// An XML element as the style sheet's selectors see it.
-struct Matched<'a, 'input>(Node<'a, 'input>);
+pub(super) struct Matched<'a, 'input>(pub(super) Node<'a, 'input>);
 
 impl simplecss::Element for Matched<'_, '_> {
     fn parent_element(&self) -> Option<Self> {

@@ -1,4 +1,5 @@
-//! The hierarchy of a drawing in which no string names a part, but labels or ids do, or which moves: parts that touch hang on each other.
+//! The hierarchy of a drawing in which no string names a part, but labels or ids do, or which moves: parts that touch hang on each
+//! other.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
@@ -32,7 +33,8 @@ const UNNAMED: u32 = 1000;
 /// In larger groups of parts without names the largest part is the root.
 const MAX_MEMBERS: usize = 400;
 
-/// Whether the hierarchy comes from contact: no string names a part, but people named at least two otherwise, or want the drawing to move.
+/// Whether the hierarchy comes from contact: no string names a part, but people named at least two otherwise, or want the drawing to
+/// move.
 pub(super) fn decides(
     drawing: &Drawing,
     matched: &Matched,
@@ -67,8 +69,14 @@ fn is_named(name: &OwnName) -> bool {
 /// name, all count as named, and the root is the part in the middle, from which the others are least far. From there the others are
 /// attached in the order of their distance: to the part that carries them by anatomy if they touch it, else to the one that they
 /// overlap most of those nearest to the root. A part without a name hangs on the named part that it overlaps most.
-pub(super) fn parents(context: Context<'_>, names: &Names) -> Vec<(PartId, Option<PartId>)> {
-    let bodies = NamedBodies::read(context, names);
+///
+/// `nameless` is the answer of [`is_nameless`].
+pub(super) fn parents(
+    context: Context<'_>,
+    names: &Names,
+    nameless: bool,
+) -> Vec<(PartId, Option<PartId>)> {
+    let bodies = NamedBodies::read(context, names, nameless);
     let part = |place: usize| bodies.parts[place];
     let found = bodies.parents().into_iter();
     found
@@ -142,7 +150,7 @@ struct NamedBodies {
 }
 
 impl NamedBodies {
-    fn read(context: Context<'_>, names: &Names) -> Self {
+    fn read(context: Context<'_>, names: &Names, nameless: bool) -> Self {
         let Context { matched, nodes, .. } = context;
         let parts: Vec<PartId> = context.mains().collect();
         let called = parts.iter().map(|part| names.of(*part));
@@ -151,7 +159,6 @@ impl NamedBodies {
             .iter()
             .map(|part| NamedBody::read(matched, names, *part, &places))
             .collect();
-        let nameless = is_nameless(context, names);
         for body in &mut bodies {
             body.named |= nameless;
         }

@@ -132,8 +132,9 @@ pub(in crate::bind) fn build(
     names.give_own(context);
     let mut holders = lines::holders(context);
     let (mut parents, unnamed) = automatic(context, &mut names, &holders, memo);
+    let is_nameless = by_contact && contact::is_nameless(context, &names);
     if by_contact {
-        set(&mut parents, contact::parents(context, &names));
+        set(&mut parents, contact::parents(context, &names, is_nameless));
         set(&mut parents, parents::of_groups(context));
     }
     parents::other_signs(matched, &names, diagnostics);
@@ -170,7 +171,7 @@ pub(in crate::bind) fn build(
         axes: &axes,
         necks: &necks,
         holders: &holders,
-        is_nameless: by_contact && contact::is_nameless(context, &names),
+        is_nameless,
     };
     let mains: Vec<PartId> = context.mains().collect();
     let found: Vec<(PartId, DVec2, Option<Diagnostic>)> = mains

@@ -1,16 +1,14 @@
 //! Whether strings may be lettering that looks like strings: the pins `A` and `B` of a chip, the price `US$5`, an address.
 
-use std::sync::Arc;
-
 use rustc_hash::FxHashSet;
+use typed_index_collections::TiSlice;
 
 use super::meant::{Sense, Topic};
-use crate::bind::bindings::StringHolder;
+use crate::bind::bindings::{DrawingString, StringId};
 use crate::bind::names::{ROOT, of_element};
 use crate::diagnostic::nearest_word;
 use crate::lang::ast::{Annotation, Part};
 use crate::lang::says_keyword;
-use crate::source::Text;
 use crate::svg::Drawing;
 
 /// So many parents are compared with all names for a misspelling: nobody misspells more and none right.
@@ -20,19 +18,16 @@ const MISSPELLED: usize = 3;
 
 /// Whether nothing in the strings of a drawing can only be meant for okoshi: no keyword, no parent that the drawing knows, and
 /// most names say nothing about a figure.
-pub(super) fn is_doubtful(
+pub(in crate::bind) fn is_doubtful(
     drawing: &Drawing,
-    annotations: &[(StringHolder, Arc<Text>, Annotation)],
+    strings: &TiSlice<StringId, DrawingString>,
 ) -> bool {
-    if annotations
-        .iter()
-        .any(|(_, text, _)| says_keyword(text.as_str()))
-    {
+    if strings.is_empty() || strings.iter().any(|one| says_keyword(one.text.as_str())) {
         return false;
     }
-    let parts = annotations
+    let parts = strings
         .iter()
-        .filter_map(|(_, _, annotation)| match annotation {
+        .filter_map(|string| match &string.annotation {
             Annotation::Part(part) => Some(part),
             _ => None,
         });

@@ -24,6 +24,7 @@ mod strings;
 mod wrappers;
 
 pub(in crate::bind) use bare_names::is_bare_name;
+pub(in crate::bind) use doubt::is_doubtful;
 pub(in crate::bind) use held::Hold;
 pub(in crate::bind) use kinds::of_ink;
 pub(in crate::bind) use layers::group_of;
@@ -55,8 +56,6 @@ use node_groups::{NodeGroups, PartSource};
 pub(in crate::bind) struct Matched {
     /// Whether the drawing is annotated at all.
     pub(in crate::bind) annotated: bool,
-    /// Whether the strings may be lettering that looks like strings.
-    pub(in crate::bind) is_doubtful: bool,
     /// Whether no string says `Shape`, so that what is rounded is inflated.
     pub(in crate::bind) is_first_look: bool,
     /// The strings, in the order of the file.
@@ -139,7 +138,6 @@ pub(in crate::bind) fn find(
     let kinds = kinds::classify(drawing, &strings, &parts, &layers, backgrounds);
     Matched {
         annotated: read.annotated,
-        is_doubtful: read.is_doubtful,
         is_first_look: read.is_first_look,
         strings,
         parts,

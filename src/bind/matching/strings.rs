@@ -7,7 +7,6 @@ use rayon::prelude::*;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::bare_names;
-use super::doubt;
 use super::layers::LayerKind;
 use super::settings::{DrawingSettings, Strokes};
 use crate::bind::bindings::{StringHolder, StringId};
@@ -34,8 +33,6 @@ pub(in crate::bind) enum Texts {
 pub(super) struct Strings {
     /// Whether the drawing is annotated at all.
     pub(super) annotated: bool,
-    /// Whether the strings may be lettering that looks like strings.
-    pub(super) is_doubtful: bool,
     /// Whether no string says `Shape`.
     pub(super) is_first_look: bool,
     /// In the order of the file.
@@ -150,7 +147,6 @@ pub(super) fn read(drawing: &Drawing, texts: Texts, diagnostics: &mut Vec<Diagno
         }
         annotations.push((holder, text, annotation));
     }
-    let is_doubtful = doubt::is_doubtful(drawing, &annotations);
     let words = || {
         listed(
             captions
@@ -204,7 +200,6 @@ pub(super) fn read(drawing: &Drawing, texts: Texts, diagnostics: &mut Vec<Diagno
     };
     Strings {
         annotated,
-        is_doubtful,
         settings: DrawingSettings::read(drawing, &defaults, strokes),
         is_first_look,
         all,

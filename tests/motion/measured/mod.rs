@@ -39,8 +39,7 @@ const CLIPS: [&str; 9] = [
 ];
 /// Two feet are equally low if their heights differ by less than this share of the figure's height.
 const EQUAL: f64 = 0.002;
-/// A foot of the actor that is higher than this, in leg lengths, is in the air, and one whose feet
-/// all are higher flies.
+/// A foot of the actor that is higher than this, in leg lengths, is in the air. An actor whose feet all are flies.
 const IN_AIR: f64 = 0.03;
 /// Legs that are shorter than this, as a share of the figure's height, are feet only.
 const NO_LEG: f64 = 0.12;
