@@ -12,6 +12,8 @@ use crate::compile::compile;
 use crate::geometry::{Outline, y_up};
 use crate::resolver::MemoryResolver;
 
+/// The largest share of triangles that are turned over: some shapes have knobs and notches where they bend.
+const MOST_FOLDED: f64 = 0.003;
 /// How many shapes are measured.
 const COUNT: usize = 40;
 
@@ -87,6 +89,6 @@ fn limbs_of_clip_art() {
         .collect();
     for (name, first) in [("seen", 0), ("held back", 1)] {
         println!("{name}:");
-        check(limbs.iter().skip(first).step_by(2).flatten());
+        check(limbs.iter().skip(first).step_by(2).flatten(), MOST_FOLDED);
     }
 }

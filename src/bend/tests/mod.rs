@@ -124,11 +124,11 @@ fn a_bent_limb_keeps_its_width_and_volume() {
         .iter()
         .map(|outline| ["inflate", "default"].map(|kind| bent(outline, kind, limb_bend(kind))))
         .collect();
-    check(limbs.iter().flatten());
+    check(limbs.iter().flatten(), 0.0);
 }
 
-/// Measures limbs and compares them with the limits.
-fn check<'a>(limbs: impl Iterator<Item = &'a Bent> + Clone) {
+/// Measures limbs and compares them with the limits, and the share of triangles that are turned over with this one, if it is larger.
+fn check<'a>(limbs: impl Iterator<Item = &'a Bent> + Clone, most_folded: f64) {
     let worst = LIMITS.map(|(degrees, ..)| {
         let measured: Vec<Measured> = limbs
             .clone()
@@ -146,7 +146,7 @@ fn check<'a>(limbs: impl Iterator<Item = &'a Bent> + Clone) {
     });
     for (worst, (degrees, least, most)) in worst.iter().zip(LIMITS) {
         assert!(
-            worst.narrowest >= least && worst.share_folded() <= most,
+            worst.narrowest >= least && worst.share_folded() <= most.max(most_folded),
             "{degrees}°: {worst:?}"
         );
         assert!(worst.volume < MOST_VOLUME, "{degrees}°: {worst:?}");
