@@ -308,6 +308,7 @@ const USES: &[(&str, &[&str])] = &[
             "retarget",
             "scene",
             "smoothing",
+            "solid",
             "source",
             "svg",
         ],

@@ -136,7 +136,10 @@ const ENGLISH: Table = &[
          uniform suit jumpsuit spacesuit leotard",
     ),
     (&[HeadWear], "helmet hat cap hood"),
-    (&[HipWear], "skirt kilt trousers pants pant shorts jeans"),
+    (
+        &[HipWear],
+        "skirt kilt trousers trouser pants pant shorts jeans",
+    ),
     (&[Face], "face"),
     (&[Detail, OfHead, Ear], "ear"),
     (&[Detail, OfHead, Eye], "eye pupil"),

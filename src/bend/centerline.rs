@@ -13,6 +13,16 @@ const SPACING: f64 = 0.25;
 const MAX_POINTS: f64 = 256.0;
 /// How often each point is drawn towards its neighbours: steps of the grid disappear.
 const PASSES: usize = 8;
+/// How often the line is moved to the middles of the cross-sections.
+const CENTERINGS: usize = 3;
+/// By how much a point is moved at most each time, in widths.
+const STEP: f64 = 0.25;
+/// A slender outline is at least this much longer than it is wide.
+const SLENDER: f64 = 2.2;
+/// At most this share of an outline with a middle line is farther from it than it is wide.
+const MOST_STRAY: f64 = 0.06;
+/// How much faster one gets along the line inside a bend that is drawn counts up to this.
+const MOST_RISE: f64 = 1.5;
 /// A line that is as near to a straight one as this, in widths, is straight.
 const STRAIGHT: f64 = 0.15;
 /// The line ends within the outline by this many widths, because the middle way turns into a corner there.
@@ -40,6 +50,10 @@ pub(crate) struct Centerline {
     length: f64,
     /// The mean width of the outline across it.
     width: f64,
+    /// Per point how far from the line the outline reaches there at most, times how much faster one gets along the line there than on it.
+    girths: Vec<f64>,
+    /// The share of the area that is farther from the line than the outline is wide.
+    pub(super) stray: f64,
     /// For a line that curls, about how far along it the places in and near the outline are.
     ways: Option<Ways>,
 }
@@ -73,19 +87,50 @@ impl Centerline {
         let way = grid.middle_way(start, tip);
         let way: Vec<DVec2> = way.iter().map(|cell| y_up(grid.place(*cell))).collect();
         let mut line = Self::through(&way, grid.area(), joint)?;
-        if line.curls() {
-            let count = (line.length / line.spacing) as usize;
-            let places = (0..=count).map(|number| number as f64 * line.spacing);
-            let places: Vec<(DVec2, f64)> =
-                places.map(|along| (y_up(line.at(along)), along)).collect();
-            line.ways = Some(Ways {
-                along: grid.labeled(&places).into(),
-                grid: Arc::new(grid.cells),
-                to_outline: DAffine2::from_scale(DVec2::new(1.0, -1.0)),
-                scale: 1.0,
-            });
+        line.find_ways(&grid);
+        line.stray = line.stray(&grid);
+        if line.stray <= MOST_STRAY {
+            let stray = line.stray;
+            for _ in 0..CENTERINGS {
+                line = line.centered(&grid, joint);
+                line.find_ways(&grid);
+            }
+            line.stray = stray;
         }
+        line.measure_girths(&grid);
         Some(line)
+    }
+
+    /// For a line that curls, finds about how far along it the places in and near the outline are.
+    fn find_ways(&mut self, grid: &Grid) {
+        self.ways = None;
+        if !self.curls() {
+            return;
+        }
+        let count = (self.length / self.spacing) as usize;
+        let places = (0..=count).map(|number| number as f64 * self.spacing);
+        let places: Vec<(DVec2, f64)> = places.map(|along| (y_up(self.at(along)), along)).collect();
+        self.ways = Some(Ways {
+            along: grid.labeled(&places).into(),
+            grid: Arc::new(grid.cells),
+            to_outline: DAffine2::from_scale(DVec2::new(1.0, -1.0)),
+            scale: 1.0,
+        });
+    }
+
+    /// The share of the area that is farther from the line than the outline is wide.
+    fn stray(&self, grid: &Grid) -> f64 {
+        let is_far = |cell: &usize| {
+            let place = y_up(grid.place(*cell));
+            place.distance(self.at(self.along(place))) > self.width
+        };
+        let far = grid.inside_cells().filter(is_far).count();
+        far as f64 / grid.inside_cells().count().max(1) as f64
+    }
+
+    /// Whether this is the middle line of a slender outline. What is branched is not, nor a wide shape with a thin end.
+    pub(crate) fn is_slender(&self) -> bool {
+        self.length >= SLENDER * self.width && self.stray <= MOST_STRAY
     }
 
     /// Whether parts of the line that are far from each other along it are near to each other.
@@ -98,6 +143,100 @@ impl Centerline {
             far.into_iter()
                 .any(|other| point.distance_squared(*other) < near)
         })
+    }
+
+    /// The line through the middles of the cross-sections. What bends about it keeps its area.
+    fn centered(self, grid: &Grid, joint: DVec2) -> Self {
+        let last = self.points.len() - 1;
+        let mut sums = vec![(0.0, 0.0); self.points.len()];
+        for cell in grid.inside_cells() {
+            let place = y_up(grid.place(cell));
+            let along = self.along(place);
+            let number = ((along - self.first) / self.spacing).round().max(0.0) as usize;
+            let number = number.min(last);
+            let off = (place - self.at(along)).dot(self.across(number));
+            sums[number].0 += off;
+            sums[number].1 += 1.0;
+        }
+        let beyond = self.beyond();
+        let mut line: Vec<DVec2> = self.points[beyond..=last - beyond].to_vec();
+        for (number, point) in line.iter_mut().enumerate() {
+            // Over some points, so that a single bump does not bend it.
+            let number = number + beyond;
+            let near = &sums[number.saturating_sub(1)..=(number + 1).min(last)];
+            let (off, cells) = near
+                .iter()
+                .fold((0.0, 0.0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
+            if cells > 0.0 {
+                let most = STEP * self.width;
+                *point += self.across(number) * (off / cells).clamp(-most, most);
+            }
+        }
+        smooth(&mut line);
+        Self::of_points(line, grid.area(), joint)
+    }
+
+    /// To the left of the line at one of its points.
+    fn across(&self, number: usize) -> DVec2 {
+        let last = self.points.len() - 1;
+        let [before, after] = [number.saturating_sub(1), (number + 1).min(last)];
+        (self.points[after] - self.points[before])
+            .perp()
+            .normalize_or_zero()
+    }
+
+    /// How many points there are beyond each end.
+    fn beyond(&self) -> usize {
+        beyond(self.width, self.spacing)
+    }
+
+    fn measure_girths(&mut self, grid: &Grid) {
+        let along: Vec<f64> = grid
+            .all_cells()
+            .map(|cell| {
+                if grid.is_inside(cell) {
+                    self.along(y_up(grid.place(cell)))
+                } else {
+                    0.0
+                }
+            })
+            .collect();
+        let last = self.points.len() - 1;
+        let mut girths = vec![0.0_f64; self.points.len()];
+        for cell in grid.inside_cells() {
+            let rise = grid
+                .next(cell)
+                .map(|next| next.map_or(0.0, |next| along[next] - along[cell]));
+            let rise = DVec2::from(rise).length() / grid.side();
+            let own = along[cell];
+            let number = ((own - self.first) / self.spacing).round().max(0.0) as usize;
+            let far = self.at(own).distance(y_up(grid.place(cell))) + grid.side() / 2.0;
+            let girth = &mut girths[number.min(last)];
+            *girth = girth.max(far * rise.clamp(1.0, MOST_RISE));
+        }
+        self.girths = girths;
+    }
+
+    /// The length of a bend about a place of the line, in widths of the outline there. The surface reaches as far as `depth` from the
+    /// drawing plane.
+    pub(super) fn arc(&self, at: f64, widths: f64, depth: f64) -> f64 {
+        const STEPS: usize = 8;
+        /// A tube that is inflated is as much deeper than wide.
+        const INFLATED: f64 = std::f64::consts::SQRT_2;
+
+        let last = self.girths.len() - 1;
+        let place = |along: f64| ((along - self.first) / self.spacing).round().max(0.0) as usize;
+        let mut arc = widths * 0.5 * self.width;
+        for _ in 0..STEPS {
+            let [from, to] = [at - arc / 2.0, at + arc / 2.0].map(|along| place(along).min(last));
+            let girth = self.girths[from..=to].iter().copied().fold(0.0, f64::max);
+            let wanted = widths * 2.0 * girth.max(depth.min(INFLATED * girth));
+            if wanted <= arc {
+                break;
+            }
+            arc = wanted;
+        }
+        arc
     }
 
     fn through(way: &[DVec2], area: f64, joint: DVec2) -> Option<Self> {
@@ -117,19 +256,22 @@ impl Centerline {
         for _ in 0..PASSES {
             smooth(&mut line);
         }
-        let [from, to] = [line[0], line[count]];
-        let is_near = |point: &DVec2| off(from, to, *point) < STRAIGHT * width;
-        if line.iter().all(is_near) {
-            let place = |number: usize| from.lerp(to, number as f64 / count as f64);
-            line = (0..=count).map(place).collect();
-        }
+        Some(Self::of_points(line, area, joint))
+    }
+
+    /// The line through these points, to be extended at both ends; those of the outline are farther by the clip.
+    fn of_points(mut line: Vec<DVec2>, area: f64, joint: DVec2) -> Self {
+        let count = line.len() - 1;
+        let near = STRAIGHT * area / length(&line);
+        straighten(&mut line, near);
         // Smoothing made it shorter here and there.
         let inner = length(&line);
         let line = resampled(&line, 0.0, inner, count);
-        // Without the ways into corners.
-        let width = area / (inner + 2.0 * clip);
+        // Without the ways into corners: the clip is a share of the width itself.
+        let width = (f64::hypot(inner, (8.0 * CLIP * area).sqrt()) - inner) / (4.0 * CLIP);
+        let clip = CLIP * width;
         let spacing = inner / count as f64;
-        let beyond = (BEYOND * width / spacing).ceil() as usize;
+        let beyond = beyond(width, spacing);
         let extended = |end: DVec2, way: DVec2| {
             let way = way.normalize_or_zero() * spacing;
             (1..=beyond).map(move |number| end + way * number as f64)
@@ -147,12 +289,14 @@ impl Centerline {
             spacing,
             length: inner + clip,
             width,
+            girths: Vec::new(),
+            stray: 0.0,
             ways: None,
         };
         let joint = centerline.along(joint).clamp(-clip, inner / 2.0);
         centerline.first -= joint;
         centerline.length -= joint;
-        Some(centerline)
+        centerline
     }
 
     /// From the joint to the far end.
@@ -222,6 +366,8 @@ impl Centerline {
             spacing: self.spacing * scale,
             length: self.length * scale,
             width: self.width * scale,
+            girths: self.girths.iter().map(|girth| girth * scale).collect(),
+            stray: self.stray,
             ways: self.ways.as_ref().map(|ways| Ways {
                 to_outline: ways.to_outline * map.inverse(),
                 scale: ways.scale * scale,
@@ -288,8 +434,37 @@ fn smooth(line: &mut [DVec2]) {
     }
 }
 
-/// The distance of a point from the line through two others.
-fn off(from: DVec2, to: DVec2, point: DVec2) -> f64 {
-    let way = (to - from).normalize_or_zero();
-    (point - from).perp_dot(way).abs()
+/// How many points are beyond each end of a line.
+fn beyond(width: f64, spacing: f64) -> usize {
+    (BEYOND * width / spacing).ceil() as usize
+}
+
+/// Makes a line straight if all its points are nearer than this to the straight line that fits them best.
+fn straighten(line: &mut [DVec2], near: f64) {
+    let count = line.len() as f64;
+    let middle = line.iter().sum::<DVec2>() / count;
+    let [first, .., last] = line else { return };
+    let (first, last) = (*first, *last);
+    // The direction in which the points are spread most.
+    let (mut spread, mut skew) = (0.0, 0.0);
+    for point in line.iter() {
+        let own = *point - middle;
+        spread += own.x * own.x - own.y * own.y;
+        skew += 2.0 * own.x * own.y;
+    }
+    let whole = f64::hypot(spread, skew);
+    if whole == 0.0 {
+        return;
+    }
+    let [across, along] =
+        [1.0 - spread / whole, 1.0 + spread / whole].map(|share| (share.max(0.0) / 2.0).sqrt());
+    let axis = DVec2::new(along, across.copysign(skew));
+    let on = |point: DVec2| middle + axis * (point - middle).dot(axis);
+    if line.iter().all(|point| on(*point).distance(*point) < near) {
+        let ends = [on(first), on(last)];
+        let steps = count - 1.0;
+        for (number, point) in line.iter_mut().enumerate() {
+            *point = ends[0].lerp(ends[1], number as f64 / steps);
+        }
+    }
 }

@@ -69,7 +69,7 @@ impl Grid {
             },
             depths: Vec::new(),
         };
-        let mut inside = grid.inside(outline);
+        let mut inside = grid.filled(outline);
         grid.keep_largest(&mut inside);
         if !inside.contains(&true) {
             return None;
@@ -83,17 +83,31 @@ impl Grid {
         self.cells.middle(cell)
     }
 
+    /// All cells.
+    pub(super) fn all_cells(&self) -> std::ops::Range<usize> {
+        0..self.depths.len()
+    }
+
+    /// Whether a cell is inside.
+    pub(super) fn is_inside(&self, cell: usize) -> bool {
+        self.depths[cell] > 0.0
+    }
+
+    /// The cells inside.
+    pub(super) fn inside_cells(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.depths.len()).filter(|cell| self.depths[*cell] > 0.0)
+    }
+
     /// The area of all cells inside.
     pub(super) fn area(&self) -> f64 {
-        let inside = self.depths.iter().filter(|depth| **depth > 0.0);
-        inside.count() as f64 * self.cells.side.powi(2)
+        self.inside_cells().count() as f64 * self.cells.side.powi(2)
     }
 
     /// The cell inside that is nearest to a point.
     pub(super) fn nearest(&self, point: DVec2) -> Option<usize> {
-        let inside = (0..self.depths.len()).filter(|cell| self.depths[*cell] > 0.0);
         let distance = |cell: &usize| self.place(*cell).distance_squared(point);
-        inside.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        self.inside_cells()
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }
 
     /// The cell that is farthest from another one on the way inside.
@@ -193,8 +207,22 @@ impl Grid {
         })
     }
 
+    /// The cells to the right of one and below it, where they are inside.
+    pub(super) fn next(&self, cell: usize) -> [Option<usize>; 2] {
+        // There is a border of cells outside.
+        [cell + 1, cell + self.cells.columns].map(|next| {
+            let is_inside = self.depths.get(next).is_some_and(|depth| *depth > 0.0);
+            is_inside.then_some(next)
+        })
+    }
+
+    /// The side of a cell.
+    pub(super) fn side(&self) -> f64 {
+        self.cells.side
+    }
+
     /// Per cell whether its middle is inside.
-    fn inside(&self, outline: &Outline) -> Vec<bool> {
+    fn filled(&self, outline: &Outline) -> Vec<bool> {
         let Cells {
             low,
             side,

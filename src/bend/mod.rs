@@ -16,12 +16,16 @@ use glam::DVec2;
 pub(crate) use centerline::Centerline;
 pub(crate) use skinned::{BentSurface, Bones};
 
-/// The length of a bend about its joint, in widths: with less, the inside folds at 90°.
+/// The length of a bend about its joint, in widths there: with less, the inside folds at 120°.
 const ARC: f64 = 1.5;
 /// The nodes that share the turn of a joint.
-const SHARES: usize = 3;
+const SHARES: usize = 4;
 /// The longest bend about a joint, as a share of the shorter bone beside it.
 const MAX_ARC: f64 = 1.8;
+/// A bend folds if it is shorter than its width needs by more than this.
+const MOST_CROWDING: f64 = 1.25;
+/// What is smaller than this share of the width of a part that bends does not bend with it.
+const RIGID: f64 = 0.5;
 /// A bone of a chain is at least this long, in widths.
 const SHORTEST_LINK: f64 = 1.0;
 /// The drawing says where an elbow is if it bends by more than this, degrees …
@@ -35,6 +39,10 @@ pub(crate) struct Bend {
     line: Centerline,
     /// The nodes that follow the part's own one, from the joint to the far end, each the child of the one before.
     pub nodes: Vec<BendNode>,
+    /// How long its bends should be by its width, as a share of how long they can be by the length of its bones.
+    crowding: f64,
+    /// Whether it is that of a garment, which has no nodes of its own: it follows those of its parent.
+    pub is_worn: bool,
 }
 
 /// A node of a part that bends, after its own one.
@@ -50,8 +58,8 @@ pub(crate) struct BendNode {
     pub share: f64,
     /// How far along the centreline it is, drawing units.
     at: f64,
-    /// Half the length over which the surface passes from the node before to this one.
-    blend: f64,
+    /// How far before and after it along the centreline the surface follows it in part.
+    reach: f64,
 }
 
 impl BendNode {
@@ -62,11 +70,12 @@ impl BendNode {
 }
 
 impl Bend {
-    /// A limb with one joint, an elbow or a knee: in the middle, or where it is drawn bent.
-    pub(crate) fn limb(line: Centerline) -> Self {
+    /// A limb with one joint, an elbow or a knee: in the middle, or where it is drawn bent. Its surface reaches as far as `depth` from
+    /// the drawing plane.
+    pub(crate) fn limb(line: Centerline, depth: f64) -> Self {
         let length = line.length();
         let joint = line.sharpest(MIDDLE.map(|share| share * length), DRAWN_BEND);
-        Self::with_joints(line, &[joint.unwrap_or(length / 2.0)])
+        Self::with_joints(line, &[joint.unwrap_or(length / 2.0)], depth)
     }
 
     /// A chain with joints at equal distances, as many of them as the centreline has room for.
@@ -76,11 +85,11 @@ impl Bend {
         let bones = (joints + 1).min(room as usize).max(2);
         let link = line.length() / bones as f64;
         let joints: Vec<f64> = (1..bones).map(|joint| joint as f64 * link).collect();
-        Self::with_joints(line, &joints)
+        Self::with_joints(line, &joints, 0.0)
     }
 
     /// A line with joints at these distances along it, ascending.
-    fn with_joints(line: Centerline, joints: &[f64]) -> Self {
+    fn with_joints(line: Centerline, joints: &[f64], depth: f64) -> Self {
         let ends: Vec<f64> = [0.0]
             .into_iter()
             .chain(joints.iter().copied())
@@ -93,32 +102,69 @@ impl Bend {
         // A turn that is shared by several nodes leaves the limb as wide as it is; a chain turns little at each joint.
         let shares = if joints.len() == 1 { SHARES } else { 1 };
         let mut nodes = Vec::with_capacity(shares * joints.len());
+        let mut crowding: f64 = 0.0;
         for (joint, bones) in ends.windows(3).enumerate() {
             let &[before, at, after] = bones else {
                 continue;
             };
             let shorter = (at - before).min(after - at);
-            let arc = match shares {
+            let reach = match shares {
+                // As far as the next joint.
                 1 => shorter,
-                _ => (ARC * line.width()).min(MAX_ARC * shorter),
+                _ => {
+                    let [wanted, most] = [line.arc(at, ARC, depth), MAX_ARC * shorter];
+                    crowding = crowding.max(wanted / most);
+                    wanted.min(most) / (shares + 1) as f64
+                }
             };
-            let blend = arc / (2 * shares) as f64;
             let [above, below] = [angle(before, at), angle(at, after)];
             let bent = between(above, below);
             for number in 1..=shares {
                 let share = number as f64 / shares as f64;
-                let at = at + (2 * number) as f64 * blend - (shares + 1) as f64 * blend;
+                let at = at + (number as f64 - (shares + 1) as f64 / 2.0) * reach;
                 nodes.push(BendNode {
                     position: line.at(at),
                     angle: above + share * bent,
                     joint,
                     share,
                     at,
-                    blend,
+                    reach,
                 });
             }
         }
-        Self { line, nodes }
+        Self {
+            line,
+            nodes,
+            crowding,
+            is_worn: false,
+        }
+    }
+
+    /// The bend of a garment over the part: its surface follows the nodes of the part.
+    pub(crate) fn worn(&self) -> Self {
+        Self {
+            is_worn: true,
+            ..self.clone()
+        }
+    }
+
+    /// Whether something that reaches over these points of the drawing, y up, is on a bend.
+    pub(crate) fn bends_at(&self, points: impl Iterator<Item = DVec2>) -> bool {
+        let along = points.map(|point| self.line.along(point));
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = along.fold(none, |(low, high), at| (low.min(at), high.max(at)));
+        let mut nodes = self.nodes.iter();
+        nodes.any(|node| node.at - node.reach < high && low < node.at + node.reach)
+    }
+
+    /// Whether something of this size, drawing units, is too small to bend, such as a button.
+    pub(crate) fn is_rigid(&self, size: DVec2) -> bool {
+        size.max_element() < RIGID * self.width()
+    }
+
+    /// Whether its bones are long enough for its bends. If they are much too short, the inside of a bend folds.
+    pub(crate) fn fits(&self) -> bool {
+        self.crowding <= MOST_CROWDING
     }
 
     /// The width of the part, drawing units.
@@ -126,14 +172,25 @@ impl Bend {
         self.line.width()
     }
 
-    /// How many bones the part has: one more than joints.
+    /// How many bones the part has: one more than joints. A garment has none of its own but its node.
     pub(crate) fn bones(&self) -> usize {
+        if self.is_worn {
+            return 1;
+        }
         1 + self.nodes.iter().filter(|node| node.is_bone()).count()
     }
 
     /// How many nodes share the turn of a joint.
     pub(crate) fn shares(&self) -> usize {
         self.nodes.iter().filter(|node| node.joint == 0).count()
+    }
+
+    /// The middle of the bend about a joint; `None` if there is no such joint.
+    pub(crate) fn middle(&self, joint: usize) -> Option<DVec2> {
+        let nodes = self.nodes.iter().filter(|node| node.joint == joint);
+        let along = nodes.map(|node| node.at).sum::<f64>() / self.shares() as f64;
+        let exists = self.nodes.iter().any(|node| node.joint == joint);
+        exists.then(|| self.line.at(along))
     }
 
     /// The end of the centreline.

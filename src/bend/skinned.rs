@@ -13,18 +13,15 @@ use crate::scene::{Influence, Surface, SurfaceSource};
 
 /// The distance of cuts where the surface passes from one node to the next, in widths, where a turn is shared and in a chain, whose
 /// joints turn less …
-const CUT: [f64; 2] = [0.125, 0.25];
-/// … of which there are at least, and at most, as many as this.
-const CUTS: [f64; 2] = [4.0, 12.0];
-
-/// How the surface passes from one node to the next: from evenly, 0, to smoothly, 1. With 1 the inside of a joint folds at 120°.
-const SMOOTHNESS: f64 = 0.5;
+const CUT: [f64; 2] = [0.14, 0.25];
+/// … of which there are at least, and at most, as many as this from node to node.
+const CUTS: [f64; 2] = [3.0, 12.0];
 
 /// The nodes of a part that bends, in the frame of its own node.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Bones {
     line: Centerline,
-    /// How far along the line each node after the first is, and half the length over which the surface passes to it.
+    /// How far along the line each node after the first is, and how far from there the surface begins to follow it.
     nodes: Vec<[f64; 2]>,
     is_chain: bool,
 }
@@ -33,7 +30,7 @@ impl Bones {
     /// Those of a part, given the map from the drawing, y up, to the frame of its node, which scales evenly.
     pub(crate) fn new(bend: &Bend, to_frame: DAffine2) -> Self {
         let scale = to_frame.matrix2.determinant().abs().sqrt();
-        let place = |node: &BendNode| [node.at * scale, node.blend * scale];
+        let place = |node: &BendNode| [node.at * scale, node.reach * scale];
         Self {
             line: bend.line.mapped(to_frame, scale),
             nodes: bend.nodes.iter().map(place).collect(),
@@ -42,22 +39,27 @@ impl Bones {
     }
 
     /// What moves a point at a distance along the line.
+    ///
+    /// Turns are blended by quadratic B-splines. So the surface bends evenly; a smoothstep from node to node leaves a dent on the inside
+    /// of a bend at each of them.
     pub(super) fn influence(&self, along: f64) -> Influence {
-        let after = self
+        let first = self
             .nodes
-            .partition_point(|[at, blend]| at + blend <= along);
-        match self.nodes.get(after) {
-            Some([at, blend]) if along > at - blend => {
-                let share = (along - (at - blend)) / (2.0 * blend);
-                let smooth = share * share * (3.0 - 2.0 * share);
-                let passed = share + SMOOTHNESS * (smooth - share);
-                Influence {
-                    joints: [after as u16, after as u16 + 1],
-                    first: (1.0 - passed) as f32,
-                }
+            .partition_point(|[at, reach]| at + reach <= along);
+        let mut influence = Influence::whole(first as u16);
+        let mut rest = 1.0;
+        for (number, [at, reach]) in self.nodes[first..].iter().take(3).enumerate() {
+            // How much of the turn of this node, and of those after it, a point here makes.
+            let passed = passed((along - at) / reach).min(rest);
+            if passed <= 0.0 {
+                break;
             }
-            _ => Influence::whole(after as u16),
+            influence.weights[number] = (rest - passed) as f32;
+            influence.weights[number + 1] = passed as f32;
+            influence.joints[number + 1] = (first + number + 1) as u16;
+            rest = passed;
         }
+        influence
     }
 
     /// What is no longer than this along the line follows a bend without being cut.
@@ -66,22 +68,33 @@ impl Bones {
     }
 
     /// How far along the line the surface is cut, ascending: where it passes from one node to the next.
-    fn levels(&self) -> impl Iterator<Item = f64> + '_ {
-        let mut last = f64::NEG_INFINITY;
-        let levels = self.nodes.iter().flat_map(|[at, blend]| {
-            let cuts = 2.0 * blend / self.shortest();
-            let cuts = cuts.ceil().clamp(CUTS[0], CUTS[1]);
-            let place = move |cut: usize| at - blend + 2.0 * blend * cut as f64 / cuts;
-            (0..=cuts as usize).map(place)
-        });
-        // Where one range ends and the next begins one cut is enough.
+    fn levels(&self) -> Vec<f64> {
+        let mut levels: Vec<f64> = Vec::new();
+        // What is nearer than this is one place.
         let least = 1e-6 * self.line.width();
-        levels.filter(move |level| {
-            let is_new = *level > last + least;
-            last = last.max(*level);
-            is_new
-        })
+        for [at, reach] in &self.nodes {
+            for to in [at - reach, *at, at + reach] {
+                match levels.last().copied() {
+                    Some(from) if to > from + least => {
+                        let cuts = ((to - from) / self.shortest()).ceil();
+                        let cuts = cuts.clamp(CUTS[0], CUTS[1]);
+                        let place = |cut: usize| from + (to - from) * cut as f64 / cuts;
+                        levels.extend((1..=cuts as usize).map(place));
+                    }
+                    Some(_) => {}
+                    None => levels.push(to),
+                }
+            }
+        }
+        levels
     }
+}
+
+/// The share of a turn that is made at a place, in reaches of its node from it: from 0 at −1 to 1 at 1.
+fn passed(place: f64) -> f64 {
+    let place = place.clamp(-1.0, 1.0);
+    let left = (1.0 - place.abs()).powi(2) / 2.0;
+    if place < 0.0 { left } else { 1.0 - left }
 }
 
 /// The surface of a solid of a part that bends, bound to the part's nodes.
@@ -109,7 +122,7 @@ impl SurfaceSource for BentSurface {
             &mut surface,
             along,
             self.bones.shortest(),
-            self.bones.levels(),
+            self.bones.levels().into_iter(),
         );
         let influences = values.into_iter().map(|value| self.bones.influence(value));
         surface.influences = influences.collect();

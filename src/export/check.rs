@@ -42,8 +42,9 @@ fn check_nodes(scene: &Scene) -> io::Result<()> {
             .mesh
             .is_some_and(|mesh| mesh >= scene.meshes.next_key());
         refuse(is_beyond, || wrong("a mesh out of range"))?;
-        refuse(!node.bones.iter().all(in_order), || {
-            wrong("a bone that is not below it")
+        let mut bones = node.bones.iter();
+        refuse(bones.any(|bone| *bone >= scene.nodes.next_key()), || {
+            wrong("a bone out of range")
         })?;
     }
     let mut roots = scene.roots.iter();

@@ -89,8 +89,6 @@ pub(crate) struct Figures<'a> {
 /// A deviation that nobody sees, as a share of the larger extent of all parts: a twentieth of a pixel in a picture a thousand
 /// pixels wide.
 const INVISIBLE: f64 = 5e-5;
-/// What is smaller than this share of the width of a part that bends does not bend with it.
-const RIGID: f64 = 0.5;
 /// How far ink comes out at most, as a share of its stroke's width.
 const MAX_INK_STEP: f64 = 0.5;
 
@@ -265,9 +263,8 @@ impl<'a> Figures<'a> {
         let Some(bend) = self.context.bends[main].as_deref() else {
             return patch;
         };
-        let small = RIGID * bend.width();
         let measure = &self.context.bindings.parts[part].measure;
-        let is_small = part != main && (measure.bounds.1 - measure.bounds.0).max_element() < small;
+        let is_small = part != main && bend.is_rigid(measure.bounds.1 - measure.bounds.0);
         let rigid = is_small.then(|| bend.node_at(y_up(measure.center)) as u16);
         SurfacePatch::Deferred(Arc::new(BentSurface {
             solid: Arc::clone(solid),
@@ -352,12 +349,14 @@ impl<'a> FigureContext<'a> {
         let bends = bends.filter_map(|(part, bend)| Some((part, bend.as_deref()?)));
         let unasked = bends.filter(|(part, _)| self.bindings.attributes(*part).bend().is_none());
         unasked.map(|(part, bend)| {
-            (
-                part,
-                FormInFigure::Bends {
+            let wearer = self.bindings.parts[part].parent.filter(|_| bend.is_worn);
+            let form = match wearer {
+                Some(wearer) => FormInFigure::BendsWith { wearer },
+                None => FormInFigure::Bends {
                     bones: bend.bones(),
                 },
-            )
+            };
+            (part, form)
         })
     }
 

@@ -85,7 +85,12 @@ pub(super) fn add(
         }
         if bones[id] == 0 {
             scene.nodes[id].mesh = meshes.place(node.part, node.is_mirrored, &mut scene.meshes);
-            let after = (usize::from(id) + 1..).map(NodeId::from);
+            let bend = context.bends[node.part].as_deref();
+            let of = match node.parent {
+                Some(wearer) if bend.is_some_and(|bend| bend.is_worn) => wearer,
+                _ => id,
+            };
+            let after = (usize::from(of) + 1..).map(NodeId::from);
             let own = after.take_while(|next| bones.get(*next).is_some_and(|bone| *bone > 0));
             scene.nodes[id].bones = own.collect();
         }

@@ -92,8 +92,8 @@ fn what_bends_is_a_chain_of_nodes_and_so_is_its_copy() {
     ];
     let scene = drawing(&elements.concat()).scene;
     for back in ["", ".back"] {
-        let chain =
-            ["Arm", "Arm.2a", "Arm.2b", "Arm.2", "Hand"].map(|name| format!("{name}{back}"));
+        let chain = ["Arm", "Arm.2a", "Arm.2b", "Arm.2c", "Arm.2", "Hand"]
+            .map(|name| format!("{name}{back}"));
         let ids = chain.map(|name| {
             let found = scene.nodes.iter_enumerated();
             let mut found = found.filter(|(_, node)| node.name == name);
@@ -102,12 +102,46 @@ fn what_bends_is_a_chain_of_nodes_and_so_is_its_copy() {
         for pair in ids.windows(2) {
             assert_eq!(scene.nodes[pair[0]].children, [pair[1]]);
         }
-        assert_eq!(scene.nodes[ids[0]].bones, ids[1..4]);
-        assert_eq!(ids.map(|id| scene.nodes[id].shares), [0, 0, 0, 3, 0]);
+        assert_eq!(scene.nodes[ids[0]].bones, ids[1..5]);
+        assert_eq!(ids.map(|id| scene.nodes[id].shares), [0, 0, 0, 0, 4, 0]);
         // The hand is where it is drawn, and as deep as the arm.
         let rest = scene.rest();
-        let [arm, hand] = [ids[0], ids[4]].map(|id| rest[id].translation * 100.0);
+        let [arm, hand] = [ids[0], ids[5]].map(|id| rest[id].translation * 100.0);
         assert!(hand.distance(arm + DVec3::X * 58.0) < 1e-6, "{arm} {hand}");
+    }
+}
+
+#[test]
+fn a_sleeve_follows_the_bones_of_its_arm() {
+    let elements = [
+        rect([40, 40, 20, 20], "Body$"),
+        rect([60, 45, 60, 10], "Arm@Body$Shape -d roundv Offset 9 Bend 1"),
+        rect([62, 44, 46, 12], "Sleeve@Arm$"),
+        rect([101, 44, 8, 12], "Cuff@Sleeve$"),
+        rect([112, 44, 6, 12], "Bracelet@Arm$"),
+        rect([88, 48, 3, 3], "Button@Arm$"),
+        // Only its end is on the arm.
+        rect([86, 50, 12, 40], "Flag@Arm$"),
+    ];
+    let scene = drawing(&elements.concat()).scene;
+    for back in ["", ".back"] {
+        let find = |name: &str| {
+            let mut found = scene.nodes.iter_enumerated();
+            let name = format!("{name}{back}");
+            found.find(|(_, node)| node.name == name).unwrap().0
+        };
+        let [arm, sleeve, last] = ["Arm", "Sleeve", "Arm.2"].map(find);
+        let bones = &scene.nodes[arm].bones;
+        assert_eq!((bones.len(), bones.last()), (4, Some(&last)));
+        assert_eq!(&scene.nodes[sleeve].bones, bones);
+        assert!(scene.nodes[arm].children.contains(&sleeve));
+        // What is past the elbow turns with the forearm, on the sleeve as well.
+        for name in ["Cuff", "Bracelet"] {
+            assert!(scene.nodes[last].children.contains(&find(name)), "{name}");
+        }
+        for name in ["Cuff", "Bracelet", "Button", "Flag"] {
+            assert!(scene.nodes[find(name)].bones.is_empty(), "{name}");
+        }
     }
 }
 

@@ -110,6 +110,11 @@ pub(super) fn nodes(
         let chain = bones(context, frames, pending, id, &mut names, &mut nodes);
         for child in children[pending.part].iter().rev() {
             let bend = context.bends[pending.part].as_deref();
+            let is_worn = context.bends[*child]
+                .as_deref()
+                .is_some_and(|bend| bend.is_worn);
+            // What follows all bones hangs on the first one.
+            let bend = bend.filter(|_| !is_worn);
             let bone = bend.map_or(0, |bend| bend.node_at(frames[*child].node.origin));
             let child = Pending {
                 part: *child,
@@ -140,7 +145,8 @@ fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
     }
 }
 
-/// Adds the nodes that bend a part, each the child of the one before. Returns all nodes of the part with their frames, its own one first.
+/// Adds the nodes that bend a part, each the child of the one before. Returns all nodes of the part with their frames, its own one
+/// first; those of a garment are its own one and those that bend its parent.
 fn bones(
     context: &FigureContext<'_>,
     frames: &TiSlice<PartId, PartFrames>,
@@ -162,6 +168,11 @@ fn bones(
             center: bone.position,
             angle: bone.angle,
         };
+        if let Some((wearer, _)) = pending.parent.filter(|_| bend.is_worn) {
+            // They come right after the parent's own node.
+            chain.push((NodeId::from(usize::from(wearer) + 1 + number), frame));
+            continue;
+        }
         let id = nodes.push_and_get_key(FigureNode {
             name: free_name(format!("{name}{suffix}"), names),
             part: pending.part,

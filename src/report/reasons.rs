@@ -233,6 +233,10 @@ impl<'a> Reasons<'a> {
                 let others: String = others.collect();
                 (format!("bends: its bones are {name}{others}"), Undo::Bends)
             }
+            FormInFigure::BendsWith { wearer } => {
+                let name = &self.compiled.bindings.parts[wearer].name;
+                (format!("bends with {name}, which it lies on"), Undo::Bends)
+            }
             FormInFigure::Cord { around } if around == main => {
                 ("outline is a cord".to_owned(), Undo::Cord)
             }

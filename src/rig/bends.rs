@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
@@ -14,16 +15,17 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{self, Outline, area, y_up};
 use crate::index::par_keys;
 use crate::labels::{Class, Label, LimbSegment};
+use crate::solid::{self, Placement, Profile};
 use crate::svg::Drawing;
 
-/// A part that is at least this much longer than it is wide bends without a string that says so.
-const SLENDER: f64 = 2.2;
 /// How many joints a part has that bends all along its length.
 const SUPPLE: usize = 4;
+/// A garment bends with its parent if at least this share of it lies on that.
+const COVERS: f64 = 0.6;
 /// A shape of a limb's group belongs to its outline if it has at least this share of the main shape's area.
 const OF_OUTLINE: f64 = 0.1;
 
-/// Per main part how it bends; `None` for one that is rigid. `figures` are the drawing's figures.
+/// Per main part how it bends; `None` for one that is rigid. A garment over a limb that bends, such as a sleeve, bends with it. `figures` are the drawing's figures.
 pub(crate) fn bends(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -61,18 +63,53 @@ pub(crate) fn bends(
         }
         let outline = outline(bindings, index, &parts_of_node[index]);
         let line = Centerline::new(&outline, y_up(part.origin))?;
-        if asked.is_none() && line.length() < SLENDER * line.width() {
+        if asked.is_none() && !line.is_slender() {
             return None;
         }
-        Some(Arc::new(match joints {
-            1 => Bend::limb(line),
+        let bend = match joints {
+            1 => Bend::limb(line, depth(&profile, part)),
             _ => Bend::chain(line, joints),
-        }))
+        };
+        (asked.is_some() || bend.fits()).then(|| Arc::new(bend))
     };
-    par_keys(&bindings.parts)
-        .map(bend)
-        .collect::<Vec<_>>()
-        .into()
+    let own: Vec<_> = par_keys(&bindings.parts).map(bend).collect();
+    let mut bends: TiVec<PartId, Option<Arc<Bend>>> = own.into();
+    let worn = |index: PartId| {
+        let part = &bindings.parts[index];
+        let wearer = part.parent.filter(|_| part.kind == PartKind::Main)?;
+        let bend = bends[wearer].as_deref()?;
+        let attributes = bindings.attributes(index);
+        // What has a place of its own in motions, or is held, moves for itself.
+        let is_free = labels.contains_key(&index) && !is_worn_on_limbs(&part.name);
+        if is_free || attributes.bend().is_some() || attributes.carry().is_some() {
+            return None;
+        }
+        bindings.profile(drawing, index)?;
+        let [covering, covered] =
+            [index, wearer].map(|part| outline(bindings, part, &parts_of_node[part]));
+        let (low, high) = geometry::bounds(&covering)?;
+        let rings = covering.polygons.iter().flat_map(|polygon| &polygon.rings);
+        let points = rings.flatten().map(|point| y_up(*point));
+        if bend.is_rigid(high - low) || !bend.bends_at(points) {
+            return None;
+        }
+        let shared = area(&geometry::intersect(&covering, &covered));
+        (shared >= COVERS * area(&covering)).then(|| Arc::new(bend.worn()))
+    };
+    let worn: Vec<_> = par_keys(&bindings.parts).map(worn).collect();
+    for (bend, worn) in bends.iter_mut().zip(worn) {
+        if worn.is_some() {
+            *bend = worn;
+        }
+    }
+    bends
+}
+
+/// Whether a part is a garment of limbs by its name.
+fn is_worn_on_limbs(name: &str) -> bool {
+    let terms = anatomy::terms(name);
+    let worn = [Term::Sleeve, Term::Stocking, Term::HipWear, Term::Worn];
+    worn.iter().any(|term| terms.contains(term))
 }
 
 /// Reports each `Bend` in a string whose part has no joints inside nevertheless. `bends` are those of the main parts.
@@ -126,6 +163,18 @@ fn joints(part: &Part, label: Option<&Label>) -> usize {
         },
         _ => 0,
     }
+}
+
+/// How far the surface of a part reaches from its plane, drawing units.
+fn depth(profile: &Profile, part: &Part) -> f64 {
+    let half = DVec2::new(part.measure.half_across, part.measure.half_along);
+    let options = solid::Options {
+        segments: 1,
+        crease: 0.0,
+        placement: Placement::default(),
+    };
+    let depths = profile.depths(half, &options).unwrap_or_default();
+    depths.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
 /// The outline of a part with the larger shapes of its group: a sleeve with its hand.

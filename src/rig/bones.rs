@@ -1,6 +1,7 @@
 //! The bones inside the parts of a rig that bend.
 
 use glam::{DQuat, DVec3};
+use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::Context;
@@ -25,17 +26,40 @@ pub(super) fn add(
     parts: &mut TiVec<FigurePartId, RigPart>,
 ) {
     let children = children(figure);
-    for index in group.parts.keys() {
-        let Some(bend) = context.bends[group.parts[index]].as_deref() else {
+    let bend = |index: FigurePartId| context.bends[group.parts[index]].as_deref();
+    let bending = || {
+        let indices = group.parts.keys();
+        indices.filter_map(move |index| Some((index, bend(index)?)))
+    };
+    let mut chains: FxHashMap<FigurePartId, Vec<FigurePartId>> = FxHashMap::default();
+    for (index, bend) in bending().filter(|(_, bend)| !bend.is_worn) {
+        let chain = add_chain(bend, index, &matching.parts[index].bones, parts);
+        chains.insert(index, chain);
+    }
+    for (index, own) in bending().filter(|(_, bend)| bend.is_worn) {
+        // No joint of the motion turns it as well, such as that of a foot.
+        parts[index].drive = None;
+        // A garment has the bones of its parent, but for the first.
+        let wearer = figure.parts[index]
+            .parent
+            .and_then(|wearer| chains.get(&wearer));
+        let of_wearer = wearer.map_or(Vec::new(), |chain| chain[1..].to_vec());
+        if of_wearer.len() == own.nodes.len() {
+            chains.insert(index, [vec![index], of_wearer].concat());
+        }
+    }
+    for (index, own) in bending() {
+        let Some(chain) = chains.get(&index) else {
             continue;
         };
-        let chain = add_chain(bend, index, &matching.parts[index].bones, parts);
         for child in &children[index] {
             let joint = figure.parts[*child].joint;
-            parts[*child].parent = Some(chain[bend.node_at(joint)]);
+            let is_worn = bend(*child).is_some_and(|bend| bend.is_worn);
+            let bone = if is_worn { 0 } else { own.node_at(joint) };
+            parts[*child].parent = Some(chain[bone]);
         }
         // What is near the ground moves with the bone that it is on.
-        let bone = |point: &DVec3| chain[bend.node_at(point.truncate())];
+        let bone = |point: &DVec3| chain[own.node_at(point.truncate())];
         for point in std::mem::take(&mut parts[index].surface) {
             parts[bone(&point)].surface.push(point);
         }
@@ -123,7 +147,6 @@ fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartI
         let own = number.checked_sub(1).map(|number| bend.nodes[number]);
         let joint = parts[*part].joint;
         let is_bone = own.is_none_or(|node| node.is_bone());
-        let next = bend.nodes[number..].iter();
         let end = match own {
             // The nodes that share a turn lead to each other.
             Some(node) if !is_bone => {
@@ -135,9 +158,7 @@ fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartI
             }
             _ => {
                 let joint = own.map_or(0, |node| node.joint + 1);
-                let mut nodes = next.filter(|node| node.joint == joint);
-                let middle = nodes.find(|node| node.share > 0.5);
-                middle.map_or(tip, |node| node.position)
+                bend.middle(joint).unwrap_or(tip)
             }
         };
         let end = end.extend(joint.z);

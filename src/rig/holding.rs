@@ -132,8 +132,13 @@ impl<'a> Pair<'a> {
         if from_part == 0.0 {
             points.push(joint);
         }
-        let chain = bones::chain(rig, part);
         let bend = context.bends[group.parts[part]].as_deref();
+        // A garment follows the bones of its parent.
+        let is_worn = bend.is_some_and(|bend| bend.is_worn);
+        let mut chain = bones::chain(rig, if is_worn { parent } else { part });
+        if is_worn {
+            chain[0] = part;
+        }
         let bone = |point: DVec2| chain[bend.map_or(0, |bend| bend.node_at(point))];
         let gaps = points.iter().map(|point| distance(&below, *point));
         let drawn = gaps.fold(f64::INFINITY, f64::min);

@@ -10,30 +10,37 @@ use super::{MaterialId, Mesh, MeshId, Node, NodeId, Primitive, Scene, Surface, S
 /// The largest number of joints of a skin: corners refer to them by 16 bits.
 pub const MAX_JOINTS: usize = 1 << 16;
 
-/// The joints that move a corner of a surface, at most two.
+/// The joints that move a corner of a surface, at most four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Influence {
     /// Indices of the joints: of a skin, or of a node with bones, where 0 is the node itself and others are its bones, from 1.
-    pub joints: [u16; 2],
-    /// The weight of the first one, 0 to 1; the second one has the rest.
-    pub first: f32,
+    pub joints: [u16; 4],
+    /// Their weights, whose sum is 1. No joint with a weight is there twice.
+    pub weights: [f32; 4],
 }
 
 impl Influence {
     /// That of one joint with its full weight.
     pub fn whole(joint: u16) -> Self {
         Self {
-            joints: [joint, 0],
-            first: 1.0,
+            joints: [joint, 0, 0, 0],
+            weights: [1.0, 0.0, 0.0, 0.0],
         }
     }
 
     /// The weights as bytes whose sum is 255; a joint without weight has number 0, as glTF wants it.
-    pub(crate) fn quantized(&self) -> [(u16, u8); 2] {
-        let first = (self.first.clamp(0.0, 1.0) * 255.0).round() as u8;
-        let [one, other] = self.joints;
-        let used = |joint: u16, weight: u8| (if weight == 0 { 0 } else { joint }, weight);
-        [used(one, first), used(other, 255 - first)]
+    pub(crate) fn quantized(&self) -> [(u16, u8); 4] {
+        // Rounded sums of weights differ by whole bytes, so that nothing is left over.
+        let (mut sum, mut before) = (0.0, 0_u8);
+        let mut quantized = [(0, 0); 4];
+        for (at, own) in quantized.iter_mut().enumerate() {
+            sum += self.weights[at].max(0.0);
+            let after = (sum.min(1.0) * 255.0).round() as u8;
+            let weight = after - before;
+            before = after;
+            *own = (if weight == 0 { 0 } else { self.joints[at] }, weight);
+        }
+        quantized
     }
 }
 

@@ -325,8 +325,8 @@ fn corners(scene: &Scene) -> Vec<Corner> {
                     continue;
                 };
                 let placed = rest[id].rotation * own + rest[id].position;
-                let first = f64::from(influence.first);
-                let weights = influence.joints.into_iter().zip([first, 1.0 - first]);
+                let weights = influence.weights.map(f64::from);
+                let weights = influence.joints.into_iter().zip(weights);
                 let moved = weights.filter(|(_, weight)| *weight > 0.0);
                 let moved = moved.map(|(joint, weight)| {
                     let bone = usize::from(joint).checked_sub(1);

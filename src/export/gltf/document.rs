@@ -69,7 +69,8 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
     let mut owners: TiVec<NodeId, Option<NodeId>> = ti_vec![None; scene.nodes.len()];
     for skin in skins {
         for bone in skin.joints.iter().filter(|_| skin.node.is_some()) {
-            owners[*bone] = skin.node.filter(|node| node != bone);
+            // Garments follow the bones of what wears them, which comes first.
+            owners[*bone] = owners[*bone].or(skin.node.filter(|node| node != bone));
         }
     }
     json.list("nodes", root_node + 1 + skins.len(), |id: NodeId| {

@@ -364,17 +364,18 @@ impl Batch {
             if joints <= 0x100 {
                 let out = self.accessor(Kind::JointsU8, vertices, None);
                 let numbers = influences.clone();
-                out.extend(numbers.flat_map(|[(a, _), (b, _)]| [a as u8, b as u8, 0, 0]));
+                out.extend(numbers.flat_map(|own| own.map(|(joint, _)| joint as u8)));
             } else {
                 let out = self.accessor(Kind::JointsU16, vertices, None);
                 let numbers = influences.clone();
                 out.extend(numbers.flat_map(|own| {
-                    let [[a, b], [c, d]] = own.map(|(joint, _)| joint.to_le_bytes());
-                    [a, b, c, d, 0, 0, 0, 0]
+                    let [[a, b], [c, d], [e, f], [g, h]] =
+                        own.map(|(joint, _)| joint.to_le_bytes());
+                    [a, b, c, d, e, f, g, h]
                 }));
             }
             let weights = self.accessor(Kind::Weights, vertices, None);
-            weights.extend(influences.flat_map(|[(_, a), (_, b)]| [a, b, 0, 0]));
+            weights.extend(influences.flat_map(|own| own.map(|(_, weight)| weight)));
         }
         Ok(())
     }

@@ -167,6 +167,11 @@ pub(crate) enum FormInFigure {
         /// How many bones it has.
         bones: usize,
     },
+    /// It is a garment that bends with its parent.
+    BendsWith {
+        /// The parent.
+        wearer: PartId,
+    },
 }
 
 /// What a part has on the back of a volume.
