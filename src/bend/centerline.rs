@@ -21,6 +21,8 @@ const STEP: f64 = 0.25;
 const SLENDER: f64 = 2.2;
 /// At most this share of an outline with a middle line is farther from it than it is wide.
 const MOST_STRAY: f64 = 0.06;
+/// What an outline branches into begins this far along its middle line or later, as a share of its length, or it has no such line.
+const LEAST_STEM: f64 = 0.6;
 /// How much faster one gets along the line inside a bend that is drawn counts up to this.
 const MOST_RISE: f64 = 1.5;
 /// A line that is as near to a straight one as this, in widths, is straight.
@@ -52,8 +54,10 @@ pub(crate) struct Centerline {
     width: f64,
     /// Per point how far from the line the outline reaches there at most, times how much faster one gets along the line there than on it.
     girths: Vec<f64>,
-    /// The share of the area that is farther from the line than the outline is wide.
-    pub(super) stray: f64,
+    /// The area of the outline along it.
+    area: f64,
+    /// The share of the area that is beside the line and farther from it than the outline is wide.
+    stray: f64,
     /// For a line that curls, about how far along it the places in and near the outline are.
     ways: Option<Ways>,
 }
@@ -89,6 +93,11 @@ impl Centerline {
         let mut line = Self::through(&way, grid.area(), joint)?;
         line.find_ways(&grid);
         line.stray = line.stray(&grid);
+        if line.stray > MOST_STRAY
+            && let Some(stem) = line.stem(&grid, &way, joint)
+        {
+            line = stem;
+        }
         if line.stray <= MOST_STRAY {
             let stray = line.stray;
             for _ in 0..CENTERINGS {
@@ -99,6 +108,29 @@ impl Centerline {
         }
         line.measure_girths(&grid);
         Some(line)
+    }
+
+    /// The line up to where the outline is branched at its far end, like an arm with spread fingers; `None` if that is not near the end.
+    /// `way` is the way through the outline along which the line leads.
+    fn stem(&self, grid: &Grid, way: &[DVec2], joint: DVec2) -> Option<Self> {
+        let along = |cell: usize| self.along(y_up(grid.place(cell)));
+        let mut far: Vec<f64> = self.far_cells(grid).map(along).collect();
+        far.sort_unstable_by(f64::total_cmp);
+        let few = (MOST_STRAY * LEAST_STEM * grid.inside_cells().count() as f64) as usize;
+        // What is farther away than the outline is wide left the line before.
+        let end = far.get(few)? - self.width;
+        if end < LEAST_STEM * self.length {
+            return None;
+        }
+        let cells = grid.inside_cells().filter(|cell| along(*cell) <= end);
+        let area = cells.count() as f64 * grid.side().powi(2);
+        let at = self.at(end);
+        let off = |number: &usize| way[*number].distance_squared(at);
+        let last = (0..way.len()).min_by(|a, b| off(a).total_cmp(&off(b)))?;
+        let mut stem = Self::through(&way[..=last], area, joint)?;
+        stem.find_ways(grid);
+        stem.stray = stem.stray(grid);
+        Some(stem)
     }
 
     /// For a line that curls, finds about how far along it the places in and near the outline are.
@@ -118,14 +150,18 @@ impl Centerline {
         });
     }
 
-    /// The share of the area that is farther from the line than the outline is wide.
-    fn stray(&self, grid: &Grid) -> f64 {
-        let is_far = |cell: &usize| {
+    /// The cells inside that are beside the line and farther from it than the outline is wide.
+    fn far_cells<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = usize> + 'a {
+        grid.inside_cells().filter(|cell| {
             let place = y_up(grid.place(*cell));
-            place.distance(self.at(self.along(place))) > self.width
-        };
-        let far = grid.inside_cells().filter(is_far).count();
-        far as f64 / grid.inside_cells().count().max(1) as f64
+            let along = self.along(place);
+            along < self.length && place.distance(self.at(along)) > self.width
+        })
+    }
+
+    /// The share of the area that is beside the line and farther from it than the outline is wide.
+    fn stray(&self, grid: &Grid) -> f64 {
+        self.far_cells(grid).count() as f64 / grid.inside_cells().count().max(1) as f64
     }
 
     /// Whether this is the middle line of a slender outline. What is branched is not, nor a wide shape with a thin end.
@@ -152,6 +188,10 @@ impl Centerline {
         for cell in grid.inside_cells() {
             let place = y_up(grid.place(cell));
             let along = self.along(place);
+            // What branches off does not count.
+            if place.distance(self.at(along)) > self.width {
+                continue;
+            }
             let number = ((along - self.first) / self.spacing).round().max(0.0) as usize;
             let number = number.min(last);
             let off = (place - self.at(along)).dot(self.across(number));
@@ -173,7 +213,7 @@ impl Centerline {
             }
         }
         smooth(&mut line);
-        Self::of_points(line, grid.area(), joint)
+        Self::of_points(line, self.area, joint)
     }
 
     /// To the left of the line at one of its points.
@@ -290,6 +330,7 @@ impl Centerline {
             length: inner + clip,
             width,
             girths: Vec::new(),
+            area,
             stray: 0.0,
             ways: None,
         };
@@ -367,6 +408,7 @@ impl Centerline {
             length: self.length * scale,
             width: self.width * scale,
             girths: self.girths.iter().map(|girth| girth * scale).collect(),
+            area: self.area * scale * scale,
             stray: self.stray,
             ways: self.ways.as_ref().map(|ways| Ways {
                 to_outline: ways.to_outline * map.inverse(),

@@ -42,8 +42,8 @@ pub(super) struct Leg {
 /// What is below the knee of a leg.
 struct Shin {
     part: FigurePartId,
-    /// The part whose joint is the knee: of several that share its turn, the one in the middle.
-    knee: FigurePartId,
+    /// The parts between whose joints the knee is: of those that share its turn, the two in the middle, which are one if their number is odd.
+    knee: [FigurePartId; 2],
 }
 
 /// How a knee bends in a frame.
@@ -171,7 +171,8 @@ impl Leg {
             }
             return turns;
         };
-        let middle = joint(shin.knee);
+        let [above, below] = shin.knee.map(joint);
+        let middle = above.midpoint(below);
         let top = self.upper[0];
         let thigh = kinematics.transforms[top].rotation * rig.parts[top].node.rotation.inverse();
         let left = thigh * (rig.facing.turn() * DVec3::X);
@@ -205,13 +206,20 @@ impl Leg {
     }
 }
 
-/// The part whose joint is the knee between two pieces of a leg, given all parts of the leg.
-fn knee(rig: &Rig, all: &[FigurePartId], [upper, lower]: [FigurePartId; 2]) -> FigurePartId {
-    let shares = |part: &&FigurePartId| {
-        let shared = rig.parts[**part].shared;
-        shared.is_some_and(|shared| shared.between == [upper, lower] && shared.share > 0.5)
+/// The parts between whose joints the knee is that lies between two pieces of a leg, given all parts of the leg from the hip on.
+fn knee(
+    rig: &Rig,
+    all: &[FigurePartId],
+    [upper, lower]: [FigurePartId; 2],
+) -> [FigurePartId; 2] {
+    let shares = |part: &FigurePartId| {
+        let shared = rig.parts[*part].shared;
+        shared.is_some_and(|shared| shared.between == [upper, lower])
     };
-    all.iter().find(shares).copied().unwrap_or(lower)
+    let sharing = all.iter().copied().filter(shares);
+    let sharing: Vec<FigurePartId> = sharing.chain([lower]).collect();
+    let last = sharing.len() - 1;
+    [sharing[last / 2], sharing[last.div_ceil(2)]]
 }
 
 impl Knee {

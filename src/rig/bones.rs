@@ -148,10 +148,10 @@ fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartI
         let joint = parts[*part].joint;
         let is_bone = own.is_none_or(|node| node.is_bone());
         let end = match own {
-            // The nodes that share a turn lead to each other.
+            // From the middle on the nodes that share a turn lead to each other.
             Some(node) if !is_bone => {
                 let after = bend.nodes[number..].first();
-                let is_late = node.share > 0.5;
+                let is_late = node.share >= 0.5;
                 after
                     .filter(|_| is_late)
                     .map_or(node.position, |after| after.position)

@@ -193,6 +193,68 @@ fn a_chain_has_bones_of_one_length() {
     assert_eq!(bend.nodes.len(), 2);
 }
 
+/// An outline of one ring.
+fn ring(points: &[(f64, f64)]) -> Outline {
+    let ring = points.iter().map(|(x, y)| DVec2::new(*x, *y)).collect();
+    Outline {
+        polygons: vec![Polygon { rings: vec![ring] }],
+    }
+}
+
+#[test]
+fn what_branches_at_its_end_bends_up_to_there() {
+    // A feeler with a bar across its end, and an arm with three fingers.
+    let feeler = [
+        (-1.5, 0.),
+        (-1.5, 27.),
+        (-8., 27.),
+        (-8., 30.),
+        (8., 30.),
+        (8., 27.),
+        (1.5, 27.),
+        (1.5, 0.),
+    ];
+    let hand = [
+        (-10., 0.),
+        (-10., 100.),
+        (-40., 120.),
+        (-36., 126.),
+        (-4., 112.),
+        (-4., 146.),
+        (4., 146.),
+        (4., 112.),
+        (36., 126.),
+        (40., 120.),
+        (10., 100.),
+        (10., 0.),
+    ];
+    for (points, [least, most]) in [(&feeler[..], [20.0, 29.0]), (&hand, [85.0, 115.0])] {
+        let line = Centerline::new(&ring(points), DVec2::ZERO).unwrap();
+        assert!(line.is_slender(), "{points:?}");
+        let length = line.length();
+        assert!(least < length && length < most, "{length}");
+        let tip = line.at(length);
+        assert!(tip.x.abs() < 2.0, "{tip}");
+    }
+    // A cross branches in its middle.
+    let cross = [
+        (-2., 0.),
+        (-2., 18.),
+        (-20., 18.),
+        (-20., 22.),
+        (-2., 22.),
+        (-2., 40.),
+        (2., 40.),
+        (2., 22.),
+        (20., 22.),
+        (20., 18.),
+        (2., 18.),
+        (2., 0.),
+    ];
+    let line = Centerline::new(&ring(&cross), DVec2::ZERO);
+    assert!(line.is_none_or(|line| !line.is_slender()));
+}
+
 #[test]
 fn round_shapes_have_no_middle_line() {
     let ball: Vec<DVec2> = (0..40)

@@ -281,11 +281,16 @@ export function limbAt(object: Object3D, corner: number): Object3D | null {
   if (!bones) return partNode(object);
   const { geometry } = object as SkinnedMesh;
   const [numbers, weights] = [geometry.getAttribute("skinIndex"), geometry.getAttribute("skinWeight")];
-  const first = weights.getX(corner) >= weights.getY(corner);
-  let at = first ? numbers.getX(corner) : numbers.getY(corner);
+  let [at, most] = [0, 0];
+  for (let component = 0; component < weights.itemSize; component++) {
+    const weight = weights.getComponent(corner, component);
+    if (weight > most) [at, most] = [numbers.getComponent(corner, component), weight];
+  }
   // The nodes above a bone that make its turn with it cannot be turned by themselves.
   while (at > 0 && at < bones.length - 1 && about(bones[at]!, "shares") === undefined) at++;
-  return bones[at] ?? null;
+  // A garment follows the bones of what wears it, which turns with it.
+  const isWorn = bones[1] && bones[1].parent !== bones[0];
+  return (at === 0 && isWorn ? bones[0]!.parent : bones[at]) ?? null;
 }
 
 /** The part node that an object belongs to. */

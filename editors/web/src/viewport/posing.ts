@@ -88,12 +88,16 @@ export class Posing {
     this.drag = again ? { ...this.drag, node: again } : null;
   }
 
-  /** Where a node turns. Of nodes that share a turn it is the middle one: the last is beyond the joint, and moves as it turns. */
+  /** Where a node turns. Of nodes that share a turn it is between the two in the middle: the last is beyond the joint, and moves as it turns. */
   private joint(node: Object3D): Vector3 {
-    let middle = node;
-    for (let number = 0; number < (sharesOf(node) - 1) / 2 && middle.parent; number++) middle = middle.parent;
-    middle.updateWorldMatrix(true, false);
-    return new Vector3().setFromMatrixPosition(middle.matrixWorld);
+    const steps = sharesOf(node) - 1;
+    const place = (above: number): Vector3 => {
+      let at = node;
+      for (let number = 0; number < above && at.parent; number++) at = at.parent;
+      at.updateWorldMatrix(true, false);
+      return new Vector3().setFromMatrixPosition(at.matrixWorld);
+    };
+    return place(Math.floor(steps / 2)).lerp(place(Math.ceil(steps / 2)), 0.5);
   }
 
   private onScreen(node: Object3D): { x: number; y: number } {
