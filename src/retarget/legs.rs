@@ -207,11 +207,7 @@ impl Leg {
 }
 
 /// The parts between whose joints the knee is that lies between two pieces of a leg, given all parts of the leg from the hip on.
-fn knee(
-    rig: &Rig,
-    all: &[FigurePartId],
-    [upper, lower]: [FigurePartId; 2],
-) -> [FigurePartId; 2] {
+fn knee(rig: &Rig, all: &[FigurePartId], [upper, lower]: [FigurePartId; 2]) -> [FigurePartId; 2] {
     let shares = |part: &FigurePartId| {
         let shared = rig.parts[*part].shared;
         shared.is_some_and(|shared| shared.between == [upper, lower])

@@ -31,11 +31,13 @@ impl Wearer {
         let says = |term| terms.contains(&term);
         let is_of_leg =
             says(Term::Leg) || says(Term::Thigh) || says(Term::Shin) || says(Term::Foot);
+        let [one, other] = anatomy::sides(terms);
         match () {
             () if says(Term::Sleeve) => Some(Self::Arm),
             () if says(Term::Worn) && says(Term::Hand) => Some(Self::Arm),
             () if says(Term::Stocking) || says(Term::Worn) && says(Term::Foot) => Some(Self::Leg),
-            () if says(Term::HipWear) && is_of_leg => Some(Self::Leg),
+            // A left trouser is that of one leg.
+            () if says(Term::HipWear) && (is_of_leg || one != other) => Some(Self::Leg),
             () if says(Term::HipWear) => Some(Self::Hips),
             () => None,
         }
