@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::kinematics::ForwardKinematics;
 use super::rotations::{Rotations, arc};
+use super::splayed::keeps_pose;
 use super::{Follow, Rig, RigPart};
 use crate::labels::FigurePartId;
 use crate::smoothing::ease;
@@ -79,14 +80,16 @@ impl Leg {
             |part: &&FigurePartId| rotations.is_own(**part) && rig.parts[**part].shared.is_none();
         let pieces: Vec<FigurePartId> = all.iter().filter(turns).copied().collect();
         let (&first, rest) = pieces.split_first()?;
-        let lower = rest.first().map(|part| Shin {
+        // A leg that keeps its drawn pose is lifted as a whole.
+        let is_kept = rig.parts[first].drive.as_ref().is_some_and(keeps_pose);
+        let lower = rest.first().filter(|_| !is_kept).map(|part| Shin {
             part: *part,
             knee: knee(rig, &all, [first, *part]),
         });
         Some(Self {
             foot,
             // Of three pieces, the last one is a foot that points as the actor's does.
-            is_apart: is_foot || rest.len() > 1,
+            is_apart: is_foot || rest.len() > 1 && !is_kept,
             upper: match &lower {
                 Some(_) => vec![first],
                 None => pieces,

@@ -17,6 +17,7 @@ mod room;
 mod root_motion;
 mod rotations;
 mod soles;
+mod splayed;
 mod spline;
 mod stance;
 mod stepping;

@@ -6,6 +6,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 use super::axes::Axes;
 use super::rest_pose::RestPose;
 use super::soles::{FootEnd, Sole, foot_axes};
+use super::splayed::{self, Kept, Step};
 use super::{Rig, RigPart, SharedTurn, Source};
 use crate::labels::FigurePartId;
 use crate::mocap::resample::TimeMap;
@@ -188,23 +189,26 @@ pub(super) fn rotations(
     leg: f64,
 ) -> Rotations {
     let count = source.rig.parts.len();
-    let mut known = mean_references(source);
+    let mut known = splayed::kept(source);
     for part in order {
         let drive = source.rig.parts[*part].drive;
         if let Some(drive) = drive.filter(|drive| drive.follow == Follow::Sole) {
-            known[*part] = Some(Reference::on_sole(source, *part, &drive, leg));
+            known[*part] = Some(Kept {
+                reference: Reference::on_sole(source, *part, &drive, leg),
+                step: None,
+            });
         }
     }
     let solver = |part: &FigurePartId| {
         let drive = source.rig.parts[*part].drive?;
-        let reference = match known[*part] {
-            Some(known) => known,
-            None => {
-                let axes = rest.axes_for(&drive, &source.clip.skeleton, source.landmarks);
-                Reference::of(source.clip, &drive, axes, &rest.pose)
+        let kept = known[*part].unwrap_or_else(|| {
+            let axes = rest.axes_for(&drive, &source.clip.skeleton, source.landmarks);
+            Kept {
+                reference: Reference::of(source.clip, &drive, axes, &rest.pose),
+                step: None,
             }
-        };
-        let rotation = PartRotation::new(&source.rig.parts[*part], drive, &source.axes, reference);
+        });
+        let rotation = PartRotation::new(&source.rig.parts[*part], drive, &source.axes, kept);
         Some((*part, rotation))
     };
     let solvers: Vec<(FigurePartId, PartRotation)> = order.iter().filter_map(solver).collect();
@@ -232,11 +236,11 @@ pub(super) fn rotations(
 
 /// What a joint's rotations are measured from.
 #[derive(Debug, Clone, Copy)]
-struct Reference {
+pub(super) struct Reference {
     /// From the drawing's axes to the joint's own: Rⱼ(r)ᵀ · Cᵣ.
-    turn: DQuat,
+    pub(super) turn: DQuat,
     /// The direction of the chain, if the part follows one, in the drawing's axes: Cᵣᵀ · d(r).
-    direction: Option<DVec3>,
+    pub(super) direction: Option<DVec3>,
 }
 
 impl Reference {
@@ -252,47 +256,18 @@ impl Reference {
     }
 
     /// A pose as the reference, in which the body has these axes.
-    fn of(clip: &Clip, drive: &Drive, axes: DQuat, pose: &TiSlice<JointId, Transform>) -> Self {
+    pub(super) fn of(
+        clip: &Clip,
+        drive: &Drive,
+        axes: DQuat,
+        pose: &TiSlice<JointId, Transform>,
+    ) -> Self {
         let direction = drive.direction(&clip.skeleton, pose);
         Self {
             turn: pose[drive.joint].rotation.inverse() * axes,
             direction: direction.map(|direction| axes.inverse() * direction),
         }
     }
-}
-
-/// Per part the mean over all frames, for limbs that keep their drawn pose: wings are drawn as they are on average, not as the arms
-/// of a T-pose. `None` for all others, and for limbs that point everywhere.
-fn mean_references(source: &mut Source<'_>) -> TiVec<FigurePartId, Option<Reference>> {
-    /// The length of the mean of the directions, below which a limb has no main direction.
-    const MAIN: f64 = 0.2;
-
-    let keeps_pose = |drive: &Drive| drive.follow == Follow::Change && drive.tip.is_some();
-    let none = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
-    let sum = |part: &RigPart| Some((part.drive.filter(keeps_pose)?, none, DVec3::ZERO));
-    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = source.rig.parts.iter().map(sum).collect();
-    if sums.iter().all(Option::is_none) {
-        return ti_vec![None; source.rig.parts.len()];
-    }
-    for frame in 0..source.clip.frames {
-        let pose = source.poses.at(frame);
-        let body = source.axes.at(source.landmarks, pose);
-        for (drive, turns, directions) in sums.iter_mut().flatten() {
-            let own = Reference::of(source.clip, drive, body, pose);
-            let is_opposite = turns.dot(own.turn) < 0.0;
-            *turns += if is_opposite { -own.turn } else { own.turn };
-            *directions += own.direction.unwrap_or_default();
-        }
-    }
-    let mean = |(_, turns, directions): (Drive, DQuat, DVec3)| {
-        let frames = source.clip.frames as f64;
-        let is_clear = turns.length() > MAIN * frames && directions.length() > MAIN * frames;
-        is_clear.then(|| Reference {
-            turn: turns.normalize(),
-            direction: directions.try_normalize(),
-        })
-    };
-    sums.into_iter().map(|sum| sum.and_then(mean)).collect()
 }
 
 /// The level direction in which a foot is drawn: where the figure faces, or to a side if the foot reaches more to that side of its leg
@@ -326,6 +301,7 @@ fn drawn_toes(rig: &Rig, part: FigurePartId) -> DVec3 {
 struct PartRotation {
     drive: Drive,
     reference: Reference,
+    step: Option<Step>,
     /// From the clip's world to the drawing's axes: C₀ᵀ.
     to_drawing: DQuat,
     /// The rotation that the joint's change is applied to: A · D for limbs, D for bodies.
@@ -335,7 +311,8 @@ struct PartRotation {
 }
 
 impl PartRotation {
-    fn new(part: &RigPart, drive: Drive, axes: &Axes, reference: Reference) -> Self {
+    fn new(part: &RigPart, drive: Drive, axes: &Axes, kept: Kept) -> Self {
+        let Kept { reference, step } = kept;
         let axis = (part.tip - part.joint).try_normalize();
         let align = match (drive.follow, axis, reference.direction) {
             (Follow::Direction, Some(axis), Some(direction)) => arc(axis, direction, DVec3::Z),
@@ -344,6 +321,7 @@ impl PartRotation {
         Self {
             drive,
             reference,
+            step,
             to_drawing: axes.first.inverse(),
             drawn: align * part.node.rotation,
             viewer: axes.first * DVec3::Z,
@@ -351,15 +329,19 @@ impl PartRotation {
     }
 
     /// G(k) · D with G(k) = C₀ᵀ · S(k) · Rⱼ(k) · Rⱼ(r)ᵀ · Cᵣ · A; A is the identity for parts that keep the drawn pose, S for those
-    /// that follow no chain.
+    /// that follow no chain. A leg that keeps its drawn pose turns by what its foot moves.
     fn at(&self, clip: &Clip, pose: &TiSlice<JointId, Transform>) -> DQuat {
+        if let Some(step) = self.step {
+            return (step.change(self.to_drawing, pose) * self.drawn).normalize();
+        }
         let turn = pose[self.drive.joint].rotation * self.reference.turn;
         let now = self.drive.direction(&clip.skeleton, pose);
         let straighten = match (self.reference.direction, now) {
             (Some(rest), Some(now)) => arc(turn * rest, now, self.viewer),
             _ => DQuat::IDENTITY,
         };
-        (self.to_drawing * straighten * turn * self.drawn).normalize()
+        let change = self.to_drawing * straighten * turn;
+        (change * self.drawn).normalize()
     }
 }
 

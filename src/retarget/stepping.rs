@@ -7,6 +7,7 @@
 
 use glam::DQuat;
 
+use super::Rig;
 use super::contacts::Walk;
 use super::kinematics::ForwardKinematics;
 use super::legs::Leg;
@@ -14,7 +15,6 @@ use super::root_motion::Feet;
 use super::rotations::Rotations;
 use super::stance::Stance;
 use super::turns::Length;
-use super::{Follow, Rig};
 use crate::labels::FigurePartId;
 use crate::smoothing::envelope;
 
@@ -43,12 +43,6 @@ pub(super) fn place(
 ) {
     let standing = walk.feet.iter().enumerate();
     let standing = standing.flat_map(|(foot, own)| own.parts.iter().map(move |part| (foot, *part)));
-    // What keeps its drawn pose, such as a spider's leg, is not turned any further.
-    let keeps_pose = |part: FigurePartId| {
-        let drive = rig.parts[part].drive;
-        drive.is_some_and(|drive| drive.follow == Follow::Change)
-    };
-    let standing = standing.filter(|(_, part)| !keeps_pose(*part));
     let standing: Vec<(usize, FigurePartId)> = standing.collect();
     let is_sized = leg > 0.0 && leg.is_finite();
     if standing.is_empty() || length.frames == 0 || !is_sized {

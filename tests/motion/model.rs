@@ -14,6 +14,7 @@ use okoshi::internals::rig::FigureClip;
 use okoshi::scene::{Animation, Interpolation, NodeId, Scene, TiVec, Values};
 
 use crate::retarget::clips::clip;
+use crate::retarget::splayed::{SplayedLeg, Steps};
 use crate::retarget::{Body, angle};
 
 /// The drawings of the examples, and the direction that each faces.
@@ -111,6 +112,21 @@ fn axis(compiled: &Compiled, part: PartId) -> DVec3 {
     (far - origin).extend(0.0)
 }
 
+/// The leg that a part is if it keeps its drawn pose.
+fn splayed_leg(compiled: &Compiled, clip: &Clip, part: PartId, why: &str) -> Option<SplayedLeg> {
+    if !why.contains("keeps its drawn pose") {
+        return None;
+    }
+    let (_, ends) = why.split_once("it turns like the line from `")?;
+    let (hip, ankle) = ends.split_once("` to `")?;
+    let ankle = ankle.split_once('`').map_or(ankle, |(ankle, _)| ankle);
+    Some(SplayedLeg {
+        hip: joint(clip, hip),
+        ankle: joint(clip, ankle),
+        points: axis(compiled, part),
+    })
+}
+
 /// The largest angle between the parts of a drawing and their bones; `turn` rotates the drawing's axes to the world's.
 fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQuat) -> f64 {
     let prepared = clip(&format!("examples/motion/{}", figure_clip.file));
@@ -128,6 +144,11 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
         let still = Animation::default();
         world(&compiled.scene, &still, 0)
     };
+    let legs = figure_clip.parts.iter();
+    let legs: Vec<SplayedLeg> = legs
+        .filter_map(|drive| splayed_leg(compiled, clip, drive.part, &drive.why))
+        .collect();
+    let steps = Steps::of(clip, &body, &legs);
     let mut worst = 0.0_f64;
     let (mut looked_at, mut splayed, mut moved) = (0, 0, 0);
     for frame in 0..clip.frames {
@@ -140,13 +161,11 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
             };
             let node = names[name];
             let off = figure_clip.turned(drive.part, frame);
-            // What points like the chain: the part's axis, or if it keeps its drawn pose the mean of the chain; in the node's own frame.
-            let points = if drive.why.contains("keeps its drawn pose") {
-                splayed += 1;
-                body.mean(clip, |pose| chain(clip, pose, &drive.why))
-            } else {
-                axis(compiled, drive.part)
-            };
+            // The part's axis points like the chain, or its far end moves as the chain's if it keeps its drawn pose.
+            let points = axis(compiled, drive.part);
+            let leg = splayed_leg(compiled, clip, drive.part, &drive.why);
+            splayed += usize::from(leg.is_some());
+            let way = leg.map_or(way, |leg| steps.due(&leg, &pose));
             let own = rest[node].rotation.inverse() * (turn * points);
             let away = angle(now[node].rotation * own, turn * body.drawn(&first, way));
             worst = worst.max((away - off).max(0.0));

@@ -5,6 +5,7 @@ mod frame_rates;
 mod random;
 mod rewritten;
 pub(crate) mod rigs;
+pub(crate) mod splayed;
 mod swing;
 mod walks;
 
@@ -17,6 +18,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use clips::{FILES, clip};
 use rigs::{Limbs, biped, dog, stout};
+use splayed::{SplayedLeg, Steps};
 
 /// Tolerance of directions, degrees.
 const OFF: f64 = 0.05;
@@ -81,8 +83,8 @@ impl Body {
         ways.sum::<DVec3>().normalize()
     }
 
-    /// The same as a rotation.
-    fn turn(&self, pose: &Pose) -> DQuat {
+    /// From the clip's world to the axes of a drawing of the body in a pose.
+    pub(crate) fn turn(&self, pose: &Pose) -> DQuat {
         let columns = DVec3::AXES.map(|axis| self.drawn(pose, axis));
         DQuat::from_mat3(&glam::DMat3::from_cols(columns[0], columns[1], columns[2]))
     }
@@ -209,6 +211,11 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
         let turned = retargeted.turned[part].as_ref();
         turned.map_or(0.0, |turned| turned[0].to_degrees())
     };
+    let legs = rig.parts.keys();
+    let legs: Vec<SplayedLeg> = legs
+        .filter_map(|part| SplayedLeg::of(rig, landmarks, part))
+        .collect();
+    let steps = Steps::of(clip, &body, &legs);
     let mut worst = Worst::default();
     for frame in 0..clip.frames {
         let pose = clip.pose(frame);
@@ -259,11 +266,19 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
                     let off = angle(turned * drawn, body.drawn(&first, lean(&pose)));
                     worst.limbs = worst.limbs.max(off);
                 }
-                // A limb that keeps its drawn pose turns by as much as its chain does, from where that is on average.
+                // A limb that keeps its drawn pose turns by as much as its chain does, from where that is on average; a leg steps.
                 (Follow::Change, Some(way)) => {
                     let turned = placed[index].rotation * part.node.rotation.inverse();
-                    let mean = body.mean(clip, |pose| direction(clip, pose, drive));
-                    let off = angle(turned * mean, body.drawn(&first, way));
+                    let off = match SplayedLeg::of(rig, landmarks, index) {
+                        Some(leg) => {
+                            let due = steps.due(&leg, &pose);
+                            angle(turned * leg.points, body.drawn(&first, due))
+                        }
+                        None => {
+                            let mean = body.mean(clip, |pose| direction(clip, pose, drive));
+                            angle(turned * mean, body.drawn(&first, way))
+                        }
+                    };
                     worst.limbs = worst.limbs.max(off - room);
                 }
                 (Follow::Change, None) => {
