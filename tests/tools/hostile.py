@@ -17,7 +17,8 @@ from pathlib import Path
 
 SECONDS = 1.0
 MIB = 300
-PATIENCE = 60
+PATIENCE = 30
+MOST_MIB = 4096
 
 
 def measure(okoshi, command, drawing, scratch):
@@ -27,7 +28,10 @@ def measure(okoshi, command, drawing, scratch):
         ending = {"build": "glb", "puppet": "svg", "render": "png"}[command]
         arguments += ["-o", os.path.join(scratch, f"out.{ending}")]
     with tempfile.TemporaryFile() as said:
-        limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE))
+        def limit():
+            resource.setrlimit(resource.RLIMIT_CPU, (PATIENCE, PATIENCE))
+            resource.setrlimit(resource.RLIMIT_AS, (MOST_MIB << 20, MOST_MIB << 20))
+
         process = subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=said, preexec_fn=limit)
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = status

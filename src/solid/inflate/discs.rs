@@ -77,6 +77,8 @@ impl Edge {
 struct Nearest {
     at: DVec2,
     distance_squared: f64,
+    /// The edge that it is on. Of several at the same distance, the first one counts, in whatever order they are found.
+    edge: usize,
 }
 
 impl Discs {
@@ -145,6 +147,8 @@ impl Discs {
             let mut nearest = Nearest {
                 at: foot,
                 distance_squared: disc.radius * disc.radius,
+                // No edge at this distance is nearer.
+                edge: 0,
             };
             self.search(self.levels.len() - 1, 0, middle, &mut nearest);
             let distance = nearest.distance_squared.sqrt();
@@ -169,13 +173,16 @@ impl Discs {
         if level == 0 {
             let start = index * RUN;
             let end = self.edges.len().min(start + RUN);
-            for edge in &self.edges[start..end] {
+            for (index, edge) in (start..).zip(&self.edges[start..end]) {
                 let at = edge.nearest(point);
                 let distance_squared = at.distance_squared(point);
-                if distance_squared < nearest.distance_squared {
+                if distance_squared < nearest.distance_squared
+                    || (distance_squared == nearest.distance_squared && index < nearest.edge)
+                {
                     *nearest = Nearest {
                         at,
                         distance_squared,
+                        edge: index,
                     };
                 }
             }
@@ -183,9 +190,16 @@ impl Discs {
         }
         let start = index * FAN;
         let below = &self.levels[level - 1][start..];
-        for (child, bounds) in (start..).zip(below.iter().take(FAN)) {
-            if bounds.distance_squared(point) < nearest.distance_squared {
-                self.search(level - 1, child, point, nearest);
+        let mut fan = [(f64::INFINITY, 0); FAN];
+        let count = below.len().min(FAN);
+        for (child, (place, bounds)) in fan.iter_mut().zip(below).enumerate() {
+            *place = (bounds.distance_squared(point), start + child);
+        }
+        // The nearest first: of the others, most are then too far away.
+        fan[..count].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        for (distance_squared, child) in &fan[..count] {
+            if *distance_squared <= nearest.distance_squared {
+                self.search(level - 1, *child, point, nearest);
             }
         }
     }
