@@ -1,5 +1,8 @@
 //! Drawings that are short and might take long.
 //!
+//! The tests build small ones and count the steps that this takes, which are the same in every run: each must be about twice as many for a
+//! drawing that is twice as large.
+//!
 //! `OKOSHI_HOSTILE=FOLDER cargo test --test hostile` writes them into a folder, in a quarter, half and all of their size, for
 //! tests/tools/hostile.py, which measures what they take.
 
@@ -10,6 +13,15 @@ use std::path::Path;
 use std::{env, fs};
 
 use kinds::Kind;
+use okoshi::compile::{Options, compile};
+use okoshi::export::{GLB, to_memory};
+use okoshi::internals::budget::{STEPS, counted};
+use okoshi::resolver::MemoryResolver;
+
+/// The steps of a drawing grow at most with this power of its size.
+const POWER: f64 = 1.3;
+/// Fewer steps are not looked at: they may be those of another way to do the same.
+const FEW: u64 = 20_000;
 
 /// The kinds of all subjects.
 fn all() -> impl Iterator<Item = &'static Kind> {
@@ -51,4 +63,37 @@ fn written_for_measurements() {
             fs::write(file, make(full / share)).expect("the folder is writable");
         }
     }
+}
+
+/// The only test that builds anything: steps are counted for the whole process.
+#[test]
+#[ignore = "some sizes still take minutes without optimisation: they have to become smaller first"]
+fn work_grows_with_the_drawing() {
+    let mut looked_at = 0;
+    let mut broken = Vec::new();
+    for Kind {
+        name, small, make, ..
+    } in all()
+    {
+        let steps = |size: usize| {
+            let drawing = make(size);
+            counted(|| {
+                let files = MemoryResolver::default();
+                let compiled = compile(&drawing, &Options::default(), &files);
+                to_memory(&GLB, &compiled.scene, None).expect("a scene keeps its own rules");
+            })
+        };
+        let [one, four] = [*small, 4 * small].map(steps);
+        for (step, (one, four)) in STEPS.iter().zip(one.into_iter().zip(four)) {
+            let most = (one.max(FEW / 4) as f64 * 4.0_f64.powf(POWER)) as u64;
+            looked_at += usize::from(four > FEW);
+            if four > FEW && four > most {
+                broken.push(format!(
+                    "{name}: {step:?}: {one}, and {four} for four times as much"
+                ));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{broken:#?}");
+    assert!(looked_at > 30, "{looked_at} counts were looked at");
 }
