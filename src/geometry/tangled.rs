@@ -4,6 +4,7 @@ use glam::{DVec2, Vec2Swizzles as _};
 use resvg::tiny_skia::{FillRule as PictureRule, Mask, PathBuilder, Transform};
 
 use super::{FillRule, Ring, bounds_of, pixel_borders};
+use crate::budget::{self, Step};
 
 /// How often edges may cross for an area to be found exactly. An area with more crossings is in as many pieces.
 pub(super) const MAX_CROSSINGS: usize = 20_000;
@@ -11,6 +12,8 @@ pub(super) const MAX_CROSSINGS: usize = 20_000;
 const MAX_PAIRS: usize = 1 << 26;
 /// Pixels along the longer side of the picture, at most and at least.
 const SIDES: std::ops::RangeInclusive<u32> = 64..=2048;
+/// How many rows of pixels the edges of a picture may pass, all together, at more than the smallest size.
+const MAX_ROWS: f64 = 4e6;
 /// The largest number of points of an area that is taken from a picture at more than the smallest size.
 const MAX_POINTS: usize = 100_000;
 
@@ -46,6 +49,7 @@ pub(crate) fn crossings(rings: &[Ring]) -> usize {
             break;
         }
     }
+    budget::count(Step::Pair, pairs);
     crossings
 }
 
@@ -56,6 +60,11 @@ pub(super) fn pictured(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
     };
     let extent = (high - low).max_element();
     let mut side = *SIDES.end();
+    let edges = rings.iter().flat_map(|ring| ring.windows(2));
+    let upright: f64 = edges.map(|edge| (edge[1].y - edge[0].y).abs()).sum();
+    while side > *SIDES.start() && f64::from(side) * upright / extent > MAX_ROWS {
+        side /= 2;
+    }
     loop {
         let scale = f64::from(side) / extent;
         let mut borders = pixels(
