@@ -125,7 +125,7 @@ mod tests {
         assert_eq!(budget.share(Work::Dashes, vec![9_000, 11_000]), None);
         let wanted = vec![50_000, 1000, 30_000, 9000];
         let share = budget.share(Work::Dashes, wanted.clone()).unwrap();
-        assert_eq!(share, 5_000);
+        assert_eq!(share, 6_333);
         let given: u64 = wanted.iter().map(|own| *own.min(&share)).sum();
         assert!(given <= budget.most(Work::Dashes));
     }

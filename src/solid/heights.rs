@@ -312,12 +312,24 @@ impl Grid {
         ];
         let bounds = [low, high].map(|corner| corner.truncate().as_dvec2());
         let mut count = CELLS * facets.len() as f64;
-        let (cells, entries) = loop {
-            let cells = Cells::over(bounds, count);
-            if let Some(entries) = Self::entries(facets, &cells) {
-                break (cells, entries);
+        let square = Cells::over(bounds, count);
+        let (cells, entries) = match Self::entries(facets, &square) {
+            Some(entries) => (square, entries),
+            // Needles that lie side by side are alike in shape.
+            None => {
+                let extents = facets.iter().map(|facet| {
+                    let [a, b, c] = facet.flat();
+                    a.max(b).max(c) - a.min(b).min(c)
+                });
+                let proportions = extents.sum::<DVec2>();
+                loop {
+                    let cells = Cells::alike(bounds, count, proportions);
+                    if let Some(entries) = Self::entries(facets, &cells) {
+                        break (cells, entries);
+                    }
+                    count /= 4.0;
+                }
             }
-            count /= 4.0;
         };
         let mut ends = vec![0_u32; cells.count() + 1];
         for (cell, _) in &entries {

@@ -9,20 +9,20 @@ use super::kinds::{Kind, each, filled, grid, line, page, polygon, star, text};
 pub(crate) const KINDS: &[Kind] = &[
     Kind {
         name: "dashes-fine",
-        full: 50,
-        small: 4,
+        full: 10_000,
+        small: 2,
         make: fine_dashes,
     },
     Kind {
         name: "dashes-of-one-line",
         full: 4_000_000,
-        small: 1000,
+        small: 50,
         make: dashes_of_one_line,
     },
     Kind {
         name: "dashes-of-many-strokes",
         full: 10_000,
-        small: 50,
+        small: 1,
         make: dashes_of_many_strokes,
     },
     Kind {
@@ -267,9 +267,12 @@ pub(crate) const KINDS: &[Kind] = &[
     },
 ];
 
-/// Lines that are dashed finer than can be seen.
+/// Lines of 50 dashes finer than can be seen.
 fn fine_dashes(n: usize) -> String {
-    let data = each(n, |i| format!("M0 {}H999", 20 * i + 5));
+    let data = each(n, |i| {
+        let ([x, y], _) = grid(n, i);
+        format!("M{x:.1} {y:.1}h5")
+    });
     page(&format!(
         r#"<path stroke="red" fill="none" stroke-dasharray=".05" d="{data}"/>"#
     ))

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use crate::budget::{self, Step};
-use crate::geometry::{Outline, Ring, bounds, bounds_of};
+use crate::geometry::{Outline, bounds};
 
 /// A disc counts as inside the outline if the border comes no closer to its centre than this, relative
 /// to its radius: flattened curves cut off that little.
@@ -15,6 +15,8 @@ const MAX_ITERATIONS: usize = 24;
 const RUN: usize = 16;
 /// How many consecutive boxes of a level are in one of the next.
 const FAN: usize = 4;
+/// Fewer edges stay in the order of their rings.
+const MANY: usize = 4 * RUN * FAN;
 
 /// A disc in an outline.
 #[derive(Debug, Clone, Copy, Default)]
@@ -25,8 +27,9 @@ pub(super) struct Disc {
     opposite: Option<DVec2>,
 }
 
-/// The edges of an outline, ring by ring, and boxes around runs of them. Neighbours on a ring are near each other, and so are rings that
-/// follow each other: the boxes are small.
+/// The edges of an outline, and boxes around runs of them. Edges that follow each other are near each other, so that the boxes are small:
+/// if there are few, neighbours on a ring, and otherwise along a curve through all of the outline's box, because rings in rings, and
+/// turns of a spiral, are near to each other over all of their length.
 pub(super) struct Discs {
     edges: Vec<Edge>,
     /// From the boxes around [`RUN`] edges to the one around all.
@@ -87,29 +90,18 @@ struct Nearest {
 impl Discs {
     pub(super) fn of(outline: &Outline, reach: f64) -> Self {
         let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let mut first = 0;
-        let mut rings: Vec<(u32, &Ring)> = rings
-            .map(|ring| {
-                let start = first;
-                first += ring.len() as u32;
-                (start, ring)
-            })
-            .collect();
-        if rings.len() > FAN {
-            let all = bounds(outline).unwrap_or_default();
-            rings.sort_by_cached_key(|(_, ring)| place_on_curve(ring, all));
-        }
-        let edges = rings.into_iter().flat_map(|(start, ring)| {
-            let next = ring.iter().cycle().skip(1);
-            ring.iter().zip(next).zip(start..)
-        });
-        let edges = edges.map(|((from, to), number)| Edge {
+        let ends = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let edges = ends.zip(0..).map(|((from, to), number)| Edge {
             from: *from,
             along: *to - *from,
             inverse: from.distance_squared(*to).max(f64::MIN_POSITIVE).recip(),
             number,
         });
-        let edges: Vec<Edge> = edges.collect();
+        let mut edges: Vec<Edge> = edges.collect();
+        if edges.len() > MANY {
+            let all = bounds(outline).unwrap_or_default();
+            edges.sort_by_cached_key(|edge| place_on_curve(edge.from + 0.5 * edge.along, all));
+        }
         let of_edge = |edge: &Edge| {
             let to = edge.from + edge.along;
             Bounds {
@@ -208,9 +200,13 @@ impl Discs {
         let start = index * FAN;
         let below = &self.levels[level - 1][start..];
         let mut fan = [(f64::INFINITY, 0); FAN];
-        let count = below.len().min(FAN);
-        for (child, (place, bounds)) in fan.iter_mut().zip(below).enumerate() {
-            *place = (bounds.distance_squared(point), start + child);
+        let mut count = 0;
+        for (child, bounds) in below.iter().take(FAN).enumerate() {
+            let distance_squared = bounds.distance_squared(point);
+            if distance_squared <= nearest.distance_squared {
+                fan[count] = (distance_squared, start + child);
+                count += 1;
+            }
         }
         // The nearest first: of the others, most are then too far away.
         fan[..count].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
@@ -222,10 +218,9 @@ impl Discs {
     }
 }
 
-/// Where the middle of a ring is on a curve through all of a box that seldom leaves a neighbourhood (Z-order).
-fn place_on_curve(ring: &Ring, (low, high): (DVec2, DVec2)) -> u32 {
-    let (from, to) = bounds_of(ring.iter().copied()).unwrap_or_default();
-    let share = (from.midpoint(to) - low) / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
+/// Where a point is on a curve through all of a box that seldom leaves a neighbourhood (Z-order).
+fn place_on_curve(point: DVec2, (low, high): (DVec2, DVec2)) -> u32 {
+    let share = (point - low) / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
     let spread = |share: f64| {
         let place = (share * f64::from(u16::MAX)) as u32;
         (0..16).fold(0, |all, bit| all | (place >> bit & 1) << (2 * bit))
