@@ -10,6 +10,9 @@ pub mod billboard {
 pub mod bind {
     pub use crate::bind::{PartId, PartKind, bind, in_layers_of_pixels};
 }
+pub mod budget {
+    pub use crate::budget::{STEPS, counted};
+}
 #[cfg(feature = "cli")]
 pub mod cli {
     pub use crate::cli::run;

@@ -94,6 +94,7 @@ mod assignment;
 mod bend;
 mod billboard;
 mod bind;
+mod budget;
 #[cfg(feature = "cli")]
 mod cli;
 mod clips;

@@ -66,6 +66,7 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
+    ("budget", &[]),
     (
         "cli",
         &[
@@ -130,6 +131,7 @@ const USES: &[(&str, &[&str])] = &[
         &[
             "bend",
             "bind",
+            "budget",
             "diagnostic",
             "geometry",
             "import",
@@ -143,7 +145,7 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
-    ("geometry", &["regions"]),
+    ("geometry", &["budget", "regions"]),
     (
         "ide",
         &[
@@ -315,11 +317,12 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("scene", &["index"]),
     ("smoothing", &[]),
-    ("solid", &["geometry", "scene"]),
+    ("solid", &["budget", "geometry", "scene"]),
     ("source", &[]),
     (
         "svg",
         &[
+            "budget",
             "diagnostic",
             "geometry",
             "index",

@@ -23,6 +23,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use crate::bend::{Bend, BentSurface, Bones};
 use crate::bind::{Bindings, PartId, Seen, SetBy, VehiclePart};
+use crate::budget::Work;
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness, y_up};
 use crate::index::par_keys;
@@ -89,6 +90,9 @@ pub(crate) struct Figures<'a> {
 /// A deviation that nobody sees, as a share of the larger extent of all parts: a twentieth of a pixel in a picture a thousand
 /// pixels wide.
 const INVISIBLE: f64 = 5e-5;
+/// The fewest layers per half turn of roundings in drawings with very many triangles, and the most.
+const LEAST_SEGMENTS: u32 = 4;
+const MOST_SEGMENTS: u32 = 512;
 /// How far ink comes out at most, as a share of its stroke's width.
 const MAX_INK_STEP: f64 = 0.5;
 
@@ -318,6 +322,8 @@ struct FigureContext<'a> {
     reaches: TiVec<PartId, Option<f64>>,
     /// Per part what it is of a vehicle.
     of_vehicle: TiVec<PartId, Option<VehiclePart>>,
+    /// The most layers per half turn of a rounding.
+    most_segments: u32,
     /// How far the surface of a solid may be from a rounding without anybody seeing it, drawing units.
     invisible: f64,
 }
@@ -332,7 +338,7 @@ impl<'a> FigureContext<'a> {
         let bounds = bindings.parts.iter().map(|part| part.measure.bounds);
         let bounds = bounds.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
         let extent = bounds.map_or(0.0, |(low, high)| (high - low).max_element());
-        Self {
+        let mut context = Self {
             drawing,
             bindings,
             reaches: depth_limits::reaches(bindings, &seen),
@@ -340,7 +346,37 @@ impl<'a> FigureContext<'a> {
             seen,
             bends,
             invisible: INVISIBLE * extent,
+            most_segments: u32::MAX,
+        };
+        context.most_segments = context.affordable_segments();
+        context
+    }
+
+    /// How many layers per half turn the roundings may have so that all solids together keep within the drawing's budget of triangles:
+    /// as many as they want, or a power of two.
+    fn affordable_segments(&self) -> u32 {
+        let triangles = |most_segments: u32| -> u64 {
+            let parts = par_keys(&self.bindings.parts).with_min_len(GRAIN);
+            let parts = parts.map(|part| {
+                let Some(profile) = self.profile(part) else {
+                    return 0;
+                };
+                let mut options = self.options(part, &profile);
+                options.segments = options.segments.min(most_segments);
+                let outline = &self.bindings.parts[part].outline;
+                let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+                profile.triangles(rings.map(Vec::len).sum(), self.half(part), &options)
+            });
+            parts.sum()
+        };
+        let most = self.drawing.budget.most(Work::Triangles);
+        if triangles(u32::MAX) <= most {
+            return u32::MAX;
         }
+        let coarser = (LEAST_SEGMENTS.ilog2()..=MOST_SEGMENTS.ilog2()).rev();
+        let mut coarser = coarser.map(|exponent| 1 << exponent);
+        let affordable = coarser.find(|segments| triangles(*segments) <= most);
+        affordable.unwrap_or(LEAST_SEGMENTS)
     }
 
     /// The parts that bend although no string says so.
@@ -434,7 +470,9 @@ impl<'a> FigureContext<'a> {
         let crease = attributes.crease();
         let segments = attributes.segments();
         solid::Options {
-            segments: segments.unwrap_or_else(|| profile.segments(half, crease, self.invisible)),
+            segments: segments
+                .unwrap_or_else(|| profile.segments(half, crease, self.invisible))
+                .min(self.most_segments),
             crease,
             placement: Placement::default(),
         }

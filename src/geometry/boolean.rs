@@ -17,6 +17,7 @@ use super::query::{bounds, bounds_of, shoelace};
 use super::tangled::{MAX_CROSSINGS, crossings, pictured};
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
+use crate::budget::{self, Step};
 
 /// Grid steps per extent of an outline. The finest grid cannot always separate rings that touch from rings that nearly
 /// touch in the same place; then the next coarser one is tried.
@@ -84,6 +85,7 @@ fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<(Outline, usize), Vec
         rings.retain(|ring| !is_sliver(ring, grid.extent));
         return Ok((disjoint::nest(rings, rule), 0));
     }
+    budget::count(Step::Point, rings.iter().map(Vec::len).sum());
     let rule = match rule {
         FillRule::NonZero => GridRule::NonZero,
         FillRule::EvenOdd => GridRule::EvenOdd,
@@ -170,6 +172,7 @@ fn combine(subjects: &[&Outline], clips: &[&Outline], rule: OverlayRule) -> Outl
             .collect()
     };
     let (subject, clip) = (points(subjects), points(clips));
+    budget::count(Step::Point, subject.len() + clip.len());
     // The finer grid is used: a small part under a large clip must keep its shape.
     let grids = [&subject, &clip].map(|points| Grid::over(points.iter(), GRID_STEPS[0]));
     let finer = grids

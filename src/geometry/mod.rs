@@ -5,6 +5,7 @@
 //! first ring of a polygon is its border and runs counter-clockwise in a frame with y **up**; the others are holes and
 //! run clockwise. A ring does not repeat its first point at its end, has at least three points and encloses some area.
 
+mod bands;
 mod boolean;
 mod boxes;
 mod contact;
@@ -20,6 +21,7 @@ mod simplify;
 mod tangled;
 mod touching;
 
+pub(crate) use bands::Bands;
 pub use boolean::{intersect, resolve_overlaps};
 pub(crate) use boolean::{is_convex, remove_collinear};
 pub(crate) use boolean::{resolve_crossings, subtract, union};

@@ -1,9 +1,9 @@
 //! Rings that cross themselves so often that the pieces they make would take very long to find: the area is taken from a picture.
 
 use glam::{DVec2, Vec2Swizzles as _};
-use resvg::tiny_skia::{FillRule as PictureRule, Mask, PathBuilder, Transform};
 
 use super::{FillRule, Ring, bounds_of, pixel_borders};
+use crate::budget::{self, Step};
 
 /// How often edges may cross for an area to be found exactly. An area with more crossings is in as many pieces.
 pub(super) const MAX_CROSSINGS: usize = 20_000;
@@ -11,11 +11,13 @@ pub(super) const MAX_CROSSINGS: usize = 20_000;
 const MAX_PAIRS: usize = 1 << 26;
 /// Pixels along the longer side of the picture, at most and at least.
 const SIDES: std::ops::RangeInclusive<u32> = 64..=2048;
+/// How many rows of pixels the edges of a picture may pass, all together, at more than the smallest size.
+const MAX_ROWS: f64 = 4e6;
 /// The largest number of points of an area that is taken from a picture at more than the smallest size.
 const MAX_POINTS: usize = 100_000;
 
 /// How often the edges of rings cross, or a number above 20,000: sweep and prune along the axis along which edges are
-/// shorter.
+/// shorter, compared with all of the rings.
 pub(crate) fn crossings(rings: &[Ring]) -> usize {
     let count: usize = rings.iter().map(Vec::len).sum();
     let mut edges: Vec<[DVec2; 2]> = Vec::with_capacity(count);
@@ -26,9 +28,12 @@ pub(crate) fn crossings(rings: &[Ring]) -> usize {
             from = to;
         }
     }
-    let extent: DVec2 = edges.iter().map(|[from, to]| (*to - *from).abs()).sum();
+    let lengths: DVec2 = edges.iter().map(|[from, to]| (*to - *from).abs()).sum();
+    let (low, high) = bounds_of(rings.iter().flatten().copied()).unwrap_or_default();
+    // About how many edges are above each other along each axis: those of a row of dashes are few along the row only.
+    let above = lengths / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
     for edge in &mut edges {
-        if extent.y < extent.x {
+        if above.y < above.x {
             *edge = edge.map(DVec2::yx);
         }
         if edge[0].x > edge[1].x {
@@ -46,6 +51,7 @@ pub(crate) fn crossings(rings: &[Ring]) -> usize {
             break;
         }
     }
+    budget::count(Step::Pair, pairs);
     crossings
 }
 
@@ -56,6 +62,11 @@ pub(super) fn pictured(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
     };
     let extent = (high - low).max_element();
     let mut side = *SIDES.end();
+    let edges = rings.iter().flat_map(|ring| ring.windows(2));
+    let upright: f64 = edges.map(|edge| (edge[1].y - edge[0].y).abs()).sum();
+    while side > *SIDES.start() && f64::from(side) * upright / extent > MAX_ROWS {
+        side /= 2;
+    }
     loop {
         let scale = f64::from(side) / extent;
         let mut borders = pixels(
@@ -82,30 +93,42 @@ fn pixels(
     size: DVec2,
 ) -> Vec<Ring> {
     let [width, height] = size.to_array().map(|side| (side.ceil() as u32).max(1));
-    let mut path = PathBuilder::new();
+    let columns = width as usize;
+    // Per pixel how many more borders go down between it and the pixel to its left than up. Unlike a list of the edges that pass a row,
+    // this takes no longer where they cross.
+    let mut turns = vec![0_i32; columns * height as usize];
     for ring in rings {
-        for (index, point) in ring.iter().enumerate() {
-            let point = place(*point).as_vec2();
-            if index == 0 {
-                path.move_to(point.x, point.y);
+        let ends = ring.iter().zip(ring.iter().cycle().skip(1));
+        for (from, to) in ends.map(|(from, to)| (place(*from), place(*to))) {
+            let (upper, lower, turn) = if from.y < to.y {
+                (from, to, 1)
             } else {
-                path.line_to(point.x, point.y);
+                (to, from, -1)
+            };
+            let slope = (lower.x - upper.x) / (lower.y - upper.y);
+            let row = |y: f64| (y - 0.5).ceil().clamp(0.0, f64::from(height)) as usize;
+            for row in row(upper.y)..row(lower.y) {
+                let x = upper.x + (row as f64 + 0.5 - upper.y) * slope;
+                let column = (x - 0.5).ceil().max(0.0) as usize;
+                if column < columns {
+                    turns[row * columns + column] += turn;
+                }
             }
         }
-        path.close();
     }
-    let (Some(path), Some(mut mask)) = (path.finish(), Mask::new(width, height)) else {
-        return Vec::new();
-    };
-    let rule = match rule {
-        FillRule::NonZero => PictureRule::Winding,
-        FillRule::EvenOdd => PictureRule::EvenOdd,
-    };
-    // Without antialiasing, whose time grows with the crossings of a row.
-    mask.fill_path(&path, rule, false, Transform::identity());
-    let pixels = mask.data();
+    for row in turns.chunks_exact_mut(columns) {
+        let mut sum = 0;
+        for turn in row {
+            sum += *turn;
+            *turn = sum;
+        }
+    }
     pixel_borders(width, height, |x, y| {
-        pixels[y as usize * width as usize + x as usize] > 127
+        let turns = turns[y as usize * columns + x as usize];
+        match rule {
+            FillRule::NonZero => turns != 0,
+            FillRule::EvenOdd => turns % 2 != 0,
+        }
     })
 }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-/// Limit of the cells along each side.
+/// Limit of the cells along each side, if they are about as long as wide.
 const MAX_CELLS: f64 = 512.0;
 
 /// The cells of a grid, numbered row by row.
@@ -18,11 +18,24 @@ pub(super) struct Cells {
 
 impl Cells {
     /// About so many cells over a box, about as long as wide.
-    pub(super) fn over([low, high]: [DVec2; 2], count: f64) -> Self {
+    pub(super) fn over(bounds: [DVec2; 2], count: f64) -> Self {
+        Self::shaped(bounds, count, DVec2::ONE, MAX_CELLS)
+    }
+
+    /// About so many cells over a box, which are about as long and wide as these proportions.
+    pub(super) fn alike(bounds: [DVec2; 2], count: f64, proportions: DVec2) -> Self {
+        let most = count.clamp(1.0, MAX_CELLS * MAX_CELLS);
+        let proportions = proportions / proportions.max_element();
+        let proportions = proportions.max(DVec2::splat(1e-6));
+        Self::shaped(bounds, most, proportions, most)
+    }
+
+    fn shaped([low, high]: [DVec2; 2], count: f64, proportions: DVec2, most: f64) -> Self {
         let extent = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
-        let side = (extent.x * extent.y / count.max(1.0)).sqrt();
-        let size = (extent / side.max(f64::MIN_POSITIVE)).ceil();
-        let size = size.clamp(DVec2::ONE, DVec2::splat(MAX_CELLS));
+        let relative = extent / proportions;
+        let side = (relative.x * relative.y / count.max(1.0)).sqrt();
+        let size = (relative / side.max(f64::MIN_POSITIVE)).ceil();
+        let size = size.clamp(DVec2::ONE, DVec2::splat(most));
         Self {
             low,
             high,

@@ -9,6 +9,7 @@ use rustc_hash::FxHashSet;
 use super::Solid;
 use super::cells::Cells;
 use super::inflate::{Field, Mesh};
+use crate::budget::{self, Step};
 use crate::scene::{Surface, SurfaceSource};
 
 /// Triangles that are steeper than this, as the cosine of their slope, are walls, which nothing lies on.
@@ -17,6 +18,8 @@ const WALL: f64 = 1e-6;
 const SLACK: f64 = 1e-7;
 /// Cells a triangle: few, so that most triangles reach into four at most.
 const CELLS: f64 = 1.0;
+/// The most cells that a triangle reaches into on average; with more, the cells are larger. It is about four unless the triangles are needles.
+const MOST_REACHED: usize = 16;
 
 /// The side of a surface that faces the viewer.
 #[derive(Debug)]
@@ -308,13 +311,26 @@ impl Grid {
             points().reduce(Vec3::max).unwrap_or_default(),
         ];
         let bounds = [low, high].map(|corner| corner.truncate().as_dvec2());
-        let cells = Cells::over(bounds, CELLS * facets.len() as f64);
-        let mut entries: Vec<(u32, u32)> = Vec::with_capacity(4 * facets.len());
-        for (index, facet) in facets.iter().enumerate() {
-            cells.of_triangle(facet.flat(), |cell| {
-                entries.push((cell as u32, index as u32))
-            });
-        }
+        let mut count = CELLS * facets.len() as f64;
+        let square = Cells::over(bounds, count);
+        let (cells, entries) = match Self::entries(facets, &square) {
+            Some(entries) => (square, entries),
+            // Needles that lie side by side are alike in shape.
+            None => {
+                let extents = facets.iter().map(|facet| {
+                    let [a, b, c] = facet.flat();
+                    a.max(b).max(c) - a.min(b).min(c)
+                });
+                let proportions = extents.sum::<DVec2>();
+                loop {
+                    let cells = Cells::alike(bounds, count, proportions);
+                    if let Some(entries) = Self::entries(facets, &cells) {
+                        break (cells, entries);
+                    }
+                    count /= 4.0;
+                }
+            }
+        };
         let mut ends = vec![0_u32; cells.count() + 1];
         for (cell, _) in &entries {
             ends[*cell as usize + 1] += 1;
@@ -334,6 +350,22 @@ impl Grid {
             starts,
             list,
         }
+    }
+
+    /// Cells with the triangles over them; `None` if these are too many, and there is more than one cell.
+    fn entries(facets: &[Facet], cells: &Cells) -> Option<Vec<(u32, u32)>> {
+        let most = MOST_REACHED * facets.len();
+        let mut entries: Vec<(u32, u32)> = Vec::with_capacity(4 * facets.len());
+        for (index, facet) in facets.iter().enumerate() {
+            cells.of_triangle(facet.flat(), |cell| {
+                entries.push((cell as u32, index as u32))
+            });
+            if entries.len() > most && cells.count() > 1 {
+                return None;
+            }
+        }
+        budget::count(Step::Cell, entries.len());
+        Some(entries)
     }
 
     /// The triangles over the cell of a point.

@@ -30,6 +30,7 @@ mod stack;
 
 use glam::{DMat2, DVec2, DVec3};
 
+use crate::budget::{self, Step};
 use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
@@ -80,7 +81,11 @@ impl Placement {
 /// The solid of an outline in its part's frame; nothing for an outline without area.
 pub(crate) fn build(outline: &Outline, profile: &Profile, options: &Options) -> Surface {
     match half_extents(outline) {
-        Some(half) => profile.surface(outline, half, options),
+        Some(half) => {
+            let surface = profile.surface(outline, half, options);
+            budget::count(Step::Triangle, surface.triangles.len());
+            surface
+        }
         None => Surface::default(),
     }
 }

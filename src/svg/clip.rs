@@ -1,14 +1,22 @@
 //! `clip-path`: cuts shapes to their visible part.
 
+use std::borrow::Cow;
+
 use glam::{DAffine2, DVec2};
 
 use super::paths::{affine, bez_path, rings};
-use crate::geometry::{FillRule, Outline, bounds, intersect, resolve_overlaps, union};
+use crate::geometry::{FillRule, Outline, bounds, bounds_of, intersect, resolve_overlaps, union};
+
+/// Of clips with fewer points, all polygons are looked at for each shape.
+const MANY: usize = 1000;
 
 /// A clip path in user units.
 #[derive(Debug, Clone)]
 pub(super) struct Clip {
     outline: Outline,
+    /// The boxes around its polygons.
+    boxes: Vec<(DVec2, DVec2)>,
+    points: usize,
     /// The minimum and maximum corner, if the clip is an axis-aligned rectangle.
     pub(super) rectangle: Option<(DVec2, DVec2)>,
 }
@@ -24,7 +32,19 @@ impl Clip {
             _ => union(&areas),
         };
         let rectangle = rectangle(&outline);
-        let mut out = vec![Self { outline, rectangle }];
+        let boxes = outline.polygons.iter().map(|polygon| {
+            let border = polygon.rings.first().into_iter().flatten();
+            bounds_of(border.copied()).unwrap_or_default()
+        });
+        let boxes = boxes.collect();
+        let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+        let points = rings.map(Vec::len).sum();
+        let mut out = vec![Self {
+            outline,
+            boxes,
+            points,
+            rectangle,
+        }];
         if let Some(outer) = clip.clip_path() {
             out.extend(Self::read(outer, transform, tolerance));
         }
@@ -39,7 +59,29 @@ impl Clip {
         match self.rectangle {
             // Figma and nested drawings clip everything to a frame, which seldom cuts anything.
             Some((least, most)) if low.cmpge(least).all() && high.cmple(most).all() => outline,
-            _ => intersect(&outline, &self.outline),
+            _ => intersect(&outline, &self.near(low, high)),
+        }
+    }
+
+    /// Its polygons that may reach into a box.
+    fn near(&self, low: DVec2, high: DVec2) -> Cow<'_, Outline> {
+        let is_near = |(from, to): &(DVec2, DVec2)| from.cmple(high).all() && to.cmpge(low).all();
+        if self.points() < MANY || self.boxes.iter().all(is_near) {
+            return Cow::Borrowed(&self.outline);
+        }
+        let polygons = self.outline.polygons.iter().zip(&self.boxes);
+        let near = polygons.filter(|(_, bounds)| is_near(bounds));
+        Cow::Owned(Outline {
+            polygons: near.map(|(polygon, _)| polygon.clone()).collect(),
+        })
+    }
+
+    /// How many points the clip has that are looked at for each shape that it cuts.
+    pub(super) fn points(&self) -> usize {
+        if self.rectangle.is_some() {
+            0
+        } else {
+            self.points
         }
     }
 }

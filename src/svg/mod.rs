@@ -5,6 +5,7 @@
 //! annotation language.
 
 mod clip;
+mod dashes;
 mod dropped;
 mod elements;
 mod entities;
@@ -49,6 +50,7 @@ pub use raster::{LeftOut, raster};
 pub(crate) use text::Label;
 pub(crate) use unseen::{ConvertedText, Hidden, Unseen};
 
+use crate::budget::Budget;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Outline;
 use crate::index::index_type;
@@ -94,6 +96,8 @@ pub struct Drawing {
     pub unseen: Unseen,
     /// Per group whether its pictures are read pixel by pixel (see [`PixelGroups`]); `None` if there are no pictures.
     pub pixel_groups: Option<TiVec<GroupId, bool>>,
+    /// How much work it may cause.
+    pub(crate) budget: Budget,
 }
 
 /// The width of the widest hairline, as a share of the page's larger side.

@@ -8,7 +8,8 @@ use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiVec;
 
-use super::elements::{Ids, element, labels};
+use super::dashes::Dashes;
+use super::elements::{Ids, element, labels, start_tag};
 use super::fit::ImageViewports;
 use super::links::{options, report_links, unusable};
 use super::paint::is_opaque;
@@ -22,6 +23,7 @@ use super::{
     Drawing, Element, Paint, PaintKey, PictureSource, Shape, ShapeId, dropped, growth, sheets,
     unseen,
 };
+use crate::budget::{Budget, Work};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{FillRule, Outline, resolve_crossings, resolve_overlaps};
 use crate::resolver::Resolver;
@@ -109,6 +111,11 @@ pub(super) fn read(
         f64::from(tree.size().width()),
         f64::from(tree.size().height()),
     );
+    let points = tasks.iter().map(|task| match task.node {
+        Leaf::Path(path) => path.data().points().len(),
+        Leaf::Image(_) => 4,
+    });
+    let budget = Budget::of(points.sum());
     let context = Context {
         document,
         styles: &styles,
@@ -118,7 +125,9 @@ pub(super) fn read(
         page_box: (offset, size),
         tolerance,
         tangles: Tangles::new(prepared),
+        dashes: Dashes::of(&tasks, budget),
     };
+    context.check_clips(&tasks, budget)?;
     let found = Mutex::new(Vec::new());
     let made: Vec<Option<Shape>> = tasks
         .par_iter()
@@ -156,6 +165,7 @@ pub(super) fn read(
         labels,
         unseen,
         pixel_groups: None,
+        budget,
     };
     // A shape that is left out is neither, and has its own report.
     let who = |node: NodeId| match shape_of_node.get(&node) {
@@ -246,9 +256,38 @@ pub(super) struct Context<'a, 'input> {
     pub(super) page_box: (DVec2, DVec2),
     pub(super) tolerance: f64,
     pub(super) tangles: Tangles,
+    pub(super) dashes: Dashes,
 }
 
 impl Context<'_, '_> {
+    /// Refuses a drawing whose clips have too many points for the shapes that they cut.
+    fn check_clips(&self, tasks: &[Task<'_>], budget: Budget) -> Result<(), Box<Diagnostic>> {
+        let of_task = |task: &Task<'_>| -> u64 {
+            let clips = task.clips.iter().flat_map(|clips| clips.iter());
+            clips.map(|clip| clip.points() as u64).sum()
+        };
+        let (sum, most) = (
+            tasks.iter().map(of_task).sum::<u64>(),
+            budget.most(Work::ClipPoints),
+        );
+        if sum <= most {
+            return Ok(());
+        }
+        // The first of those that are cut by the most points.
+        let worst = tasks.iter().rev().max_by_key(|task| of_task(task));
+        let node = worst.and_then(|task| self.document.get_node(task.xml));
+        let span = start_tag(node.unwrap_or(self.document.root_element()), self.prepared);
+        let own = worst.map_or(0, of_task);
+        let message = format!(
+            "the clips of this drawing have {sum} points, once for each of the shapes that they cut, more than {most}; {own} of them cut this shape"
+        );
+        let help =
+            "clip fewer shapes, or simplify the path that they are clipped to (Path > Simplify)";
+        Err(Box::new(
+            Diagnostic::new(Code::LimitPassed, span, message).help(help),
+        ))
+    }
+
     fn shape(&self, index: usize, task: &Task<'_>) -> (Option<Shape>, Option<Loss>) {
         let Some(node) = self.document.get_node(task.xml) else {
             return (None, None);
@@ -331,7 +370,7 @@ impl Context<'_, '_> {
         let stroke = stroke.map(|stroke| {
             Arc::new(StrokeSource {
                 path: path.data().clone(),
-                stroke: stroke.to_tiny_skia(),
+                stroke: self.dashes.stroke(stroke, path.data()),
                 transform,
                 tolerance: self.tolerance,
                 covered_by: is_below.then(|| Arc::clone(&outline)),

@@ -14,9 +14,7 @@ use super::overlaps::Overlap;
 use super::shapes::Shape;
 use super::{Cover, FigureContext, Nodes, wraps};
 use crate::bind::Side;
-use crate::geometry::{
-    Outline, Polygon, Ring, area, bounds, contains, intersect, offset, shoelace,
-};
+use crate::geometry::{Bands, Outline, Polygon, Ring, area, bounds, intersect, offset, shoelace};
 use crate::threads::GRAIN;
 
 /// Points along the border of a volume.
@@ -259,11 +257,15 @@ fn of_volume(
     let largest = pieces.iter().map(|(area, _)| *area).fold(0.0, f64::max);
     pieces.retain(|(area, _)| *area >= PIECE * largest);
     pieces.truncate(MAX_PIECES);
+    let bands = garments
+        .iter()
+        .map(|garment| Bands::of(&shapes[garment.shape].outline));
+    let bands: Vec<Bands<'_>> = bands.collect();
     let of_piece = |(_, polygon): (f64, &Polygon)| {
         let outline = Arc::new(Outline {
             polygons: vec![polygon.clone()],
         });
-        of_piece(context, shapes, on, garments, &outline)
+        of_piece(context, shapes, on, (garments, &bands), &outline)
     };
     pieces.into_iter().flat_map(of_piece).collect()
 }
@@ -273,7 +275,7 @@ fn of_piece(
     context: &FigureContext<'_>,
     shapes: &[Shape],
     on: usize,
-    garments: &[Garment],
+    (garments, bands): (&[Garment], &[Bands<'_>]),
     outline: &Arc<Outline>,
 ) -> Vec<Back> {
     let ring = &outline.polygons[0].rings[0];
@@ -291,7 +293,7 @@ fn of_piece(
         shapes,
         on,
         nape: bounds.0.y + NAPE * size.y,
-        worn: worn(shapes, garments, &samples),
+        worn: worn(shapes, (garments, bands), &samples),
         samples,
         topmost,
     };
@@ -319,15 +321,19 @@ fn of_piece(
 }
 
 /// Per sample the largest of the shapes that cover it on the border and inside: not the highlights on hair, but the hair.
-fn worn(shapes: &[Shape], garments: &[Garment], samples: &[Sample]) -> Vec<[Option<usize>; 2]> {
+fn worn(
+    shapes: &[Shape],
+    (garments, bands): (&[Garment], &[Bands<'_>]),
+    samples: &[Sample],
+) -> Vec<[Option<usize>; 2]> {
     let worn = |later: DVec2, earlier: DVec2| {
-        let covers = garments.iter().filter(|garment| {
-            let other = &shapes[garment.shape];
-            let (low, high) = other.bounds;
+        let covers = garments.iter().zip(bands).filter(|(garment, bands)| {
+            let (low, high) = shapes[garment.shape].bounds;
             let point = if garment.is_later { later } else { earlier };
-            point.clamp(low, high) == point && contains(&other.outline, point)
+            point.clamp(low, high) == point && bands.contains(point)
         });
         covers
+            .map(|(garment, _)| garment)
             .max_by(|a, b| a.area.total_cmp(&b.area).then(b.shape.cmp(&a.shape)))
             .map(|garment| garment.shape)
     };
@@ -453,13 +459,14 @@ fn samples(ring: &Ring, outline: &Outline, most: f64) -> Vec<Sample> {
     let around: f64 = (0..n).map(|i| edge(i)[0].distance(edge(i)[1])).sum();
     let apart = around / SAMPLES as f64;
     let filled_side = if shoelace(ring) < 0.0 { -1.0 } else { 1.0 };
+    let bands = Bands::of(outline);
     let mut samples = Vec::with_capacity(SAMPLES);
     wraps::along((0..n).map(edge), apart, |edge, at, direction| {
         let inward = direction.perp() * filled_side;
         // Where the volume is thin, not beyond its middle.
         let through = most / INSIDE_THIN;
         let mut steps = [0.25, 0.5, 0.75, 1.0].into_iter();
-        let beyond = steps.find(|step| !contains(outline, at + inward * (through * step)));
+        let beyond = steps.find(|step| !bands.contains(at + inward * (through * step)));
         let depth = beyond.map_or(most, |step| most * step);
         samples.push(Sample {
             edge,

@@ -3,7 +3,8 @@
 
 use glam::DVec2;
 
-use crate::geometry::Outline;
+use crate::budget::{self, Step};
+use crate::geometry::{Outline, bounds};
 
 /// A disc counts as inside the outline if the border comes no closer to its centre than this, relative
 /// to its radius: flattened curves cut off that little.
@@ -14,6 +15,8 @@ const MAX_ITERATIONS: usize = 24;
 const RUN: usize = 16;
 /// How many consecutive boxes of a level are in one of the next.
 const FAN: usize = 4;
+/// Fewer edges stay in the order of their rings.
+const MANY: usize = 4 * RUN * FAN;
 
 /// A disc in an outline.
 #[derive(Debug, Clone, Copy, Default)]
@@ -24,8 +27,9 @@ pub(super) struct Disc {
     opposite: Option<DVec2>,
 }
 
-/// The edges of an outline in the order of its rings, and boxes around runs of them. Neighbours on a ring are near each other, so
-/// the boxes are small without sorting.
+/// The edges of an outline, and boxes around runs of them. Edges that follow each other are near each other, so that the boxes are small:
+/// if there are few, neighbours on a ring, and otherwise along a curve through all of the outline's box, because rings in rings, and
+/// turns of a spiral, are near to each other over all of their length.
 pub(super) struct Discs {
     edges: Vec<Edge>,
     /// From the boxes around [`RUN`] edges to the one around all.
@@ -40,6 +44,8 @@ struct Edge {
     along: DVec2,
     /// The inverse of the squared length.
     inverse: f64,
+    /// Its place among those of the outline.
+    number: u32,
 }
 
 #[derive(Clone, Copy)]
@@ -77,21 +83,25 @@ impl Edge {
 struct Nearest {
     at: DVec2,
     distance_squared: f64,
+    /// The edge that it is on. Of several at the same distance, the first one counts, in whatever order they are found.
+    edge: u32,
 }
 
 impl Discs {
     pub(super) fn of(outline: &Outline, reach: f64) -> Self {
         let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let ends = rings.flat_map(|ring| {
-            let n = ring.len();
-            (0..n).map(move |i| [ring[i], ring[(i + 1) % n]])
+        let ends = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+        let edges = ends.zip(0..).map(|((from, to), number)| Edge {
+            from: *from,
+            along: *to - *from,
+            inverse: from.distance_squared(*to).max(f64::MIN_POSITIVE).recip(),
+            number,
         });
-        let edges = ends.map(|[from, to]| Edge {
-            from,
-            along: to - from,
-            inverse: from.distance_squared(to).max(f64::MIN_POSITIVE).recip(),
-        });
-        let edges: Vec<Edge> = edges.collect();
+        let mut edges: Vec<Edge> = edges.collect();
+        if edges.len() > MANY {
+            let all = bounds(outline).unwrap_or_default();
+            edges.sort_by_cached_key(|edge| place_on_curve(edge.from + 0.5 * edge.along, all));
+        }
         let of_edge = |edge: &Edge| {
             let to = edge.from + edge.along;
             Bounds {
@@ -145,6 +155,8 @@ impl Discs {
             let mut nearest = Nearest {
                 at: foot,
                 distance_squared: disc.radius * disc.radius,
+                // No edge at this distance is nearer.
+                edge: 0,
             };
             self.search(self.levels.len() - 1, 0, middle, &mut nearest);
             let distance = nearest.distance_squared.sqrt();
@@ -169,13 +181,17 @@ impl Discs {
         if level == 0 {
             let start = index * RUN;
             let end = self.edges.len().min(start + RUN);
+            budget::count(Step::DiscEdge, end - start);
             for edge in &self.edges[start..end] {
                 let at = edge.nearest(point);
                 let distance_squared = at.distance_squared(point);
-                if distance_squared < nearest.distance_squared {
+                if distance_squared < nearest.distance_squared
+                    || (distance_squared == nearest.distance_squared && edge.number < nearest.edge)
+                {
                     *nearest = Nearest {
                         at,
                         distance_squared,
+                        edge: edge.number,
                     };
                 }
             }
@@ -183,10 +199,31 @@ impl Discs {
         }
         let start = index * FAN;
         let below = &self.levels[level - 1][start..];
-        for (child, bounds) in (start..).zip(below.iter().take(FAN)) {
-            if bounds.distance_squared(point) < nearest.distance_squared {
-                self.search(level - 1, child, point, nearest);
+        let mut fan = [(f64::INFINITY, 0); FAN];
+        let mut count = 0;
+        for (child, bounds) in below.iter().take(FAN).enumerate() {
+            let distance_squared = bounds.distance_squared(point);
+            if distance_squared <= nearest.distance_squared {
+                fan[count] = (distance_squared, start + child);
+                count += 1;
+            }
+        }
+        // The nearest first: of the others, most are then too far away.
+        fan[..count].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        for (distance_squared, child) in &fan[..count] {
+            if *distance_squared <= nearest.distance_squared {
+                self.search(level - 1, *child, point, nearest);
             }
         }
     }
+}
+
+/// Where a point is on a curve through all of a box that seldom leaves a neighbourhood (Z-order).
+fn place_on_curve(point: DVec2, (low, high): (DVec2, DVec2)) -> u32 {
+    let share = (point - low) / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
+    let spread = |share: f64| {
+        let place = (share * f64::from(u16::MAX)) as u32;
+        (0..16).fold(0, |all, bit| all | (place >> bit & 1) << (2 * bit))
+    };
+    spread(share.x) | spread(share.y) << 1
 }

@@ -9,7 +9,7 @@ use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::Options;
 use crate::solid::inflate::{Balloon, Field, Mesh, Points, surface};
-use crate::solid::layers::DEFAULT_SEGMENTS;
+use crate::solid::layers::{DEFAULT_SEGMENTS, steps_per_half_turn};
 
 /// Layers per half turn of the smallest outlines: seen from near by they are still round.
 const LEAST_SEGMENTS: u32 = 8;
@@ -83,6 +83,12 @@ impl Kind for Inflate {
 
     fn surface(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
         surface(&self.field(outline, half, options), options)
+    }
+
+    fn triangles(&self, points: usize, _: DVec2, options: &Options) -> u64 {
+        // Columns of half as many points stand on the border, about four for each layer.
+        let layers = steps_per_half_turn(options) as usize;
+        (points.max(4 * layers) * 2 * layers) as u64
     }
 
     fn height_field(&self) -> Option<&dyn HeightField> {

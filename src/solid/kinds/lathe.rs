@@ -7,6 +7,7 @@ use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::Options;
 use crate::solid::lathe::{lathe, sweep_angle};
+use crate::solid::layers::steps_per_half_turn;
 
 /// Half the outline turned about the axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +32,10 @@ impl Kind for Lathe {
     fn depths(&self, half: DVec2, _: &Options) -> Option<[f64; 2]> {
         let side = (sweep_angle(self.degrees) / 2.0).to_radians();
         Some([half.x * side.cos().min(0.0), half.x])
+    }
+
+    fn triangles(&self, points: usize, _: DVec2, options: &Options) -> u64 {
+        (points * 4 * steps_per_half_turn(options) as usize) as u64
     }
 
     fn depends_on_axis(&self) -> bool {

@@ -157,6 +157,14 @@ pub trait Kind {
         DEFAULT_SEGMENTS
     }
 
+    /// About how many triangles the solid has over an outline with so many points.
+    fn triangles(&self, points: usize, half: DVec2, options: &Options) -> u64 {
+        let bands = self.layers(half, options).len().saturating_sub(1);
+        // Where it is scaled one way only, walls may be split in four.
+        let each = if self.depends_on_axis() { 4 } else { 2 };
+        (points * (each * bands + 2)) as u64
+    }
+
     /// The solid's plane faces parallel to the drawing, if it has any.
     fn faces(&self) -> Option<Faces> {
         None

@@ -1,0 +1,99 @@
+//! Drawings that are short and might take long.
+//!
+//! The tests build small ones and count the steps that this takes, which are the same in every run: each must be about twice as many for a
+//! drawing that is twice as large.
+//!
+//! `OKOSHI_HOSTILE=FOLDER cargo test --test hostile` writes them into a folder, in a quarter, half and all of their size, for
+//! tests/tools/hostile.py, which measures what they take.
+
+mod geometry;
+mod kinds;
+
+use std::path::Path;
+use std::{env, fs};
+
+use kinds::Kind;
+use okoshi::compile::{Options, compile};
+use okoshi::export::{GLB, to_memory};
+use okoshi::internals::budget::{STEPS, counted};
+use okoshi::resolver::MemoryResolver;
+
+/// The steps of a drawing grow at most with this power of its size.
+const POWER: f64 = 1.3;
+/// Fewer steps are not looked at: they may be those of another way to do the same.
+const FEW: u64 = 20_000;
+
+/// The kinds of all subjects.
+fn all() -> impl Iterator<Item = &'static Kind> {
+    [geometry::KINDS].into_iter().flatten()
+}
+
+#[test]
+fn each_is_short() {
+    let mut names: Vec<_> = all().map(|kind| kind.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), all().count(), "each has a name of its own");
+    for Kind {
+        name,
+        full,
+        small,
+        make,
+    } in all()
+    {
+        let [length, shorter] = [full, small].map(|size| make(*size).len());
+        assert!(length < 1 << 20, "{name}: {length}");
+        assert!(shorter <= length, "{name}: {shorter} of {length}");
+    }
+}
+
+/// Writes them, if that is asked for.
+#[test]
+fn written_for_measurements() {
+    let Some(folder) = env::var_os("OKOSHI_HOSTILE") else {
+        return;
+    };
+    fs::create_dir_all(&folder).expect("a folder can be made");
+    for Kind {
+        name, full, make, ..
+    } in all()
+    {
+        for share in [4, 2, 1] {
+            let file = Path::new(&folder).join(format!("{name}-{}.svg", full / share));
+            fs::write(file, make(full / share)).expect("the folder is writable");
+        }
+    }
+}
+
+/// The only test that builds anything: steps are counted for the whole process.
+#[test]
+#[ignore = "discs among many rings, combs and stars take more than linear work, and so do outlines that cross each other everywhere"]
+fn work_grows_with_the_drawing() {
+    let mut looked_at = 0;
+    let mut broken = Vec::new();
+    for Kind {
+        name, small, make, ..
+    } in all()
+    {
+        let steps = |size: usize| {
+            let drawing = make(size);
+            counted(|| {
+                let files = MemoryResolver::default();
+                let compiled = compile(&drawing, &Options::default(), &files);
+                to_memory(&GLB, &compiled.scene, None).expect("a scene keeps its own rules");
+            })
+        };
+        let [one, four] = [*small, 4 * small].map(steps);
+        for (step, (one, four)) in STEPS.iter().zip(one.into_iter().zip(four)) {
+            let most = (one.max(FEW / 4) as f64 * 4.0_f64.powf(POWER)) as u64;
+            looked_at += usize::from(four > FEW);
+            if four > FEW && four > most {
+                broken.push(format!(
+                    "{name}: {step:?}: {one}, and {four} for four times as much"
+                ));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{broken:#?}");
+    assert!(looked_at > 30, "{looked_at} counts were looked at");
+}
