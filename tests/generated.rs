@@ -103,6 +103,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::ComesOff, "motion-comes-off"),
     (Code::OutsideMotion, "motion-range-outside"),
     (Code::IdleBend, "bend-without-effect"),
+    (Code::LongerDashes, "limit-dashes"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),
     (Code::AxisGuess, "shape-axis-guess"),

@@ -604,6 +604,15 @@ codes! {
     ///
     /// Write `Bend` in the string of the part that should bend, which must be longer than it is wide, or delete it.
     IdleBend = "W333", "bend without effect";
+    /// The dashes of strokes are so fine that the drawing would have more of them than okoshi builds. They, and the gaps between them, are
+    /// drawn longer.
+    ///
+    /// ```text
+    /// a long line with the dash pattern 0.01 0.01
+    /// ```
+    ///
+    /// Make the dashes longer, or draw the lines without dashes: in Inkscape, *Fill and Stroke → Stroke style → Dashes*.
+    LongerDashes = "W334", "dashes drawn longer";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

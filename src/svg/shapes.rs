@@ -128,6 +128,7 @@ pub(super) fn read(
         dashes: Dashes::of(&tasks, budget),
     };
     context.check_clips(&tasks, budget)?;
+    diagnostics.extend(context.dashes.warning(&tasks, document, prepared));
     let found = Mutex::new(Vec::new());
     let made: Vec<Option<Shape>> = tasks
         .par_iter()
