@@ -68,8 +68,8 @@ fn panels_show_unsaved_texts() {
     assert_eq!(build["drawing"], URI);
     assert_eq!(build["build"]["parts"][1]["name"], "Rarm");
     let first = model(&mut editor, &build);
-    // The root, the body, the arm with three bones inside, and the node that shows its mesh.
-    assert_eq!(common::nodes(&first).expect("a sound model").len(), 7);
+    // The root, the body, the arm with four more nodes inside, and the node that shows its mesh.
+    assert_eq!(common::nodes(&first).expect("a sound model").len(), 8);
 
     // A keystroke that is an error keeps the model; the next one fixes it.
     let at = text.find("-5 5<").expect("the depths");

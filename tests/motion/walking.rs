@@ -22,7 +22,7 @@ const MAX_GROWTH: f64 = 0.03;
 /// The times at which a clip is looked at.
 const TIMES: usize = 24;
 /// How many points of a part are compared with what it hangs on.
-const POINTS: usize = 240;
+const POINTS: usize = 960;
 /// The drawings of `tests/motion/figures` and of the examples in which a figure walks to a side: −1 to the drawing's left.
 const PROFILES: [(&str, f64); 14] = [
     ("examples/clockwork-dragon.svg", 1.0),
