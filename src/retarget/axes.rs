@@ -35,6 +35,14 @@ pub struct Landmarks {
 }
 
 impl Landmarks {
+    /// The leg that a joint belongs to.
+    pub(super) fn leg_of(&self, joint: JointId) -> Option<&Limb> {
+        self.legs.iter().find(|leg| {
+            let joints = [Some(leg.upper), leg.lower, leg.end, leg.toe];
+            joints.contains(&Some(joint))
+        })
+    }
+
     /// The landmarks of a labelled skeleton; if it has no hips, its first joint is used.
     pub fn of(anatomy: &Anatomy) -> Self {
         fn both<T>(limbs: [Option<&Limb>; 2], of: fn(&Limb) -> Option<T>) -> Option<[T; 2]> {

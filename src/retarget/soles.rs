@@ -34,11 +34,7 @@ pub(super) enum FootEnd {
 impl FootEnd {
     /// The foot of the leg whose bone or chain drives a part.
     pub(super) fn of(landmarks: &Landmarks, drive: &Drive) -> Self {
-        let mut legs = landmarks.legs.iter();
-        let leg = legs.find(|leg| {
-            let joints = [Some(leg.upper), leg.lower, leg.end, leg.toe];
-            joints.contains(&Some(drive.joint))
-        });
+        let leg = landmarks.leg_of(drive.joint);
         match leg.and_then(|leg| Some((leg.end?, leg.tip))) {
             Some((ankle, tip)) => Self::Foot(ankle, tip.filter(|tip| *tip != Tip::Joint(ankle))),
             None => Self::End(drive.tip.unwrap_or(Tip::Joint(drive.joint))),

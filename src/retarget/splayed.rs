@@ -98,11 +98,7 @@ struct LegSums {
 
 impl LegSums {
     fn of(source: &Source<'_>, drive: &Drive) -> Option<Self> {
-        let mut legs = source.landmarks.legs.iter();
-        let limb = legs.find(|leg| {
-            let joints = [Some(leg.upper), leg.lower, leg.end, leg.toe];
-            joints.contains(&Some(drive.joint))
-        })?;
+        let limb = source.landmarks.leg_of(drive.joint)?;
         let carrier = source.clip.skeleton.joints[limb.upper].parent?;
         Some(Self {
             joints: [carrier, limb.upper, limb.end.or(limb.lower)?],
