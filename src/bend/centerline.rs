@@ -192,8 +192,7 @@ impl Centerline {
             if place.distance(self.at(along)) > self.width {
                 continue;
             }
-            let number = ((along - self.first) / self.spacing).round().max(0.0) as usize;
-            let number = number.min(last);
+            let number = self.nearest(along);
             let off = (place - self.at(along)).dot(self.across(number));
             sums[number].0 += off;
             sums[number].1 += 1.0;
@@ -225,6 +224,12 @@ impl Centerline {
             .normalize_or_zero()
     }
 
+    /// The number of the point that is nearest to a distance along the line.
+    fn nearest(&self, along: f64) -> usize {
+        let number = ((along - self.first) / self.spacing).round().max(0.0) as usize;
+        number.min(self.points.len() - 1)
+    }
+
     /// How many points there are beyond each end.
     fn beyond(&self) -> usize {
         beyond(self.width, self.spacing)
@@ -241,7 +246,6 @@ impl Centerline {
                 }
             })
             .collect();
-        let last = self.points.len() - 1;
         let mut girths = vec![0.0_f64; self.points.len()];
         for cell in grid.inside_cells() {
             let rise = grid
@@ -249,9 +253,8 @@ impl Centerline {
                 .map(|next| next.map_or(0.0, |next| along[next] - along[cell]));
             let rise = DVec2::from(rise).length() / grid.side();
             let own = along[cell];
-            let number = ((own - self.first) / self.spacing).round().max(0.0) as usize;
             let far = self.at(own).distance(y_up(grid.place(cell))) + grid.side() / 2.0;
-            let girth = &mut girths[number.min(last)];
+            let girth = &mut girths[self.nearest(own)];
             *girth = girth.max(far * rise.clamp(1.0, MOST_RISE));
         }
         self.girths = girths;
@@ -264,11 +267,9 @@ impl Centerline {
         /// A tube that is inflated is as much deeper than wide.
         const INFLATED: f64 = std::f64::consts::SQRT_2;
 
-        let last = self.girths.len() - 1;
-        let place = |along: f64| ((along - self.first) / self.spacing).round().max(0.0) as usize;
         let mut arc = widths * 0.5 * self.width;
         for _ in 0..STEPS {
-            let [from, to] = [at - arc / 2.0, at + arc / 2.0].map(|along| place(along).min(last));
+            let [from, to] = [at - arc / 2.0, at + arc / 2.0].map(|along| self.nearest(along));
             let girth = self.girths[from..=to].iter().copied().fold(0.0, f64::max);
             let wanted = widths * 2.0 * girth.max(depth.min(INFLATED * girth));
             if wanted <= arc {

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::Outline;
-use super::query::{bounds, contains, crosses};
+use super::query::{bounds, contains, crosses, edges};
 
 /// Of outlines with fewer points, all edges are looked at.
 const FEW: usize = 256;
@@ -24,9 +24,7 @@ pub(crate) struct Bands<'a> {
 
 impl<'a> Bands<'a> {
     pub(crate) fn of(outline: &'a Outline) -> Self {
-        let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let edges = || rings().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
-        let count: usize = rings().map(Vec::len).sum();
+        let count = edges(outline).count();
         let mut found = Self {
             outline,
             low: 0.0,
@@ -37,17 +35,17 @@ impl<'a> Bands<'a> {
             return found;
         };
         let height = (high.y - low.y).max(f64::MIN_POSITIVE);
-        let upright: f64 = edges().map(|(a, b)| (b.y - a.y).abs()).sum();
+        let upright: f64 = edges(outline).map(|[a, b]| (b.y - a.y).abs()).sum();
         // An edge reaches into a band more than it is bands high.
         let most = ((MOST_BANDS - 1) * count) as f64 * height / upright.max(f64::MIN_POSITIVE);
         let bands = ((count / EDGES) as f64).min(most).max(1.0).floor();
         found.low = low.y;
         found.scale = bands / height;
         found.bands = vec![Vec::new(); bands as usize];
-        for (a, b) in edges() {
+        for [a, b] in edges(outline) {
             let [from, to] = [a.y.min(b.y), a.y.max(b.y)].map(|y| found.band(y));
             for band in &mut found.bands[from..=to] {
-                band.push([*a, *b]);
+                band.push([a, b]);
             }
         }
         found

@@ -104,7 +104,8 @@ pub(crate) fn shoelace(ring: &Ring) -> f64 {
         / 2.0
 }
 
-fn edges(outline: &Outline) -> impl Iterator<Item = [DVec2; 2]> {
+/// The edges of all rings, in their order.
+pub(crate) fn edges(outline: &Outline) -> impl Iterator<Item = [DVec2; 2]> {
     outline
         .polygons
         .iter()

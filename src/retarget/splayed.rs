@@ -94,16 +94,19 @@ struct LegSums {
     turn: MeanTurn,
     /// From hip to ankle, in the drawing's axes.
     way: DVec3,
+    /// From the hip of the drawn leg to its far end.
+    drawn: DVec3,
 }
 
 impl LegSums {
-    fn of(source: &Source<'_>, drive: &Drive) -> Option<Self> {
+    fn of(source: &Source<'_>, part: FigurePartId, drive: &Drive) -> Option<Self> {
         let limb = source.landmarks.leg_of(drive.joint)?;
         let carrier = source.clip.skeleton.joints[limb.upper].parent?;
         Some(Self {
             joints: [carrier, limb.upper, limb.end.or(limb.lower)?],
             turn: MeanTurn::new(),
             way: DVec3::ZERO,
+            drawn: drawn_way(source.rig, part),
         })
     }
 }
@@ -111,16 +114,20 @@ impl LegSums {
 /// Per part where it turns from, for limbs that keep their drawn pose: wings are drawn as they are on average, not as the arms of a
 /// T-pose. `None` for all others, and for limbs that point everywhere.
 pub(super) fn kept(source: &mut Source<'_>) -> TiVec<FigurePartId, Option<Kept>> {
-    let sums = |part: &RigPart| {
+    let sums = |(index, part): (FigurePartId, &RigPart)| {
         let drive = part.drive.filter(keeps_pose)?;
         Some(Sums {
             drive,
             turn: MeanTurn::new(),
             direction: DVec3::ZERO,
-            leg: part.is_leg.then(|| LegSums::of(source, &drive)).flatten(),
+            leg: part
+                .is_leg
+                .then(|| LegSums::of(source, index, &drive))
+                .flatten(),
         })
     };
-    let mut sums: Vec<Option<Sums>> = source.rig.parts.iter().map(sums).collect();
+    let sums = source.rig.parts.iter_enumerated().map(sums);
+    let mut sums: TiVec<FigurePartId, Option<Sums>> = sums.collect();
     if sums.iter().all(Option::is_none) {
         return ti_vec![None; source.rig.parts.len()];
     }
@@ -139,17 +146,12 @@ pub(super) fn kept(source: &mut Source<'_>) -> TiVec<FigurePartId, Option<Kept>>
         }
     }
     let frames = source.clip.frames as f64;
-    let sums: TiVec<FigurePartId, Option<Sums>> = sums.into();
     // Legs of all lengths take equally long steps, or those that stand would slide.
-    let legs = sums.iter_enumerated();
-    let legs = legs.filter_map(|(part, sums)| Some((part, sums.as_ref()?.leg.as_ref()?)));
-    let lengths = legs.map(|(part, leg)| {
-        let drawn = drawn_way(source.rig, part).length();
-        DVec2::new(drawn, leg.way.length() / frames)
-    });
+    let legs = sums.iter().flatten().filter_map(|sums| sums.leg.as_ref());
+    let lengths = legs.map(|leg| DVec2::new(leg.drawn.length(), leg.way.length() / frames));
     let lengths: DVec2 = lengths.sum();
     let scale = lengths.x / lengths.y;
-    let mean = |(part, sums): (FigurePartId, Option<Sums>)| {
+    let mean = |sums: Option<Sums>| {
         let sums = sums?;
         let is_clear =
             sums.turn.0.length() > MAIN * frames && sums.direction.length() > MAIN * frames;
@@ -160,19 +162,18 @@ pub(super) fn kept(source: &mut Source<'_>) -> TiVec<FigurePartId, Option<Kept>>
             },
             step: sums
                 .leg
-                .and_then(|leg| step(source.rig, part, &leg, frames, scale)),
+                .and_then(|leg| step(source.rig, &leg, frames, scale)),
         })
     };
-    sums.into_iter_enumerated().map(mean).collect()
+    sums.into_iter().map(mean).collect()
 }
 
 /// `scale` is how far the far ends of drawn legs move by what ankles do.
-fn step(rig: &Rig, part: FigurePartId, leg: &LegSums, frames: f64, scale: f64) -> Option<Step> {
+fn step(rig: &Rig, leg: &LegSums, frames: f64, scale: f64) -> Option<Step> {
     let mean = leg.way / frames;
-    let drawn = drawn_way(rig, part);
-    let gain = scale / drawn.length();
+    let gain = scale / leg.drawn.length();
     let left = rig.facing.turn() * DVec3::X;
-    let [clip_points, drawn] = [mean.try_normalize()?, drawn.try_normalize()?];
+    let [clip_points, drawn] = [mean.try_normalize()?, leg.drawn.try_normalize()?];
     let [clip_aside, drawn_aside] = [clip_points, drawn].map(|way| way.dot(left));
     let is_mirrored =
         clip_aside * drawn_aside < 0.0 && clip_aside.abs().min(drawn_aside.abs()) > ASIDE;

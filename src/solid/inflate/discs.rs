@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use crate::budget::{self, Step};
-use crate::geometry::{Outline, bounds};
+use crate::geometry::{Outline, bounds, edges};
 
 /// A disc counts as inside the outline if the border comes no closer to its centre than this, relative
 /// to its radius: flattened curves cut off that little.
@@ -89,12 +89,10 @@ struct Nearest {
 
 impl Discs {
     pub(super) fn of(outline: &Outline, reach: f64) -> Self {
-        let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let ends = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
-        let edges = ends.zip(0..).map(|((from, to), number)| Edge {
-            from: *from,
-            along: *to - *from,
-            inverse: from.distance_squared(*to).max(f64::MIN_POSITIVE).recip(),
+        let edges = edges(outline).zip(0..).map(|([from, to], number)| Edge {
+            from,
+            along: to - from,
+            inverse: from.distance_squared(to).max(f64::MIN_POSITIVE).recip(),
             number,
         });
         let mut edges: Vec<Edge> = edges.collect();
