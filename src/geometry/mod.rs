@@ -34,7 +34,7 @@ pub(crate) use offset::offset;
 pub(crate) use pixels::pixel_borders;
 pub use query::{area, border_distance_squared, bounds, contains};
 pub(crate) use query::{bounds_of, centroid, distance_squared};
-pub(crate) use query::{crosses, edge_distance_squared, edges, shoelace};
+pub(crate) use query::{crosses, edge_distance_squared, edges, perimeter, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
 pub(crate) use simplify::simplify;
 pub(crate) use tangled::crossings as count_crossings;

@@ -115,3 +115,8 @@ pub(crate) fn edges(outline: &Outline) -> impl Iterator<Item = [DVec2; 2]> {
                 .map(move |i| [ring[i], ring[if i + 1 < ring.len() { i + 1 } else { 0 }]])
         })
 }
+
+/// The length of all borders of an outline.
+pub(crate) fn perimeter(outline: &Outline) -> f64 {
+    edges(outline).map(|[a, b]| a.distance(b)).sum()
+}

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::shapes::Shape;
-use crate::geometry::{contains, shoelace};
+use crate::geometry::{contains, edges, perimeter, shoelace};
 
 /// Points along the border of a shape.
 const CHORDS: usize = 160;
@@ -29,27 +29,16 @@ pub(super) struct Chord {
 
 /// The chords of a shape.
 pub(super) fn chords(shape: &Shape) -> Vec<Chord> {
-    let rings = || {
-        shape
-            .outline
-            .polygons
-            .iter()
-            .flat_map(|polygon| &polygon.rings)
-    };
-    let edges = || {
-        rings().flat_map(|ring| {
-            let next = ring.iter().cycle().skip(1);
-            ring.iter().zip(next).map(|(from, to)| [*from, *to])
-        })
-    };
-    let around: f64 = edges().map(|[from, to]| from.distance(to)).sum();
+    let outline = &shape.outline;
+    let around = perimeter(outline);
     let apart = around / CHORDS as f64;
-    let area: f64 = rings().map(shoelace).sum();
+    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let area: f64 = rings.map(shoelace).sum();
     let filled_side = if area < 0.0 { -1.0 } else { 1.0 };
     let mut chords = Vec::with_capacity(CHORDS);
-    along(edges(), apart, |_, foot, direction| {
+    along(edges(outline), apart, |_, foot, direction| {
         let inward = direction.perp() * filled_side;
-        let ends = edges().filter_map(|edge| crossing(foot, inward, edge));
+        let ends = edges(outline).filter_map(|edge| crossing(foot, inward, edge));
         let nearest = ends.filter(|end| *end > 1e-6 * around).reduce(f64::min);
         if let Some(nearest) = nearest {
             chords.push(Chord {

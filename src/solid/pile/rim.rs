@@ -9,7 +9,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use super::ground::Ground;
-use crate::geometry::{Outline, area};
+use crate::geometry::{Outline, area, edges, perimeter};
 
 /// Samples per width of the line.
 const SAMPLES: f64 = 3.0;
@@ -34,11 +34,7 @@ pub(super) struct Rim {
 impl Rim {
     /// The rim of a line with this outline; `None` if all of it lies on one volume, or beside all.
     pub(super) fn new(outline: &Outline, ground: &Ground, step: f64) -> Option<Self> {
-        let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let edges = || {
-            rings().flat_map(|ring| (0..ring.len()).map(|i| [ring[i], ring[(i + 1) % ring.len()]]))
-        };
-        let length: f64 = edges().map(|[from, to]| from.distance(to)).sum();
+        let length = perimeter(outline);
         // A line of width w and length l has the area w·l and a border of about 2·l.
         let width = 2.0 * area(outline).abs() / length;
         let apart = (width / SAMPLES).max(length / MAX_SAMPLES);
@@ -49,7 +45,7 @@ impl Rim {
         }
         let mut on = Vec::new();
         let mut volume_samples = Vec::new();
-        for [from, to] in edges() {
+        for [from, to] in edges(outline) {
             let count = (from.distance(to) / apart).ceil().max(1.0);
             for index in 0..count as usize {
                 let point = from.lerp(to, index as f64 / count);
