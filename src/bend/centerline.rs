@@ -374,11 +374,12 @@ impl Centerline {
                 place(about - reach).min(last)..(place(about + reach) + 1).min(last + 1)
             }
         };
-        for number in range {
-            let own = self.points[number];
+        let mut number = range.start as f64;
+        for own in &self.points[range] {
             let weight = (own.distance_squared(point) + near).powi(-NEARNESS);
-            sum += weight * number as f64;
+            sum += weight * number;
             total += weight;
+            number += 1.0;
         }
         self.first + self.spacing * sum / total
     }

@@ -8,8 +8,10 @@ use rustc_hash::FxHashMap;
 
 use crate::scene::Surface;
 
-/// Steps of the search for the place at which an edge crosses a level.
+/// The most steps of the search for the place at which an edge crosses a level.
 const STEPS: usize = 6;
+/// The search ends where the value is as near to the level as this, as a share of the change along the shortest edge that is cut.
+const NEAR: f64 = 1e-3;
 /// A cut is at least this share of an edge away from its ends.
 const LEAST: f64 = 1e-3;
 
@@ -189,7 +191,7 @@ impl<Value: Fn([f32; 3]) -> f64> Cutter<'_, Value> {
         for _ in 0..STEPS {
             share = low + (high - low) * at_low / (at_low - at_high);
             let off = (self.value)(a.lerp(b, share as f32).to_array()) - level;
-            if off == 0.0 {
+            if off.abs() <= NEAR * self.least {
                 break;
             }
             if (off < 0.0) == (at_low < 0.0) {

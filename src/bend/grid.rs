@@ -5,10 +5,12 @@ use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
-use crate::geometry::{Outline, bounds};
+use crate::geometry::{Outline, area, bounds, perimeter};
 
-/// About as many cells cover an outline's bounding box.
-const CELLS: f64 = 9000.0;
+/// About as many cells lie side by side across a slender outline …
+const ACROSS: f64 = 14.0;
+/// … unless more than this would cover its bounding box.
+const MAX_CELLS: f64 = 9000.0;
 /// The most cells along one side.
 const MAX_SIDE: f64 = 600.0;
 /// How strongly the way prefers the middle: the cost of a step is divided by this power of the distance from the border.
@@ -53,16 +55,21 @@ impl Grid {
     pub(super) fn new(outline: &Outline) -> Option<Self> {
         let (low, high) = bounds(outline)?;
         let size = high - low;
-        let cell = (size.x * size.y / CELLS).sqrt();
-        let cell = cell.max(size.max_element() / MAX_SIDE);
+        // Of a strip, whose ends count for little.
+        let width = 2.0 * area(outline) / perimeter(outline);
+        let cell = (width / ACROSS)
+            .max((size.x * size.y / MAX_CELLS).sqrt())
+            .max(size.max_element() / MAX_SIDE);
         if !(cell > 0.0 && cell.is_finite()) {
             return None;
         }
         // A border of cells outside.
         let [columns, rows] = (size / cell).to_array().map(|cells| cells as usize + 3);
+        // What is symmetric has symmetric cells.
+        let half = DVec2::new(columns as f64, rows as f64) / 2.0;
         let mut grid = Self {
             cells: Cells {
-                low: low - DVec2::splat(cell),
+                low: low.midpoint(high) - half * cell,
                 side: cell,
                 columns,
                 rows,
@@ -111,18 +118,76 @@ impl Grid {
     }
 
     /// The cell that is farthest from another one on the way inside.
+    ///
+    /// Steps to the eight cells around have whole lengths of about the same proportions as their own, so that cells can wait in one list
+    /// for each distance (Dial's algorithm).
     pub(super) fn farthest(&self, from: usize) -> usize {
-        let (costs, _) = self.ways(from, |_| 1.0);
-        let reached = (0..costs.len()).filter(|cell| costs[*cell].is_finite());
-        let farthest = reached.max_by(|a, b| costs[*a].total_cmp(&costs[*b]));
-        farthest.unwrap_or(from)
+        const BESIDE: usize = 5;
+        const ACROSS: usize = 7;
+        const LISTS: usize = ACROSS + 1;
+
+        let mut distances = vec![usize::MAX; self.depths.len()];
+        let mut lists: [Vec<usize>; LISTS] = Default::default();
+        distances[from] = 0;
+        lists[0].push(from);
+        let (mut distance, mut waiting, mut farthest) = (0, 1, from);
+        while waiting > 0 {
+            while let Some(cell) = lists[distance % LISTS].pop() {
+                waiting -= 1;
+                if distances[cell] != distance {
+                    continue;
+                }
+                farthest = cell;
+                for (next, length) in self.around(cell) {
+                    let step = if length > 1.0 { ACROSS } else { BESIDE };
+                    if self.depths[next] > 0.0 && distance + step < distances[next] {
+                        distances[next] = distance + step;
+                        lists[(distance + step) % LISTS].push(next);
+                        waiting += 1;
+                    }
+                }
+            }
+            distance += 1;
+        }
+        farthest
     }
 
-    /// The way from one cell to another that keeps to the middle.
+    /// The way from one cell to another that keeps to the middle: a step costs its length times the mean of what its ends cost.
     pub(super) fn middle_way(&self, from: usize, to: usize) -> Vec<usize> {
-        let (_, before) = self.ways(to, |cell| self.depths[cell].powi(-MIDDLE));
-        let step = |cell: &usize| before[*cell];
-        std::iter::successors(Some(from), step).collect()
+        let cost = |depth: &f64| {
+            if *depth > 0.0 {
+                depth.powi(-MIDDLE)
+            } else {
+                0.0
+            }
+        };
+        let costs: Vec<f64> = self.depths.iter().map(cost).collect();
+        let mut spent = vec![f64::INFINITY; costs.len()];
+        // Per cell the next one on the way to the end.
+        let mut before = vec![None; costs.len()];
+        let mut queue = BinaryHeap::from([Reverse((Cost(0.0), to))]);
+        spent[to] = 0.0;
+        while let Some(Reverse((Cost(own), cell))) = queue.pop() {
+            // All further ones are more expensive.
+            if cell == from {
+                break;
+            }
+            if own > spent[cell] {
+                continue;
+            }
+            for (next, length) in self.around(cell) {
+                if self.depths[next] <= 0.0 {
+                    continue;
+                }
+                let total = own + length * f64::midpoint(costs[cell], costs[next]);
+                if total < spent[next] {
+                    spent[next] = total;
+                    before[next] = Some(cell);
+                    queue.push(Reverse((Cost(total), next)));
+                }
+            }
+        }
+        std::iter::successors(Some(from), |cell| before[*cell]).collect()
     }
 
     /// Per cell the value of that of some places, each with its value, which is nearest on the way inside; for cells outside, what the
@@ -158,33 +223,25 @@ impl Grid {
         found.into_iter().map(|(_, value)| value).collect()
     }
 
-    /// Per cell the least cost of a way from `start`, where a step costs its length times the mean of its ends' `cost`, and the next
-    /// cell on the way back.
-    fn ways(&self, start: usize, cost: impl Fn(usize) -> f64) -> (Vec<f64>, Vec<Option<usize>>) {
-        let mut costs = vec![f64::INFINITY; self.depths.len()];
-        let mut before = vec![None; self.depths.len()];
-        let mut queue = BinaryHeap::from([Reverse((Cost(0.0), start))]);
-        costs[start] = 0.0;
-        while let Some(Reverse((Cost(spent), cell))) = queue.pop() {
-            if spent > costs[cell] {
-                continue;
-            }
-            for (next, length) in self.neighbors(cell) {
-                if self.depths[next] <= 0.0 {
-                    continue;
-                }
-                let total = spent + length * f64::midpoint(cost(cell), cost(next));
-                if total < costs[next] {
-                    costs[next] = total;
-                    before[next] = Some(cell);
-                    queue.push(Reverse((Cost(total), next)));
-                }
-            }
-        }
-        (costs, before)
+    /// The eight cells around one inside, with their distances in cells. There is a border of cells outside, so that all of them exist.
+    fn around(&self, cell: usize) -> [(usize, f64); 8] {
+        const ACROSS: f64 = std::f64::consts::SQRT_2;
+
+        let columns = self.cells.columns;
+        let [above, below] = [cell - columns, cell + columns];
+        [
+            (above - 1, ACROSS),
+            (above, 1.0),
+            (above + 1, ACROSS),
+            (cell - 1, 1.0),
+            (cell + 1, 1.0),
+            (below - 1, ACROSS),
+            (below, 1.0),
+            (below + 1, ACROSS),
+        ]
     }
 
-    /// The eight cells around one, with their distances in cells.
+    /// The cells around any one, with their distances in cells.
     fn neighbors(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
         let Cells { columns, rows, .. } = self.cells;
         let around = [-1_isize, 0, 1]
@@ -264,7 +321,7 @@ impl Grid {
             piece[first] = number;
             while let Some(cell) = open.pop() {
                 size += 1;
-                for (next, _) in self.neighbors(cell) {
+                for (next, _) in self.around(cell) {
                     if inside[next] && piece[next] == 0 {
                         piece[next] = number;
                         open.push(next);
