@@ -148,27 +148,31 @@ fn a_cut_drawing_is_an_error_and_the_model_stays() {
     assert_eq!(width(folder.path()), 80);
 }
 
+/// Nor need their folders.
 #[test]
 fn linked_files_are_watched_before_they_exist() {
     let (folder, live) = watched(&["a.svg"]);
-    let linking = drawing(50).replace("-5 5<", "-5 5 Texture \"skin.png\"<");
-    fs::write(folder.path().join("a.svg"), linking).expect("written");
-    live.line("error[E006]");
-    live.line("a.glb is unchanged");
-    let picture = |color: [u8; 3]| {
-        let image = image::RgbImage::from_pixel(4, 4, image::Rgb(color));
-        image
-            .save(folder.path().join("skin.png"))
-            .expect("a picture");
-    };
-    picture([255, 0, 0]);
-    live.line("a.glb in");
-    let red = fs::read(folder.path().join("a.glb")).expect("a model");
-    picture([0, 255, 0]);
-    live.line("a.glb in");
-    assert_ne!(red, fs::read(folder.path().join("a.glb")).expect("a model"));
-    fs::remove_file(folder.path().join("skin.png")).expect("removed");
-    live.line("error[E006]");
+    for link in ["skin.png", "skins/red/skin.png"] {
+        let linking = drawing(50).replace("-5 5<", &format!("-5 5 Texture \"{link}\"<"));
+        fs::write(folder.path().join("a.svg"), linking).expect("written");
+        live.line("error[E006]");
+        live.line("a.glb is unchanged");
+        let skin = folder.path().join(link);
+        fs::create_dir_all(skin.parent().expect("a folder")).expect("a folder");
+        let picture = |color: [u8; 3]| {
+            let image = image::RgbImage::from_pixel(4, 4, image::Rgb(color));
+            image.save(&skin).expect("a picture");
+        };
+        picture([255, 0, 0]);
+        live.line("a.glb in");
+        let red = fs::read(folder.path().join("a.glb")).expect("a model");
+        picture([0, 255, 0]);
+        live.line("a.glb in");
+        assert_ne!(red, fs::read(folder.path().join("a.glb")).expect("a model"));
+        fs::remove_file(&skin).expect("removed");
+        live.line("error[E006]");
+        live.line("a.glb is unchanged");
+    }
 }
 
 #[test]

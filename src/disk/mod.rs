@@ -22,7 +22,7 @@ pub(crate) use search::{Stamp, below, files, is_drawing, stamp};
 pub(crate) use target::{Inputs, Naming, Target, rewrite};
 pub use text::decode;
 pub(crate) use watch::{
-    ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths,
+    ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths, is_concerned,
 };
 pub(crate) use write::{WriteError, make_folder, write_new};
 

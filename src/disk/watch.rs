@@ -4,9 +4,10 @@
 //! file as soon as its writer has closed it.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant, SystemTime};
 
 use notify::event::{AccessKind, AccessMode, ModifyKind, RenameMode};
@@ -41,7 +42,8 @@ pub(crate) struct Changed {
     pub noticed: SystemTime,
 }
 
-/// Watches folders rather than files, because programs replace files as well as write them, and files may not exist yet.
+/// Watches folders rather than files, because programs replace files as well as write them, and files may not exist yet. Nor need the
+/// folders: each is watched as soon as it exists.
 #[derive(Debug)]
 pub(crate) struct FolderWatch {
     backend: Backend,
@@ -50,8 +52,64 @@ pub(crate) struct FolderWatch {
 /// The implementation that watches the folders.
 #[derive(Debug)]
 enum Backend {
-    Native(Mutex<(RecommendedWatcher, BTreeSet<PathBuf>)>),
+    Native(Arc<Mutex<Native>>),
     Polling(Poll),
+}
+
+/// Folders whose changes the system reports.
+#[derive(Debug)]
+struct Native {
+    watcher: RecommendedWatcher,
+    wanted: BTreeSet<PathBuf>,
+    /// Those of them that exist, and of the others the nearest folder above that does.
+    watched: BTreeSet<PathBuf>,
+}
+
+impl Native {
+    /// Watches the wanted folders that exist now. Returns those that cannot be watched, with the reasons.
+    fn renew(&mut self) -> Vec<(PathBuf, WatchError)> {
+        loop {
+            let folders = self.wanted.iter().filter_map(|folder| nearest(folder));
+            let folders: BTreeSet<PathBuf> = folders.map(Path::to_owned).collect();
+            for gone in self.watched.difference(&folders) {
+                // Of a folder that was deleted the system forgot this already.
+                let _ = self.watcher.unwatch(gone);
+            }
+            self.watched.retain(|folder| folders.contains(folder));
+            let mut failed = vec![];
+            let mut is_changed = false;
+            for new in folders {
+                if self.watched.contains(&new) {
+                    continue;
+                }
+                match self.watcher.watch(&new, RecursiveMode::NonRecursive) {
+                    Ok(()) => is_changed |= self.watched.insert(new),
+                    Err(error) if self.wanted.contains(&new) => failed.push((new, error.into())),
+                    Err(_) => {}
+                }
+            }
+            // A wanted folder may have been created before the one above it was watched.
+            if !is_changed {
+                return failed;
+            }
+        }
+    }
+
+    /// Watches the folders that were created, and those that were deleted and created again.
+    fn follow(&mut self, changed: &BTreeSet<PathBuf>) {
+        let lost = self.watched.intersection(changed).cloned();
+        for folder in lost.collect::<Vec<_>>() {
+            let _ = self.watcher.unwatch(&folder);
+            self.watched.remove(&folder);
+        }
+        // Whoever sets the folders was told about those that cannot be watched.
+        self.renew();
+    }
+}
+
+/// A folder, or the nearest one above it that exists.
+fn nearest(folder: &Path) -> Option<&Path> {
+    folder.ancestors().find(|folder| folder.is_dir())
 }
 
 impl FolderWatch {
@@ -62,10 +120,10 @@ impl FolderWatch {
     /// If the system cannot report changes.
     pub(crate) fn new(
         detection: ChangeDetection,
-        changed: impl FnMut(Changed) + Send + 'static,
+        mut changed: impl FnMut(Changed) + Send + 'static,
     ) -> Result<Self, WatchError> {
         let (sender, receiver) = channel();
-        let backend = match detection {
+        let (backend, native) = match detection {
             ChangeDetection::Native => {
                 let watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
                     if let Ok(event) = event
@@ -75,43 +133,51 @@ impl FolderWatch {
                         let _ = sender.send((event.paths, state));
                     }
                 })?;
-                Backend::Native(Mutex::new((watcher, BTreeSet::new())))
+                let native = Arc::new(Mutex::new(Native {
+                    watcher,
+                    wanted: BTreeSet::new(),
+                    watched: BTreeSet::new(),
+                }));
+                let weak = Arc::downgrade(&native);
+                (Backend::Native(native), weak)
             }
-            ChangeDetection::Polling(pause) => Backend::Polling(Poll::new(pause, move |paths| {
-                sender.send((paths, State::Open)).is_ok()
-            })),
+            ChangeDetection::Polling(pause) => {
+                let poll = Poll::new(pause, move |paths| {
+                    sender.send((paths, State::Open)).is_ok()
+                });
+                (Backend::Polling(poll), Weak::new())
+            }
         };
-        std::thread::spawn(move || debounce(&receiver, changed));
+        std::thread::spawn(move || {
+            debounce(&receiver, |settled: Changed| {
+                // First, so that a file which is written after it was reported is reported again.
+                if let Some(native) = native.upgrade() {
+                    lock(&native).follow(&settled.paths);
+                }
+                changed(settled);
+            });
+        });
         Ok(Self { backend })
     }
 
-    /// Sets the folders to watch. Returns those that cannot be watched, with the reasons.
+    /// Sets the folders to watch. Returns those that exist and cannot be watched, with the reasons.
     pub(crate) fn set(&self, folders: &BTreeSet<PathBuf>) -> Vec<(PathBuf, WatchError)> {
-        let watch = match &self.backend {
-            Backend::Native(watch) => watch,
+        match &self.backend {
+            Backend::Native(native) => {
+                let mut native = lock(native);
+                native.wanted.clone_from(folders);
+                native.renew()
+            }
             Backend::Polling(poll) => {
                 poll.set(folders);
-                return vec![];
-            }
-        };
-        let mut guard = watch.lock().unwrap_or_else(PoisonError::into_inner);
-        let (watcher, watched) = &mut *guard;
-        for gone in watched.difference(folders) {
-            let _ = watcher.unwatch(gone);
-        }
-        let mut kept: BTreeSet<PathBuf> = watched.intersection(folders).cloned().collect();
-        let mut failed = vec![];
-        for new in folders.difference(watched) {
-            match watcher.watch(new, RecursiveMode::NonRecursive) {
-                Ok(()) => {
-                    kept.insert(new.clone());
-                }
-                Err(error) => failed.push((new.clone(), error.into())),
+                vec![]
             }
         }
-        *watched = kept;
-        failed
     }
+}
+
+fn lock(native: &Mutex<Native>) -> MutexGuard<'_, Native> {
+    native.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Why changes cannot be reported.
@@ -197,30 +263,40 @@ fn debounce(receiver: &Receiver<(Vec<PathBuf>, State)>, mut changed: impl FnMut(
     }
 }
 
-/// The path by which the system reports a file: symbolic links in the path of its folder are resolved. The file need not
-/// exist.
+/// The path by which the system reports a file: symbolic links in the path of its folder are resolved. Neither the file nor its folder
+/// need exist.
 pub(crate) fn event_path(file: &Path) -> PathBuf {
-    let folder = match file.parent() {
-        Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
-        Some(folder) => folder,
-        None => return file.to_owned(),
-    };
-    let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
-    match file.file_name() {
-        Some(name) => folder.join(name),
-        None => std::fs::canonicalize(file).unwrap_or_else(|_| file.to_owned()),
+    if file.file_name().is_none() {
+        return fs::canonicalize(file).unwrap_or_else(|_| file.to_owned());
     }
+    for folder in file.ancestors().skip(1) {
+        let real = if folder.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            folder
+        };
+        if let Ok(real) = fs::canonicalize(real)
+            && let Ok(rest) = file.strip_prefix(folder)
+        {
+            return real.join(rest);
+        }
+    }
+    file.to_owned()
+}
+
+/// Whether a file, or a folder that it is in, is among those that changed.
+pub(crate) fn is_concerned(file: &Path, changed: &BTreeSet<PathBuf>) -> bool {
+    file.ancestors().any(|path| changed.contains(path))
 }
 
 /// All paths by which the system may report a file: its own, and that of the file it links to.
 pub(crate) fn event_paths(file: &Path) -> BTreeSet<PathBuf> {
-    let target = std::fs::canonicalize(file);
+    let target = fs::canonicalize(file);
     target.into_iter().chain([event_path(file)]).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
     use std::io::Write;
 
     use super::*;
@@ -350,12 +426,51 @@ mod tests {
         });
     }
 
+    /// Also those that are deleted and made again, at any depth.
     #[test]
-    fn missing_folders_are_returned() {
-        let watch = FolderWatch::new(ChangeDetection::Native, |_| ()).unwrap();
-        let nowhere = PathBuf::from("nowhere/at/all");
-        let failed = watch.set(&BTreeSet::from([nowhere.clone()]));
-        assert_eq!(failed.len(), 1);
-        assert_eq!(failed[0].0, nowhere);
+    fn folders_that_are_made_later_are_watched() {
+        for detection in [
+            ChangeDetection::Native,
+            ChangeDetection::Polling(Duration::from_millis(50)),
+        ] {
+            let folder = tempfile::tempdir().unwrap();
+            let file = event_path(&folder.path().join("one/two/a.svg"));
+            let inner = file.parent().unwrap();
+            let (sender, reports) = channel();
+            let watch = FolderWatch::new(detection, move |changed: Changed| {
+                let _ = sender.send(changed.paths);
+            })
+            .unwrap();
+            assert!(watch.set(&BTreeSet::from([inner.to_owned()])).is_empty());
+            let is_reported = |what: &str| {
+                wait_until(what, || {
+                    let mut reports = reports.try_iter();
+                    reports.any(|changed| is_concerned(&file, &changed))
+                });
+            };
+            for _ in 0..3 {
+                fs::create_dir_all(inner).unwrap();
+                fs::write(&file, "new").unwrap();
+                is_reported("the new file");
+                // A later change is one of the file.
+                std::thread::sleep(2 * SETTLED);
+                while reports.try_recv().is_ok() {}
+                fs::write(&file, "newer").unwrap();
+                is_reported("the changed file");
+                fs::remove_dir_all(folder.path().join("one")).unwrap();
+                is_reported("the deleted file");
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_in_a_missing_folder_has_the_path_that_it_will_have() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("one/two/a.svg");
+        let before = event_path(&file);
+        fs::create_dir_all(file.parent().unwrap()).unwrap();
+        fs::write(&file, "").unwrap();
+        assert_eq!(before, fs::canonicalize(&file).unwrap());
+        assert_eq!(before, event_path(&file));
     }
 }

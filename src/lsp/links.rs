@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::scheduler::Scheduler;
-use crate::disk::{ChangeDetection, FolderWatch, event_path};
+use crate::disk::{ChangeDetection, FolderWatch, event_path, is_concerned};
 
 /// See the [module](self).
 pub(super) struct Links {
@@ -81,7 +81,7 @@ fn affected(linked: &LinkedFiles, changed: &BTreeSet<PathBuf>) -> Vec<String> {
     let linked = lock(linked);
     let texts = linked.iter();
     texts
-        .filter(|(_, files)| !files.is_disjoint(&changed))
+        .filter(|(_, files)| files.iter().any(|file| is_concerned(file, &changed)))
         .map(|(uri, _)| uri.clone())
         .collect()
 }

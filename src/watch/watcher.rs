@@ -6,7 +6,9 @@ use std::time::{Duration, Instant, SystemTime};
 
 use super::drawing::{Drawing, Outcome};
 use super::{Event, Options};
-use crate::disk::{Changed, FolderWatch, ReadError, below, event_path, event_paths, is_drawing};
+use crate::disk::{
+    Changed, FolderWatch, ReadError, below, event_path, event_paths, is_concerned, is_drawing,
+};
 
 /// How long a file may look half written before it is reported.
 const INCOMPLETE_TIMEOUT: Duration = Duration::from_secs(1);
@@ -142,7 +144,11 @@ impl Watcher {
     pub(super) fn schedule(&mut self, changed: &Changed, now: Instant) {
         let due = Due::after_change(changed.noticed, now);
         for watched in self.drawings.values_mut() {
-            if !watched.files.is_disjoint(&changed.paths) {
+            if watched
+                .files
+                .iter()
+                .any(|file| is_concerned(file, &changed.paths))
+            {
                 watched.due = Some(due);
             }
         }
@@ -176,9 +182,9 @@ impl Watcher {
             .filter_map(|file| file.parent().map(Path::to_owned))
             .collect();
         folders.extend(self.subfolders.iter().cloned());
-        // A deleted folder is watched again once it is back.
+        let failed = watch.set(&folders);
         folders.retain(|folder| folder.is_dir());
-        for (folder, error) in watch.set(&folders) {
+        for (folder, error) in failed {
             if self.unwatchable.insert(folder.clone()) {
                 report(Event::Unwatchable(&folder, error.to_string()));
             }
