@@ -347,10 +347,16 @@ fn length(model: &Model, rest: &[Transform], [top, sole]: [usize; 2]) -> f64 {
         highest - (right - left) / 2.0,
         0.0,
     );
-    let soles = model
-        .corners(std::slice::from_ref(&sole), rest)
-        .map(|corner| corner.with_z(0.0));
-    let end = soles.min_by(|a, b| a.y.total_cmp(&b.y)).expect("a sole");
+    let corners: Vec<DVec3> = model.corners(&[sole], rest).collect();
+    let heights = corners.iter().map(|corner| corner.y);
+    let lowest = heights.fold(f64::INFINITY, f64::min);
+    // A sole is flat, and reaches ahead: its middle.
+    let flat = 0.05 * (hip.y - lowest);
+    let soles = corners.iter().filter(|corner| corner.y < lowest + flat);
+    let (sum, count) = soles.fold((DVec3::ZERO, 0.0), |(sum, count), corner| {
+        (sum + *corner, count + 1.0)
+    });
+    let end = (sum / count).with_y(lowest).with_z(0.0);
     let above = |node: &usize| model.nodes[*node].parent;
     let leg = model.with_children(top);
     let chain = std::iter::successors(Some(sole), above);
