@@ -13,7 +13,10 @@ mod files;
 mod messages;
 mod model;
 mod motion;
+mod performance;
 mod picture;
+mod puppet;
+mod scene;
 mod session;
 mod string;
 mod track;
@@ -29,7 +32,7 @@ pub(crate) struct Target {
 }
 
 /// All targets.
-pub(crate) const TARGETS: [Target; 9] = [
+pub(crate) const TARGETS: [Target; 12] = [
     Target {
         name: "string",
         check: string::check,
@@ -56,6 +59,11 @@ pub(crate) const TARGETS: [Target; 9] = [
         seeds: model::seeds,
     },
     Target {
+        name: "scene",
+        check: scene::check,
+        seeds: scene::seeds,
+    },
+    Target {
         name: "picture",
         check: picture::check,
         seeds: picture::seeds,
@@ -74,6 +82,16 @@ pub(crate) const TARGETS: [Target; 9] = [
         name: "track",
         check: track::check,
         seeds: track::seeds,
+    },
+    Target {
+        name: "performance",
+        check: performance::check,
+        seeds: performance::seeds,
+    },
+    Target {
+        name: "puppet",
+        check: puppet::check,
+        seeds: puppet::seeds,
     },
 ];
 

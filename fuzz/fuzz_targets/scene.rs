@@ -1,0 +1,11 @@
+//! See tests/fuzzing/scene.rs.
+#![no_main]
+
+#[path = "../../tests/fuzzing/mod.rs"]
+mod fuzzing;
+#[path = "../seeds.rs"]
+mod seeds;
+
+libfuzzer_sys::fuzz_target!(init: seeds::write_if_asked(fuzzing::target("scene")), |bytes: &[u8]| {
+    (fuzzing::target("scene").check)(bytes);
+});
