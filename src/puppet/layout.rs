@@ -4,8 +4,9 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::marks::PieceMark;
-use super::paper::{Marked, Paper, cut_out};
+use super::paper::{LEAST_MARGIN, Marked, Paper, bounds_turned, cut_out, turns};
 use super::pieces::PaperPiece;
+use crate::geometry::Outline;
 
 /// What a page leaves free at its edges: many printers cannot print there.
 pub(super) const EDGE: f64 = 10.0;
@@ -42,6 +43,8 @@ pub(super) struct Layout {
 /// What is laid out.
 pub(super) struct Task<'a> {
     pub(super) pieces: &'a [PaperPiece],
+    /// Per piece what is drawn on it without holes, drawing units.
+    pub(super) silhouettes: Vec<Outline>,
     pub(super) marks: &'a [Option<PieceMark>],
     /// Per piece its holes: its own joint, then those of what it carries; drawing units.
     pub(super) holes: Vec<Vec<DVec2>>,
@@ -60,36 +63,46 @@ impl Task<'_> {
     /// at any scale.
     pub(super) fn fit(&self) -> Option<Layout> {
         let whole = self.page.max_element() / self.extent;
-        let on_one = self.largest(whole, 1);
-        let tall = |layout: &Layout| layout.scale * self.extent >= LEAST_HEIGHT;
-        if let Some(layout) = on_one.clone().filter(tall) {
-            return Some(layout);
-        }
         let tallest = LEAST_HEIGHT / self.extent;
-        let on_many = self
-            .at(tallest, usize::MAX)
-            .or_else(|| self.largest(tallest, usize::MAX));
-        on_many.or(on_one)
+        let on_one = self.largest_from(tallest, whole, 1);
+        let tall = |layout: &Layout| layout.scale * self.extent >= LEAST_HEIGHT;
+        on_one
+            .filter(tall)
+            .or_else(|| self.at(tallest, usize::MAX))
+            .or_else(|| self.largest(tallest, usize::MAX))
+            .or_else(|| self.largest(whole, 1))
     }
 
     /// The layout with the largest scale on that many pages.
     pub(super) fn largest(&self, upper: f64, pages: usize) -> Option<Layout> {
+        self.largest_from(0.0, upper, pages)
+    }
+
+    /// The same; `None` as soon as it is clear that it is smaller than `least`.
+    fn largest_from(&self, least: f64, upper: f64, pages: usize) -> Option<Layout> {
         let (mut fits, mut too_large) = (upper * SMALLEST, upper * 4.0);
-        let mut best = self.at(fits, pages)?;
+        let mut best = None;
         for _ in 0..STEPS {
             // Halved as a ratio, since nothing is known about the size yet.
             let scale = (fits * too_large).sqrt();
             match self.at(scale, pages) {
-                Some(layout) => (fits, best) = (scale, layout),
+                Some(layout) => (fits, best) = (scale, Some(layout)),
                 None => too_large = scale,
             }
+            if too_large < least {
+                return None;
+            }
         }
-        Some(best)
+        best.or_else(|| self.at(fits, pages))
     }
 
     /// The layout at a scale on at most that many pages.
     pub(super) fn at(&self, scale: f64, pages: usize) -> Option<Layout> {
         let room = self.page - 2.0 * EDGE;
+        let area = pages as f64 * room.x * room.y - self.text * room.x;
+        if self.least_area(scale) > area {
+            return None;
+        }
         let papers: Vec<Paper> = (0..self.pieces.len())
             .into_par_iter()
             .map(|index| {
@@ -97,7 +110,13 @@ impl Task<'_> {
                     Some(_) => Marked::Yes,
                     None => Marked::No,
                 };
-                let paper = cut_out(&self.pieces[index], &self.holes[index], marked, scale);
+                let paper = cut_out(
+                    &self.pieces[index],
+                    &self.silhouettes[index],
+                    &self.holes[index],
+                    marked,
+                    scale,
+                );
                 paper.upright_if_wider(room.x - GAP)
             })
             .collect();
@@ -134,6 +153,21 @@ impl Task<'_> {
             placed: placed.collect(),
             pages: packer.pages.len(),
         })
+    }
+}
+
+impl Task<'_> {
+    /// What the boxes of all pieces take at least, however they are turned: a layout that cannot be is not tried.
+    fn least_area(&self, scale: f64) -> f64 {
+        let boxes = self.silhouettes.iter().map(|silhouette| {
+            let sizes = turns().map(|turn| {
+                let (low, high) = bounds_turned(silhouette, turn);
+                let size = (high - low) * scale + GAP + 2.0 * LEAST_MARGIN;
+                size.x * size.y
+            });
+            sizes.fold(f64::INFINITY, f64::min)
+        });
+        boxes.sum()
     }
 }
 

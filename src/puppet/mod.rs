@@ -12,6 +12,7 @@ mod pieces;
 mod sheet;
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use crate::bind::Bindings;
 use crate::compile::Compiled;
@@ -26,6 +27,7 @@ use instructions::Texts;
 use layout::{EDGE, GAP, Layout, Task};
 pub use marks::MarkOrigin;
 pub(crate) use marks::{PieceMark, marks};
+use paper::without_holes;
 pub use pieces::{PaperPiece, pieces};
 use sheet::Printed;
 
@@ -150,6 +152,11 @@ impl<'a> Puppet<'a> {
         let texts = self.texts(title, options.page);
         let task = Task {
             pieces: &self.pieces,
+            silhouettes: self
+                .pieces
+                .par_iter()
+                .map(|piece| without_holes(&piece.outline))
+                .collect(),
             marks: &self.marks,
             holes: (0..self.pieces.len())
                 .map(|piece| self.holes(piece))

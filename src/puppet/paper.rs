@@ -6,14 +6,18 @@ use glam::DVec2;
 
 use super::pieces::PaperPiece;
 use crate::geometry::{
-    FillRule, Outline, Polygon, Ring, bounds, bounds_of, centroid, distance_squared, offset,
-    resolve_overlaps, subtract, union,
+    FillRule, Outline, Polygon, Ring, bounds, bounds_of, centroid, distance_squared,
+    edge_distance_squared, offset, resolve_overlaps, simplify, subtract, union,
 };
 
 /// The paper around what is drawn.
 const MARGIN: f64 = 2.0;
+/// Round corners have chords, so that it is a little less.
+pub(super) const LEAST_MARGIN: f64 = 0.9 * MARGIN;
 /// Notches narrower than twice this are not cut.
 const NOTCH: f64 = 2.0;
+/// The line to cut follows what is drawn to within this, which no scissors do.
+const DETAIL: f64 = 0.05;
 /// The radius of a joint's hole.
 pub(super) const HOLE: f64 = 1.5;
 /// The least radius of the paper around a hole's middle.
@@ -51,13 +55,20 @@ pub(super) enum Marked {
     No,
 }
 
-/// Cuts out a piece at `scale` millimetres a drawing unit. `holes` are in drawing units.
-pub(super) fn cut_out(piece: &PaperPiece, holes: &[DVec2], marked: Marked, scale: f64) -> Paper {
-    let drawn = piece
-        .outline
-        .map_rings(|ring| ring.iter().map(|p| *p * scale).collect());
+/// Cuts out a piece at `scale` millimetres a drawing unit. `silhouette` is what is drawn on it without holes, `holes` are those of its
+/// joints; both are in drawing units.
+pub(super) fn cut_out(
+    piece: &PaperPiece,
+    silhouette: &Outline,
+    holes: &[DVec2],
+    marked: Marked,
+    scale: f64,
+) -> Paper {
+    let scaled = |ring: &Ring| -> Ring { ring.iter().map(|p| *p * scale).collect() };
+    let drawn = piece.outline.map_rings(scaled);
     let holes: Vec<DVec2> = holes.iter().map(|hole| *hole * scale).collect();
-    let around = offset(&without_holes(&drawn), MARGIN + NOTCH);
+    let coarse = silhouette.map_rings(|ring| simplified(&scaled(ring)));
+    let around = offset(&coarse, MARGIN + NOTCH);
     let mut all = vec![offset(&without_holes(&around), -NOTCH)];
     let mut add = |at: DVec2, radius: f64| {
         all.push(disc(at, radius));
@@ -135,7 +146,46 @@ fn mark_place(drawn: &Outline, joint: Option<DVec2>, holes: &[DVec2]) -> DVec2 {
     places.find(|at| is_clear(*at)).unwrap_or(end)
 }
 
-fn without_holes(outline: &Outline) -> Outline {
+/// The ring with the points that matter to the line to cut: three at least, because paper is left around dots, too.
+fn simplified(ring: &Ring) -> Ring {
+    let farthest = |from: DVec2| {
+        let far = |i: &usize| ring[*i].distance_squared(from);
+        (0..ring.len()).max_by(|a, b| far(a).total_cmp(&far(b)))
+    };
+    // Two points that are far from each other are kept.
+    let Some(start) = ring.first().and_then(|first| farthest(*first)) else {
+        return Ring::new();
+    };
+    let turned: Ring = (0..=ring.len())
+        .map(|i| ring[(start + i) % ring.len()])
+        .collect();
+    let off = |index: usize, [from, to]: [usize; 2]| {
+        let edge = [turned[from], turned[to]];
+        if from == 0 && to == ring.len() {
+            turned[index].distance_squared(edge[0])
+        } else {
+            edge_distance_squared(edge, turned[index])
+        }
+    };
+    let mut kept = simplify(turned.len(), |from, to| {
+        let far = |index: &usize| off(*index, [from, to]);
+        let middle = (from + 1..to).max_by(|a, b| far(a).total_cmp(&far(b)))?;
+        let is_end = from == 0 && to == ring.len();
+        (is_end || far(&middle) > DETAIL * DETAIL).then_some(middle)
+    });
+    kept.pop();
+    if kept.len() == 2 {
+        let ends = [kept[0], kept[1]];
+        let far =
+            |index: &usize| edge_distance_squared(ends.map(|end| turned[end]), turned[*index]);
+        kept.extend((0..ring.len()).max_by(|a, b| far(a).total_cmp(&far(b))));
+        kept.sort_unstable();
+    }
+    kept.into_iter().map(|index| turned[index]).collect()
+}
+
+/// The area with all its holes filled.
+pub(super) fn without_holes(outline: &Outline) -> Outline {
     let borders = outline
         .polygons
         .iter()
@@ -209,11 +259,16 @@ fn bridge(from: DVec2, to: DVec2) -> Outline {
     union(&[strip, disc(from, BRIDGE), disc(to, BRIDGE)])
 }
 
-fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
+pub(super) fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
     let way = DVec2::from_angle(turn);
     let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
     let points = rings.flatten().map(|point| way.rotate(*point));
     bounds_of(points).unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY))
+}
+
+/// How far pieces may be turned on the sheet, radians.
+pub(super) fn turns() -> impl Iterator<Item = f64> {
+    (-17..=18).map(|step| f64::from(step) * PI / 36.0)
 }
 
 /// How far a piece is turned so that its box is smallest: not at all where that gains little.
@@ -222,8 +277,49 @@ fn turn(outline: &Outline) -> f64 {
         let (low, high) = bounds_turned(outline, turn);
         (high.x - low.x) * (high.y - low.y)
     };
-    let turns = (-17..=18).map(|step| f64::from(step) * PI / 36.0);
-    let best = turns.min_by(|a, b| size(*a).total_cmp(&size(*b)));
+    let best = turns().min_by(|a, b| size(*a).total_cmp(&size(*b)));
     let best = best.filter(|best| size(*best) < WORTH_TURNING * size(0.0));
     best.unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn ring(points: &[[f64; 2]]) -> Ring {
+        points.iter().copied().map(DVec2::from).collect()
+    }
+
+    #[test]
+    fn dots_and_lines_keep_three_points() {
+        let dot: Ring = (0..20)
+            .map(|i| DVec2::from_angle(f64::from(i) * 0.3) * 0.01)
+            .collect();
+        assert_eq!(simplified(&dot).len(), 3);
+        let line = ring(&[[0.0, 0.0], [5.0, 0.01], [9.0, 0.0], [5.0, -0.01]]);
+        assert_eq!(simplified(&line).len(), 3);
+        assert!(simplified(&Ring::new()).is_empty());
+        let square = ring(&[[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [2.0, 5.0], [0.0, 5.0]]);
+        assert_eq!(simplified(&square).len(), 4);
+    }
+
+    proptest! {
+        #[test]
+        fn simplified_rings_are_near(
+            radii in prop::collection::vec(1.0..9.0f64, 3..60),
+        ) {
+            let angle = |i: usize| TAU * i as f64 / radii.len() as f64;
+            let place = |(i, radius): (usize, &f64)| DVec2::from_angle(angle(i)) * *radius;
+            let ring: Ring = radii.iter().enumerate().map(place).collect();
+            let kept = simplified(&ring);
+            let edges = || kept.iter().zip(kept.iter().cycle().skip(1));
+            for point in ring {
+                let gap = edges()
+                    .map(|(a, b)| edge_distance_squared([*a, *b], point))
+                    .fold(f64::INFINITY, f64::min);
+                prop_assert!(gap <= DETAIL * DETAIL);
+            }
+        }
+    }
 }

@@ -25,10 +25,9 @@ const FEW: u64 = 20_000;
 
 /// What grows faster, until a limit stops it: discs among many rings, tips and teeth, and what overlaps itself or others everywhere. Each
 /// must be needed.
-const KNOWN: [(&str, &str); 36] = [
+const KNOWN: [(&str, &str); 35] = [
     ("circles-overlapping-inflated", "Cell"),
     ("circles-of-one-path-overlapping", "Pair"),
-    ("circles-of-one-path-overlapping", "DiscEdge"),
     ("circles-of-one-path-overlapping", "Triangle"),
     ("rings-nested-round", "Pair"),
     ("rings-nested-round", "DiscEdge"),

@@ -15,6 +15,14 @@ const MAX_ITERATIONS: usize = 24;
 const RUN: usize = 16;
 /// How many consecutive boxes of a level are in one of the next.
 const FAN: usize = 4;
+/// Slanted boxes are used where they have at most this share of the area of upright ones.
+const SLANTED: f64 = 0.3;
+/// How far coordinates in a slanted frame may be off, relative to the largest.
+const ROUNDING: f64 = 1e-12;
+/// More edges than this are a crowd: discs are grown before they are shrunk.
+const CROWD: usize = 1 << 13;
+/// The factor by which they are grown.
+const GROWTH: f64 = 4.0;
 /// Fewer edges stay in the order of their rings.
 const MANY: usize = 4 * RUN * FAN;
 
@@ -36,6 +44,9 @@ pub(super) struct Discs {
     levels: Vec<Vec<Bounds>>,
     /// The radius to begin with.
     reach: f64,
+    /// The radius from which larger ones are tried, in a crowd of edges: the middle of a disc that is far too large is about as far from
+    /// very many of them.
+    least: Option<f64>,
 }
 
 #[derive(Clone, Copy)]
@@ -48,27 +59,95 @@ struct Edge {
     number: u32,
 }
 
+/// What is around some edges.
 #[derive(Clone, Copy)]
 struct Bounds {
+    upright: Rectangle,
+    /// Along the edges, if that is much smaller: slanted needles beside each other have the same upright box.
+    slanted: Option<Slanted>,
+}
+
+#[derive(Clone, Copy)]
+struct Rectangle {
     low: DVec2,
     high: DVec2,
 }
 
-impl Bounds {
-    fn around(bounds: impl Iterator<Item = Bounds>) -> Bounds {
-        let nothing = Bounds {
+/// A rectangle in a frame of its own.
+#[derive(Clone, Copy)]
+struct Slanted {
+    /// The direction of its x, a unit vector.
+    along: DVec2,
+    rectangle: Rectangle,
+}
+
+impl Rectangle {
+    fn around(points: impl Iterator<Item = DVec2>) -> Self {
+        let nothing = Self {
             low: DVec2::INFINITY,
             high: DVec2::NEG_INFINITY,
         };
-        bounds.fold(nothing, |all, one| Bounds {
-            low: all.low.min(one.low),
-            high: all.high.max(one.high),
+        points.fold(nothing, |all, point| Self {
+            low: all.low.min(point),
+            high: all.high.max(point),
         })
     }
 
     fn distance_squared(&self, point: DVec2) -> f64 {
         let outside = (self.low - point).max(point - self.high);
         outside.max(DVec2::ZERO).length_squared()
+    }
+
+    fn area(&self) -> f64 {
+        (self.high - self.low).element_product()
+    }
+}
+
+impl Bounds {
+    /// The bounds of edges, upright ones only if there are few.
+    fn around(edges: &[Edge], are_many: bool) -> Self {
+        let ends = || {
+            let ends = edges.iter().map(|edge| [edge.from, edge.from + edge.along]);
+            ends.flatten()
+        };
+        let upright = Rectangle::around(ends());
+        let slanted = || {
+            let length = |edge: &&Edge| edge.along.length_squared();
+            let longest = edges
+                .iter()
+                .max_by(|a, b| length(a).total_cmp(&length(b)))?
+                .along;
+            let ways = edges
+                .iter()
+                .map(|edge| edge.along * edge.along.dot(longest).signum());
+            let along = ways.sum::<DVec2>().try_normalize()?;
+            let frame = conjugate(along);
+            let turned = Rectangle::around(ends().map(|end| frame.rotate(end)));
+            // Rounding must not let the box seem farther away than what is in it.
+            let room = ROUNDING * turned.low.abs().max(turned.high.abs()).max_element();
+            let rectangle = Rectangle {
+                low: turned.low - room,
+                high: turned.high + room,
+            };
+            (rectangle.area() < SLANTED * upright.area()).then_some(Slanted { along, rectangle })
+        };
+        Self {
+            upright,
+            slanted: if are_many { slanted() } else { None },
+        }
+    }
+
+    /// The square of a distance that they are from a point at least, unless it is greater than that.
+    fn distance_squared(&self, point: DVec2, most: f64) -> Option<f64> {
+        let distance_squared = self.upright.distance_squared(point);
+        if distance_squared > most {
+            return None;
+        }
+        let Some(Slanted { along, rectangle }) = &self.slanted else {
+            return Some(distance_squared);
+        };
+        let slanted = rectangle.distance_squared(conjugate(*along).rotate(point));
+        (slanted <= most).then_some(distance_squared.max(slanted))
     }
 }
 
@@ -100,26 +179,17 @@ impl Discs {
             let all = bounds(outline).unwrap_or_default();
             edges.sort_by_cached_key(|edge| place_on_curve(edge.from + 0.5 * edge.along, all));
         }
-        let of_edge = |edge: &Edge| {
-            let to = edge.from + edge.along;
-            Bounds {
-                low: edge.from.min(to),
-                high: edge.from.max(to),
-            }
-        };
-        let runs = edges.chunks(RUN);
-        let mut level: Vec<Bounds> = runs
-            .map(|run| Bounds::around(run.iter().map(of_edge)))
-            .collect();
-        let mut levels = Vec::new();
-        while level.len() > 1 {
-            let fans = level.chunks(FAN);
-            let next = fans.map(|fan| Bounds::around(fan.iter().copied()));
-            let next = next.collect();
-            levels.push(std::mem::replace(&mut level, next));
+        let are_many = edges.len() > MANY;
+        let mut levels: Vec<Vec<Bounds>> = Vec::new();
+        let mut size = RUN;
+        while levels.last().is_none_or(|level| level.len() > 1) {
+            let runs = edges.chunks(size);
+            let around = runs.map(|run| Bounds::around(run, are_many));
+            levels.push(around.collect());
+            size *= FAN;
         }
-        levels.push(level);
         Self {
+            least: (edges.len() > CROWD).then(|| reach / edges.len() as f64),
             edges,
             levels,
             reach,
@@ -134,7 +204,7 @@ impl Discs {
             to.length_squared() / (2.0 * inward.dot(to))
         };
         let mut disc = Disc {
-            radius: self.reach,
+            radius: self.first_radius(foot, inward, neighbor),
             opposite: None,
         };
         if let Some(opposite) = neighbor.opposite {
@@ -149,17 +219,12 @@ impl Discs {
             }
         }
         for _ in 0..MAX_ITERATIONS {
-            let middle = foot + disc.radius * inward;
-            let mut nearest = Nearest {
-                at: foot,
-                distance_squared: disc.radius * disc.radius,
-                // No edge at this distance is nearer.
-                edge: 0,
-            };
-            self.search(self.levels.len() - 1, 0, middle, &mut nearest);
+            let nearest = self.nearest(foot, inward, disc.radius);
             let distance = nearest.distance_squared.sqrt();
             if distance >= SLACK * disc.radius {
-                disc.radius = disc.radius.min(distance);
+                if self.least.is_none() {
+                    disc.radius = disc.radius.min(distance);
+                }
                 return disc;
             }
             let smaller = through(nearest.at);
@@ -172,6 +237,45 @@ impl Discs {
             };
         }
         Disc::default()
+    }
+
+    /// How far from the middle of a disc points of the border matter: in a crowd only those that the disc must not have in it, because
+    /// very many may lie about as far away as its border.
+    fn limit(&self, radius: f64) -> f64 {
+        if self.least.is_some() {
+            SLACK * radius
+        } else {
+            radius
+        }
+    }
+
+    /// The radius to begin with, which is no smaller than that of the disc.
+    fn first_radius(&self, foot: DVec2, inward: DVec2, neighbor: Disc) -> f64 {
+        let Some(least) = self.least else {
+            return self.reach;
+        };
+        let mut radius = least.max(neighbor.radius);
+        while radius < self.reach {
+            let nearest = self.nearest(foot, inward, radius);
+            if nearest.distance_squared.sqrt() < SLACK * radius {
+                return radius;
+            }
+            radius *= GROWTH;
+        }
+        self.reach
+    }
+
+    /// The point of the border that is nearest to the middle of the disc of a radius at a foot: the foot itself if none is nearer.
+    fn nearest(&self, foot: DVec2, inward: DVec2, radius: f64) -> Nearest {
+        let mut nearest = Nearest {
+            at: foot,
+            distance_squared: self.limit(radius).powi(2),
+            // No edge at this distance is nearer.
+            edge: 0,
+        };
+        let middle = foot + radius * inward;
+        self.search(self.levels.len() - 1, 0, middle, &mut nearest);
+        nearest
     }
 
     /// Looks for a nearer point of the border in the box of a level.
@@ -200,9 +304,8 @@ impl Discs {
         let mut fan = [(f64::INFINITY, 0); FAN];
         let mut count = 0;
         for (child, bounds) in below.iter().take(FAN).enumerate() {
-            let distance_squared = bounds.distance_squared(point);
-            if distance_squared <= nearest.distance_squared {
-                fan[count] = (distance_squared, start + child);
+            if let Some(far) = bounds.distance_squared(point, nearest.distance_squared) {
+                fan[count] = (far, start + child);
                 count += 1;
             }
         }
@@ -224,4 +327,57 @@ fn place_on_curve(point: DVec2, (low, high): (DVec2, DVec2)) -> u32 {
         (0..16).fold(0, |all, bit| all | (place >> bit & 1) << (2 * bit))
     };
     spread(share.x) | spread(share.y) << 1
+}
+
+/// The way back from a direction, as complex numbers have it.
+fn conjugate(along: DVec2) -> DVec2 {
+    DVec2::new(along.x, -along.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+    use crate::geometry::{Polygon, Ring};
+
+    /// A star with so many tips.
+    fn star(tips: usize) -> Outline {
+        let place = |i: usize| {
+            let angle = TAU * i as f64 / (2 * tips) as f64;
+            DVec2::from_angle(angle) * if i.is_multiple_of(2) { 10.0 } else { 6.0 }
+        };
+        let ring: Ring = (0..2 * tips).map(place).collect();
+        let polygon = Polygon { rings: vec![ring] };
+        Outline {
+            polygons: vec![polygon],
+        }
+    }
+
+    #[test]
+    fn discs_are_free_and_large() {
+        for tips in [40, 400, CROWD] {
+            let outline = star(tips);
+            let discs = Discs::of(&outline, 30.0);
+            assert_eq!(discs.least.is_some(), tips == CROWD);
+            let all: Vec<[DVec2; 2]> = edges(&outline).collect();
+            let mut disc = Disc::default();
+            for [from, to] in all.iter().step_by(all.len() / 40 - 1) {
+                let foot = from.lerp(*to, 0.5);
+                let inward = (*to - *from).normalize().perp();
+                disc = discs.disc(foot, inward, disc);
+                let gap = |radius: f64| {
+                    let middle = foot + radius * inward;
+                    let nearest = discs.edges.iter().map(|edge| edge.nearest(middle));
+                    let gaps = nearest.map(|at| at.distance(middle));
+                    gaps.fold(f64::INFINITY, f64::min) / radius
+                };
+                assert!(
+                    disc.radius > 0.0 && gap(disc.radius) >= 0.999 * SLACK,
+                    "{tips}"
+                );
+                assert!(gap(1.3 * disc.radius) < SLACK, "{tips}: {}", disc.radius);
+            }
+        }
+    }
 }

@@ -13,6 +13,10 @@ use crate::solid::stack::PlacementTransform;
 
 /// The number of rounds in which triangles without an inner point are given one.
 const MAX_ROUNDS: usize = 3;
+/// With more points than this, some are spread when they are inserted.
+const MANY: usize = 1 << 12;
+/// How many points of a level are spread at most.
+const MOST_SPREAD: usize = 1 << 10;
 /// Smaller coordinates are 0: their products would underflow in the triangulation.
 const NOTHING: f64 = 1e-40;
 
@@ -110,11 +114,31 @@ fn insert(delaunay: &mut Delaunay, places: &[DVec2], vertices: &mut Vec<Option<u
     }
     let mut step = count.next_power_of_two() / 2;
     while step > 0 {
-        for i in (step..count).step_by(2 * step) {
+        let between = (count - step).div_ceil(2 * step);
+        for k in spread(between, count > MANY) {
+            let i = (2 * k + 1) * step;
             add(i, i - step);
         }
         step /= 2;
     }
+}
+
+/// The numbers below a count, once each. If they are to be spread, those that begin a block come first, in the order of their reversed
+/// bits, so that each lies far from those before it; the others ascend. Of long rows beside each other, each point in ascending order
+/// would flip the edges that the one before it has led past all rows to come; but spreading all of them would miss the cache.
+fn spread(count: usize, is_spread: bool) -> impl Iterator<Item = usize> {
+    let block = if is_spread {
+        count.div_ceil(MOST_SPREAD).next_power_of_two()
+    } else {
+        count.max(1)
+    };
+    let blocks = count.div_ceil(block).next_power_of_two();
+    // The bits above those of a block's number; all of them if there is one block.
+    let above = usize::BITS - blocks.trailing_zeros();
+    let reversed = move |k: usize| k.reverse_bits().checked_shr(above).unwrap_or(0);
+    let first = (0..blocks).map(move |k| reversed(k) * block);
+    let others = (0..count).filter(move |k| k % block != 0);
+    first.filter(move |k| *k < count).chain(others)
 }
 
 /// A final position.
@@ -157,4 +181,21 @@ fn encloses(walls: &[[DVec2; 2]], point: DVec2) -> bool {
     walls
         .iter()
         .fold(false, |inside, wall| inside != crosses(*wall, point))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spread_numbers_are_there_once() {
+        for count in [0, 1, 2, 3, 7, 1000, 1024, 1025, 5000] {
+            let ascending: Vec<usize> = (0..count).collect();
+            assert!(spread(count, false).eq(0..count));
+            let mut spread: Vec<usize> = spread(count, true).collect();
+            assert!(count < 3 || spread[1] > count / 3, "{spread:?}");
+            spread.sort_unstable();
+            assert_eq!(spread, ascending);
+        }
+    }
 }

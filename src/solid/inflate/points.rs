@@ -73,9 +73,15 @@ pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
     let usual = std::f64::consts::PI * size.min_element() / 2.0 / f64::from(segments);
     let apart = usual.max(4.0 * around / MAX_COLUMNS as f64);
 
+    // Of more columns, most would be left out again.
+    let fan = if rings().map(Vec::len).sum::<usize>() > MAX_COLUMNS {
+        f64::INFINITY
+    } else {
+        FAN
+    };
     let mut columns = Vec::new();
     for ring in rings() {
-        border(ring, apart, &discs, &mut all, &mut columns);
+        border(ring, [apart, fan], &discs, &mut all, &mut columns);
     }
     let most = columns
         .iter()
@@ -101,8 +107,15 @@ pub(super) fn thinned(columns: &mut Vec<Column>, segments: u32) -> usize {
     (segments.div_ceil(2) as usize).clamp(1, most.max(1))
 }
 
-/// Adds the points of a ring, and the columns that stand on them.
-fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: &mut Vec<Column>) {
+/// Adds the points of a ring, and the columns that stand on them: about so far apart along it, and by so many radians at a corner that
+/// turns right.
+fn border(
+    ring: &[DVec2],
+    [apart, fan]: [f64; 2],
+    discs: &Discs,
+    all: &mut Points,
+    columns: &mut Vec<Column>,
+) {
     let n = ring.len();
     let direction = |i: usize| (ring[(i + 1) % n] - ring[i]).normalize_or_zero();
     let directions: Vec<DVec2> = (0..n).map(direction).collect();
@@ -117,12 +130,13 @@ fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: 
         }
         let neighbor = corners[(i + n - 1) % n];
         let crowded = ring[i].distance(last) < LEAST_ALONG * apart;
-        let count = if turn < -FAN {
-            (-turn / FAN).ceil() as usize
+        let is_sharp = turn < -FAN;
+        let count = if is_sharp {
+            (-turn / fan).ceil() as usize
         } else {
             0
         };
-        if crowded && count == 0 {
+        if crowded && !is_sharp {
             corners[i] = neighbor;
             continue;
         }
