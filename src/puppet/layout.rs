@@ -154,9 +154,7 @@ impl Task<'_> {
             pages: packer.pages.len(),
         })
     }
-}
 
-impl Task<'_> {
     /// What the boxes of all pieces take at least, however they are turned: a layout that cannot be is not tried.
     fn least_area(&self, scale: f64) -> f64 {
         let boxes = self.silhouettes.iter().map(|silhouette| {
