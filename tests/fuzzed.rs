@@ -182,13 +182,13 @@ tests! {
     changes: 300 inputs, 40 %;
     motion: 1500 inputs, 60 %;
     model: 1000 inputs, 20 %;
-    scene: 500 inputs, 20 %;
+    scene: 200 inputs, 20 %;
     picture: 2000 inputs, 10 %;
     messages: 20000 inputs, 40 %;
     session: 400 inputs, 60 %;
     track: 20000 inputs, 45 %;
-    performance: 200 inputs, 45 %;
-    puppet: 300 inputs, 40 %;
+    performance: 60 inputs, 45 %;
+    puppet: 100 inputs, 40 %;
 }
 
 /// The names under `[dependencies]` and `[dev-dependencies]` of a manifest.

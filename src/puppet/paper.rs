@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::pieces::PaperPiece;
 use crate::geometry::{
     FillRule, Outline, Polygon, Ring, bounds, bounds_of, centroid, distance_squared,
-    edge_distance_squared, offset, resolve_overlaps, simplify, subtract, union,
+    edge_distance_squared, edges, offset, resolve_overlaps, simplify, subtract, union,
 };
 
 /// The paper around what is drawn.
@@ -16,8 +16,12 @@ const MARGIN: f64 = 2.0;
 pub(super) const LEAST_MARGIN: f64 = 0.9 * MARGIN;
 /// Notches narrower than twice this are not cut.
 const NOTCH: f64 = 2.0;
-/// The line to cut follows what is drawn to within this, which no scissors do.
+/// The line to cut follows what is drawn to within this, which no scissors do …
 const DETAIL: f64 = 0.05;
+/// … or, if it has more edges than this, to within more …
+const MANY_EDGES: usize = 1 << 10;
+/// … but this at most.
+const MOST_DETAIL: f64 = 0.25 * MARGIN;
 /// The radius of a joint's hole.
 pub(super) const HOLE: f64 = 1.5;
 /// The least radius of the paper around a hole's middle.
@@ -67,8 +71,7 @@ pub(super) fn cut_out(
     let scaled = |ring: &Ring| -> Ring { ring.iter().map(|p| *p * scale).collect() };
     let drawn = piece.outline.map_rings(scaled);
     let holes: Vec<DVec2> = holes.iter().map(|hole| *hole * scale).collect();
-    let coarse = silhouette.map_rings(|ring| simplified(&scaled(ring)));
-    let around = offset(&coarse, MARGIN + NOTCH);
+    let around = offset(&coarse(&silhouette.map_rings(scaled)), MARGIN + NOTCH);
     let mut all = vec![offset(&without_holes(&around), -NOTCH)];
     let mut add = |at: DVec2, radius: f64| {
         all.push(disc(at, radius));
@@ -146,8 +149,21 @@ fn mark_place(drawn: &Outline, joint: Option<DVec2>, holes: &[DVec2]) -> DVec2 {
     places.find(|at| is_clear(*at)).unwrap_or(end)
 }
 
-/// The ring with the points that matter to the line to cut: three at least, because paper is left around dots, too.
-fn simplified(ring: &Ring) -> Ring {
+/// What is drawn as finely as matters to the line to cut. Each edge meets all those that are no farther away than the paper around them
+/// reaches, so that there must not be very many.
+fn coarse(drawn: &Outline) -> Outline {
+    let mut detail = DETAIL;
+    loop {
+        let coarse = drawn.map_rings(|ring| simplified(ring, detail));
+        if edges(&coarse).count() <= MANY_EDGES || detail >= MOST_DETAIL {
+            return coarse;
+        }
+        detail *= 2.0;
+    }
+}
+
+/// The ring with the points that matter if it may be off by `detail`: three at least, because paper is left around dots, too.
+fn simplified(ring: &Ring, detail: f64) -> Ring {
     let farthest = |from: DVec2| {
         let far = |i: &usize| ring[*i].distance_squared(from);
         (0..ring.len()).max_by(|a, b| far(a).total_cmp(&far(b)))
@@ -171,7 +187,7 @@ fn simplified(ring: &Ring) -> Ring {
         let far = |index: &usize| off(*index, [from, to]);
         let middle = (from + 1..to).max_by(|a, b| far(a).total_cmp(&far(b)))?;
         let is_end = from == 0 && to == ring.len();
-        (is_end || far(&middle) > DETAIL * DETAIL).then_some(middle)
+        (is_end || far(&middle) > detail * detail).then_some(middle)
     });
     kept.pop();
     if kept.len() == 2 {
@@ -296,12 +312,12 @@ mod tests {
         let dot: Ring = (0..20)
             .map(|i| DVec2::from_angle(f64::from(i) * 0.3) * 0.01)
             .collect();
-        assert_eq!(simplified(&dot).len(), 3);
+        assert_eq!(simplified(&dot, DETAIL).len(), 3);
         let line = ring(&[[0.0, 0.0], [5.0, 0.01], [9.0, 0.0], [5.0, -0.01]]);
-        assert_eq!(simplified(&line).len(), 3);
-        assert!(simplified(&Ring::new()).is_empty());
+        assert_eq!(simplified(&line, DETAIL).len(), 3);
+        assert!(simplified(&Ring::new(), DETAIL).is_empty());
         let square = ring(&[[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [2.0, 5.0], [0.0, 5.0]]);
-        assert_eq!(simplified(&square).len(), 4);
+        assert_eq!(simplified(&square, DETAIL).len(), 4);
     }
 
     proptest! {
@@ -312,7 +328,7 @@ mod tests {
             let angle = |i: usize| TAU * i as f64 / radii.len() as f64;
             let place = |(i, radius): (usize, &f64)| DVec2::from_angle(angle(i)) * *radius;
             let ring: Ring = radii.iter().enumerate().map(place).collect();
-            let kept = simplified(&ring);
+            let kept = simplified(&ring, DETAIL);
             let edges = || kept.iter().zip(kept.iter().cycle().skip(1));
             for point in ring {
                 let gap = edges()
