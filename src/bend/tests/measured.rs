@@ -141,31 +141,41 @@ pub(super) fn at_rest(surface: &Surface) -> Vec<DVec3> {
     positions.map(|at| Vec3::from(*at).as_dvec3()).collect()
 }
 
-/// The corners at either side of a part at its first joint.
+/// Corners at either side of a part at its first joint, opposite each other.
 fn sides(bend: &Bend, surface: &Surface) -> [usize; 2] {
     let middle = bend.nodes.iter().filter(|node| node.joint == 0);
     let joint = middle.map(|node| node.at).sum::<f64>() / bend.shares() as f64;
     let reach = 0.25 * bend.width();
     let [before, at, after] = [-reach, 0.0, reach].map(|off| bend.line.at(joint + off));
     let left = (after - before).perp().normalize();
-    let mut nearest = [f64::INFINITY; 2];
-    let mut sides = [0; 2];
-    for (number, corner) in at_rest(surface).into_iter().enumerate() {
-        if corner.truncate().distance(at) > bend.width()
-            || (bend.line.along(corner.truncate()) - joint).abs() > reach
-        {
-            continue;
-        }
+    let corners = at_rest(surface);
+    let near = |corner: &DVec3| {
+        corner.truncate().distance(at) <= bend.width()
+            && (bend.line.along(corner.truncate()) - joint).abs() <= reach
+    };
+    // How far off a side, how far along and how deep each corner is.
+    let places = corners
+        .iter()
+        .enumerate()
+        .filter(|(_, corner)| near(corner));
+    let places = places.map(|(number, corner)| {
         let across = (corner.truncate() - at).dot(left);
-        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let off = (sign * across - bend.width() / 2.0).abs() + corner.z.abs();
-            if off < nearest[side] {
-                nearest[side] = off;
-                sides[side] = number;
+        let off = (across.abs() - bend.width() / 2.0).abs();
+        let along = bend.line.along(corner.truncate());
+        (number, across > 0.0, off, along, corner.z)
+    });
+    let places: Vec<_> = places.collect();
+    let mut best = (f64::INFINITY, [0; 2]);
+    for (one, _, off, along, z) in places.iter().filter(|place| !place.1) {
+        for (other, _, other_off, other_along, other_z) in places.iter().filter(|place| place.1) {
+            // As deep and as far along, so that their distance is the width.
+            let sum = off + other_off + (along - other_along).abs() + (z - other_z).abs();
+            if sum < best.0 {
+                best = (sum, [*one, *other]);
             }
         }
     }
-    sides
+    best.1
 }
 
 /// By how much a part is drawn bent at its first joint, radians.
