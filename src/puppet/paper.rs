@@ -21,7 +21,7 @@ const DETAIL: f64 = 0.05;
 /// … or, if it has more edges than this, to within more …
 const MANY_EDGES: usize = 1 << 10;
 /// … but this at most.
-const MOST_DETAIL: f64 = 0.25 * MARGIN;
+const MOST_DETAIL: f64 = 0.4 * MARGIN;
 /// The radius of a joint's hole.
 pub(super) const HOLE: f64 = 1.5;
 /// The least radius of the paper around a hole's middle.
