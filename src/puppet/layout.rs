@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::marks::PieceMark;
-use super::paper::{LEAST_MARGIN, Marked, Paper, bounds_turned, cut_out, turns};
+use super::paper::{LEAST_MARGIN, Marked, Paper, cut_out};
 use super::pieces::PaperPiece;
 use crate::geometry::Outline;
 
@@ -45,6 +45,8 @@ pub(super) struct Task<'a> {
     pub(super) pieces: &'a [PaperPiece],
     /// Per piece what is drawn on it without holes, drawing units.
     pub(super) silhouettes: Vec<Outline>,
+    /// Per piece the sizes of the boxes around that, one for each way in which it may be turned.
+    pub(super) boxes: Vec<Vec<DVec2>>,
     pub(super) marks: &'a [Option<PieceMark>],
     /// Per piece its holes: its own joint, then those of what it carries; drawing units.
     pub(super) holes: Vec<Vec<DVec2>>,
@@ -157,13 +159,12 @@ impl Task<'_> {
 
     /// What the boxes of all pieces take at least, however they are turned: a layout that cannot be is not tried.
     fn least_area(&self, scale: f64) -> f64 {
-        let boxes = self.silhouettes.iter().map(|silhouette| {
-            let sizes = turns().map(|turn| {
-                let (low, high) = bounds_turned(silhouette, turn);
-                let size = (high - low) * scale + GAP + 2.0 * LEAST_MARGIN;
+        let boxes = self.boxes.iter().map(|sizes| {
+            let areas = sizes.iter().map(|size| {
+                let size = *size * scale + GAP + 2.0 * LEAST_MARGIN;
                 size.x * size.y
             });
-            sizes.fold(f64::INFINITY, f64::min)
+            areas.fold(f64::INFINITY, f64::min)
         });
         boxes.sum()
     }

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::bind::Bindings;
 use crate::compile::Compiled;
 use crate::crash::Crash;
-use crate::geometry::bounds;
+use crate::geometry::{Outline, bounds};
 use crate::lang::looks_like_string;
 use crate::resolver::Resolver;
 use crate::svg::{Excerpts, excerpts};
@@ -27,7 +27,7 @@ use instructions::Texts;
 use layout::{EDGE, GAP, Layout, Task};
 pub use marks::MarkOrigin;
 pub(crate) use marks::{PieceMark, marks};
-use paper::without_holes;
+use paper::{box_sizes, without_holes};
 pub use pieces::{PaperPiece, pieces};
 use sheet::Printed;
 
@@ -150,13 +150,15 @@ impl<'a> Puppet<'a> {
         options: &Options,
     ) -> Result<Sheet, PuppetError> {
         let texts = self.texts(title, options.page);
+        let silhouettes: Vec<Outline> = self
+            .pieces
+            .par_iter()
+            .map(|piece| without_holes(&piece.outline))
+            .collect();
         let task = Task {
             pieces: &self.pieces,
-            silhouettes: self
-                .pieces
-                .par_iter()
-                .map(|piece| without_holes(&piece.outline))
-                .collect(),
+            boxes: silhouettes.iter().map(box_sizes).collect(),
+            silhouettes,
             marks: &self.marks,
             holes: (0..self.pieces.len())
                 .map(|piece| self.holes(piece))

@@ -275,15 +275,24 @@ fn bridge(from: DVec2, to: DVec2) -> Outline {
     union(&[strip, disc(from, BRIDGE), disc(to, BRIDGE)])
 }
 
-pub(super) fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
+fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
     let way = DVec2::from_angle(turn);
     let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
     let points = rings.flatten().map(|point| way.rotate(*point));
     bounds_of(points).unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY))
 }
 
+/// The sizes of the boxes around what is drawn, however it is turned on the sheet.
+pub(super) fn box_sizes(outline: &Outline) -> Vec<DVec2> {
+    let sizes = turns().map(|turn| {
+        let (low, high) = bounds_turned(outline, turn);
+        high - low
+    });
+    sizes.collect()
+}
+
 /// How far pieces may be turned on the sheet, radians.
-pub(super) fn turns() -> impl Iterator<Item = f64> {
+fn turns() -> impl Iterator<Item = f64> {
     (-17..=18).map(|step| f64::from(step) * PI / 36.0)
 }
 

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use crate::budget::{self, Step};
-use crate::geometry::{Outline, bounds, edges};
+use crate::geometry::{Outline, bounds, bounds_of, edges};
 
 /// A disc counts as inside the outline if the border comes no closer to its centre than this, relative
 /// to its radius: flattened curves cut off that little.
@@ -83,14 +83,8 @@ struct Slanted {
 
 impl Rectangle {
     fn around(points: impl Iterator<Item = DVec2>) -> Self {
-        let nothing = Self {
-            low: DVec2::INFINITY,
-            high: DVec2::NEG_INFINITY,
-        };
-        points.fold(nothing, |all, point| Self {
-            low: all.low.min(point),
-            high: all.high.max(point),
-        })
+        let (low, high) = bounds_of(points).unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY));
+        Self { low, high }
     }
 
     fn distance_squared(&self, point: DVec2) -> f64 {

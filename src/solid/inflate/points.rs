@@ -8,7 +8,7 @@
 use glam::{DVec2, DVec3};
 
 use super::discs::{Disc, Discs};
-use crate::geometry::{Outline, bounds};
+use crate::geometry::{Outline, bounds, perimeter};
 
 /// The largest number of points added along borders, and of columns.
 pub(super) const MAX_COLUMNS: usize = 1 << 13;
@@ -67,9 +67,7 @@ pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
     let size = high - low;
     let discs = Discs::of(outline, size.length());
     let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-    let edges =
-        rings().flat_map(|ring| (0..ring.len()).map(move |i| ring[(i + 1) % ring.len()] - ring[i]));
-    let around: f64 = edges.map(DVec2::length).sum();
+    let around = perimeter(outline);
     let usual = std::f64::consts::PI * size.min_element() / 2.0 / f64::from(segments);
     let apart = usual.max(4.0 * around / MAX_COLUMNS as f64);
 
