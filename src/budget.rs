@@ -14,6 +14,8 @@ pub(crate) enum Work {
     Triangles,
     /// Points of clips, once for each shape that is clipped.
     ClipPoints,
+    /// Pairs of corners of outlines with many, in kinds of solids that compare them, in units of 512.
+    ComparedCorners,
 }
 
 impl Work {
@@ -24,6 +26,8 @@ impl Work {
             // A plate takes four of each point.
             Self::Triangles => (2_000_000, 16),
             Self::ClipPoints => (4_000_000, 32),
+            // One outline of 4,096.
+            Self::ComparedCorners => (1 << 15, 1),
         }
     }
 }
@@ -77,15 +81,21 @@ pub enum Step {
     Cell,
     /// A triangle of a surface.
     Triangle,
+    /// A shape that a text may mean.
+    Candidate,
+    /// A pair of shapes, one of which may reach around the other.
+    Overlap,
 }
 
 /// All kinds of steps.
-pub const STEPS: [Step; 5] = [
+pub const STEPS: [Step; 7] = [
     Step::Point,
     Step::Pair,
     Step::DiscEdge,
     Step::Cell,
     Step::Triangle,
+    Step::Candidate,
+    Step::Overlap,
 ];
 
 static IS_COUNTING: AtomicBool = AtomicBool::new(false);

@@ -104,6 +104,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::OutsideMotion, "motion-range-outside"),
     (Code::IdleBend, "bend-without-effect"),
     (Code::LongerDashes, "limit-dashes"),
+    (Code::TooFine, "limit-corners"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),
     (Code::AxisGuess, "shape-axis-guess"),

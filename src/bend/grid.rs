@@ -287,7 +287,7 @@ impl Grid {
             rows,
         } = self.cells;
         let mut inside = vec![false; columns * rows];
-        let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+        let rings = || outline.rings();
         let mut crossings = Vec::new();
         for row in 0..rows {
             let y = low.y + (row as f64 + 0.5) * side;

@@ -10,6 +10,7 @@ mod bodies;
 mod describe;
 mod discs;
 mod extents;
+mod fineness;
 mod forms;
 mod hierarchy;
 mod matching;
@@ -80,7 +81,9 @@ fn bind_as(
     bodies::soften(drawing, &mut matched, &tree);
     discs::find(&mut matched, &tree);
     diagnostics.extend(reports::all(drawing, texts, &matched, &attributes, &tree));
-    assembled(matched, attributes, tree)
+    let mut bindings = assembled(matched, attributes, tree);
+    fineness::limit(drawing, &mut bindings, diagnostics);
+    bindings
 }
 
 /// Puts the results of all steps together.
@@ -97,6 +100,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         is_balloon: part.is_balloon,
         disc: part.disc,
         sheet: None,
+        is_too_fine: false,
         measure: tree.axes.turned(index).unwrap_or(part.measure),
         of_group: tree.axes.of_group(index).map(Box::new),
         string: part.string,

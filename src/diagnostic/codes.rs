@@ -613,6 +613,15 @@ codes! {
     ///
     /// Make the dashes longer, or draw the lines without dashes: in Inkscape, *Fill and Stroke → Stroke style → Dashes*.
     LongerDashes = "W334", "dashes drawn longer";
+    /// A shape has too many corners to be rounded or pointed with `round`, `roundv`, `roundh`, `cone`, `conev`, `coneh` or `lathe`. It is a
+    /// plate instead. The corners of a curve are those of the polygon that it becomes.
+    ///
+    /// ```text
+    /// a traced picture of several thousand points with the string Coat$Shape roundv
+    /// ```
+    ///
+    /// Simplify the path, in Inkscape with *Path → Simplify*, or use `Shape inflate`, which has no such limit.
+    TooFine = "W335", "too many corners";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

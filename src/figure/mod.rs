@@ -364,8 +364,7 @@ impl<'a> FigureContext<'a> {
                 let mut options = self.options(part, &profile);
                 options.segments = options.segments.min(most_segments);
                 let outline = &self.bindings.parts[part].outline;
-                let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-                profile.triangles(rings.map(Vec::len).sum(), self.half(part), &options)
+                profile.triangles(outline, self.half(part), &options)
             });
             parts.sum()
         };

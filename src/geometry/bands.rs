@@ -3,46 +3,52 @@
 use glam::DVec2;
 
 use super::Outline;
-use super::query::{bounds, contains, crosses, edges};
+use super::query::{bounds_of, crosses, edges};
 
-/// Of outlines with fewer points, all edges are looked at.
-const FEW: usize = 256;
+/// So many edges are in one band.
+const FEW: usize = 32;
 /// Edges a band, if each were in one.
 const EDGES: usize = 8;
 /// In how many bands an edge is at most on average.
 const MOST_BANDS: usize = 8;
 
-/// An outline whose edges are sorted into level bands.
-pub(crate) struct Bands<'a> {
-    outline: &'a Outline,
+/// Edges around an area, sorted into level bands.
+pub(crate) struct Bands {
     low: f64,
     /// Bands a unit.
     scale: f64,
-    /// Per band its edges; empty for an outline with few points.
+    /// Per band its edges.
     bands: Vec<Vec<[DVec2; 2]>>,
 }
 
-impl<'a> Bands<'a> {
-    pub(crate) fn of(outline: &'a Outline) -> Self {
-        let count = edges(outline).count();
-        let mut found = Self {
-            outline,
-            low: 0.0,
-            scale: 0.0,
-            bands: Vec::new(),
-        };
-        let Some((low, high)) = bounds(outline).filter(|_| count > FEW) else {
-            return found;
+impl Bands {
+    /// Those of an outline.
+    pub(crate) fn of(outline: &Outline) -> Self {
+        Self::new(edges(outline).collect())
+    }
+
+    /// Those of edges that form closed rings.
+    pub(crate) fn new(edges: Vec<[DVec2; 2]>) -> Self {
+        let count = edges.len();
+        let bounds = bounds_of(edges.iter().flatten().copied());
+        let Some((low, high)) = bounds.filter(|_| count > FEW) else {
+            return Self {
+                low: 0.0,
+                scale: 0.0,
+                bands: vec![edges],
+            };
         };
         let height = (high.y - low.y).max(f64::MIN_POSITIVE);
-        let upright: f64 = edges(outline).map(|[a, b]| (b.y - a.y).abs()).sum();
+        let upright: f64 = edges.iter().map(|[a, b]| (b.y - a.y).abs()).sum();
         // An edge reaches into a band more than it is bands high.
         let most = ((MOST_BANDS - 1) * count) as f64 * height / upright.max(f64::MIN_POSITIVE);
         let bands = ((count / EDGES) as f64).min(most).max(1.0).floor();
-        found.low = low.y;
-        found.scale = bands / height;
-        found.bands = vec![Vec::new(); bands as usize];
-        for [a, b] in edges(outline) {
+        let mut found = Self {
+            low: low.y,
+            scale: bands / height,
+            bands: vec![Vec::new(); bands as usize],
+        };
+        for [a, b] in edges {
             let [from, to] = [a.y.min(b.y), a.y.max(b.y)].map(|y| found.band(y));
             for band in &mut found.bands[from..=to] {
                 band.push([a, b]);
@@ -57,11 +63,8 @@ impl<'a> Bands<'a> {
         band.min(self.bands.len() - 1)
     }
 
-    /// Whether a point is filled, the same as [`contains`].
+    /// Whether a point is filled, the same as [`contains`](super::contains).
     pub(crate) fn contains(&self, point: DVec2) -> bool {
-        if self.bands.is_empty() {
-            return contains(self.outline, point);
-        }
         let band = self.bands[self.band(point.y)].iter();
         band.fold(false, |inside, edge| inside != crosses(*edge, point))
     }
@@ -70,7 +73,7 @@ impl<'a> Bands<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Polygon;
+    use crate::geometry::{Polygon, contains};
 
     #[test]
     fn bands_contain_what_the_outline_contains() {
@@ -85,7 +88,7 @@ mod tests {
                 }],
             };
             let bands = Bands::of(&outline);
-            assert!(!bands.bands.is_empty());
+            assert!(bands.bands.len() > 1);
             let entries: usize = bands.bands.iter().map(Vec::len).sum();
             assert!(entries <= MOST_BANDS * 900, "{entries}");
             for _ in 0..1000 {

@@ -119,7 +119,7 @@ fn overlay<'a>(rings: impl Iterator<Item = &'a Ring>, grid: &Grid, rule: GridRul
 
 /// Whether no rings of an outline cross or touch.
 fn is_disjoint(outline: &Outline, grid: &Grid) -> bool {
-    let rings = || outline.polygons.iter().flat_map(|p| &p.rings);
+    let rings = || outline.rings();
     let shapes = overlay(rings(), grid, GridRule::NonZero);
     let count = |rings: usize, points: usize| (rings, points);
     let found = shapes.iter().flatten();

@@ -11,6 +11,8 @@ use super::Ring;
 /// How much more than the tolerance chords may be off. Without it a circle of eight quadratic curves would get one point
 /// too many in each.
 const SLACK: f64 = 1.1;
+/// In a path of so many subpaths small ones are as coarse as large ones: nobody looks at them one by one.
+const SUBPATHS: f64 = 1000.0;
 /// The smallest tolerance, relative to the path's larger extent.
 const MIN_TOLERANCE: f64 = 1e-5;
 /// Points this close are merged, relative to the path's larger extent.
@@ -20,21 +22,42 @@ const MAX_POINTS: f64 = 1024.0;
 /// Steps of the numerical integration along a curve.
 const STEPS: usize = 8;
 
-/// Every subpath of a path as a closed ring, off by at most about `tolerance`.
+/// Every subpath of a path as a closed ring, off by at most about `tolerance`, relative to the path's larger extent. For a small subpath
+/// it is relative to the geometric mean of that extent and its own, so that eyes and freckles that are drawn as one path stay round.
 ///
 /// Points that are not finite and repeated points are dropped, and so are subpaths with fewer than three points left.
 pub(crate) fn flatten(path: &BezPath, tolerance: f64) -> Vec<Ring> {
-    let extent = extent(path);
-    let tolerance = tolerance.max(MIN_TOLERANCE * extent) * SLACK;
+    let elements = path.elements();
+    let extent = extent(elements);
+    let allowed = tolerance.max(MIN_TOLERANCE) * SLACK;
+    let count = elements
+        .iter()
+        .filter(|element| matches!(element, PathEl::MoveTo(_)))
+        .count();
+    let least = extent * (count as f64 / SUBPATHS).min(1.0);
+    // Of a subpath that begins at an element.
+    let tolerance_at = |first: usize| {
+        let rest = &elements[first..];
+        let next = rest
+            .iter()
+            .skip(1)
+            .position(|element| matches!(element, PathEl::MoveTo(_)));
+        let own = self::extent(&rest[..next.map_or(rest.len(), |next| next + 1)]);
+        allowed * (own * extent).sqrt().clamp(least, extent)
+    };
+    let mut tolerance = allowed * extent;
     let same = SAME * extent;
     let mut rings = Vec::new();
     let mut ring = Ring::with_capacity(64);
     // The start of the subpath, and the current point after it was closed.
     let mut start = None;
-    for element in path.elements() {
+    for (place, element) in elements.iter().enumerate() {
         match *element {
             PathEl::MoveTo(p) => {
                 finish(&mut ring, &mut rings, same);
+                if count > 1 {
+                    tolerance = tolerance_at(place);
+                }
                 start = finite(p);
                 ring.extend(start);
             }
@@ -73,14 +96,14 @@ fn finite(p: Point) -> Option<DVec2> {
     p.is_finite().then_some(DVec2::new(p.x, p.y))
 }
 
-fn extent(path: &BezPath) -> f64 {
+fn extent(elements: &[PathEl]) -> f64 {
     let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let mut grow = |p: Point| {
         if let Some(p) = finite(p) {
             (low, high) = (low.min(p), high.max(p));
         }
     };
-    for element in path.elements() {
+    for element in elements {
         match *element {
             PathEl::MoveTo(a) | PathEl::LineTo(a) => grow(a),
             PathEl::QuadTo(a, b) => [a, b].into_iter().for_each(&mut grow),
@@ -196,7 +219,7 @@ mod tests {
     #[test]
     fn circles_get_the_same_points_in_every_quadrant() {
         for (pieces, degree) in [(4, 3), (8, 2)] {
-            let rings = flatten(&circle(pieces, degree), 0.002);
+            let rings = flatten(&circle(pieces, degree), 0.001);
             assert_eq!(rings.len(), 1);
             let n = rings[0].len();
             assert!((48..=52).contains(&n), "{n}");
@@ -216,6 +239,25 @@ mod tests {
         let rings = flatten(&path, 0.01);
         assert_eq!(rings.iter().map(Vec::len).collect::<Vec<_>>(), [4, 3, 3]);
         assert_eq!(rings[1][0], DVec2::ZERO);
+    }
+
+    #[test]
+    fn small_subpaths_stay_round() {
+        let mut path = circle(4, 3);
+        for size in [0.1, 0.01] {
+            let small = kurbo::Affine::scale(size) * circle(4, 3);
+            path.extend(small);
+        }
+        let counts = |path: &BezPath| Vec::from_iter(flatten(path, 0.001).iter().map(Vec::len));
+        let few = counts(&path);
+        assert!(few[1] >= 24 && few[2] >= 16, "{few:?}");
+        let small = kurbo::Affine::scale(0.1) * circle(4, 3);
+        for _ in 0..SUBPATHS as usize {
+            path.extend(small.clone());
+        }
+        let many = counts(&path);
+        assert_eq!(many[0], few[0]);
+        assert!(many[1] <= 16, "{}", many[1]);
     }
 
     #[test]
@@ -240,7 +282,7 @@ mod tests {
     fn curves_stay_within_the_tolerance() {
         let path =
             BezPath::from_svg("M0 0C10 40-20 40 15 3C30 0 30 0 0-9C0-30 40-30 40-9Z").unwrap();
-        let ring = &flatten(&path, 0.05)[0];
+        let ring = &flatten(&path, 0.05 / extent(path.elements()))[0];
         for segment in path.segments() {
             for i in 0..=200 {
                 let p = kurbo::ParamCurve::eval(&segment, i as f64 / 200.0);

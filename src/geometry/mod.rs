@@ -34,7 +34,7 @@ pub(crate) use offset::offset;
 pub(crate) use pixels::pixel_borders;
 pub use query::{area, border_distance_squared, bounds, contains};
 pub(crate) use query::{bounds_of, centroid, distance_squared};
-pub(crate) use query::{crosses, edge_distance_squared, edges, perimeter, shoelace};
+pub(crate) use query::{crosses, edge_distance_squared, edges, edges_of, perimeter, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
 pub(crate) use simplify::simplify;
 pub(crate) use tangled::crossings as count_crossings;
@@ -69,6 +69,16 @@ pub struct Outline {
 }
 
 impl Outline {
+    /// The rings of all polygons.
+    pub fn rings(&self) -> impl Iterator<Item = &Ring> {
+        self.polygons.iter().flat_map(|polygon| &polygon.rings)
+    }
+
+    /// The number of points of all rings.
+    pub fn point_count(&self) -> usize {
+        self.rings().map(Vec::len).sum()
+    }
+
     /// The outline with each ring replaced by what `ring` makes of it.
     pub fn map_rings(&self, ring: impl Fn(&Ring) -> Ring) -> Self {
         let polygon = |polygon: &Polygon| Polygon {

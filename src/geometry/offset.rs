@@ -10,7 +10,7 @@ const ROUND: f64 = 0.3;
 
 /// The outline moved outwards by a distance, user units, or inwards if that is negative. Corners that move apart become round.
 pub(crate) fn offset(outline: &Outline, distance: f64) -> Outline {
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     let rings = rings.map(|ring| ring.iter().map(|p| p.to_array()).collect());
     let rings: Vec<Vec<[f64; 2]>> = rings.collect();
     let style = StrokeStyle::new(2.0 * distance.abs()).line_join(LineJoin::Round(ROUND));

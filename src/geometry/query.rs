@@ -18,7 +18,7 @@ pub fn area(outline: &Outline) -> f64 {
 
 /// Whether a point is filled (even-odd ray casting). Points on a border may be either.
 pub fn contains(outline: &Outline, point: DVec2) -> bool {
-    let rings = outline.polygons.iter().flat_map(|p| &p.rings);
+    let rings = outline.rings();
     rings.fold(false, |inside, ring| inside != is_inside(ring, point))
 }
 
@@ -104,16 +104,18 @@ pub(crate) fn shoelace(ring: &Ring) -> f64 {
         / 2.0
 }
 
-/// The edges of all rings, in their order.
+/// The edges of all rings of an outline, in their order.
 pub(crate) fn edges(outline: &Outline) -> impl Iterator<Item = [DVec2; 2]> {
-    outline
-        .polygons
-        .iter()
-        .flat_map(|p| &p.rings)
-        .flat_map(|ring| {
-            (0..ring.len())
-                .map(move |i| [ring[i], ring[if i + 1 < ring.len() { i + 1 } else { 0 }]])
-        })
+    edges_of(outline.rings())
+}
+
+/// The edges of rings, in their order.
+pub(crate) fn edges_of<'a>(
+    rings: impl IntoIterator<Item = &'a Ring>,
+) -> impl Iterator<Item = [DVec2; 2]> {
+    rings.into_iter().flat_map(|ring| {
+        (0..ring.len()).map(move |i| [ring[i], ring[if i + 1 < ring.len() { i + 1 } else { 0 }]])
+    })
 }
 
 /// The length of all borders of an outline.

@@ -38,12 +38,11 @@ pub(crate) struct EdgeRanges {
 impl EdgeRanges {
     /// The ranges of an outline's edges.
     pub(crate) fn new(outline: &Outline) -> Self {
-        let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        if rings().map(Vec::len).sum::<usize>() <= 2 * CHUNK {
+        if outline.point_count() <= 2 * CHUNK {
             return Self::default();
         }
         let mut chunks = Vec::new();
-        for ring in rings() {
+        for ring in outline.rings() {
             for start in (0..ring.len()).step_by(CHUNK) {
                 // A chunk's last edge ends at the first point of the next one.
                 let points =
@@ -103,7 +102,7 @@ impl Scanlines {
             }
         };
         let mut chunk = 0;
-        for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+        for ring in outline.rings() {
             if ranges.chunks.is_empty() {
                 if let Some(last) = ring.last() {
                     edge(*last, ring[0]);

@@ -279,7 +279,7 @@ fn last_drawn(
 /// An outline as a path; `None` if it is empty.
 fn path(outline: &Outline) -> Option<resvg::tiny_skia::Path> {
     let mut path = PathBuilder::new();
-    for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+    for ring in outline.rings() {
         for (index, point) in ring.iter().enumerate() {
             let (x, y) = (point.x as f32, point.y as f32);
             match index {

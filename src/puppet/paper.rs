@@ -128,7 +128,7 @@ impl Paper {
 fn mark_place(drawn: &Outline, joint: Option<DVec2>, holes: &[DVec2]) -> DVec2 {
     let middle = bounds(drawn).map_or(DVec2::ZERO, |(low, high)| (low + high) / 2.0);
     let from = joint.unwrap_or(middle);
-    let corners = drawn.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let corners = drawn.rings();
     let far = corners.flatten().copied().max_by(|a, b| {
         let length = |point: &DVec2| point.distance_squared(from);
         length(a).total_cmp(&length(b))
@@ -240,7 +240,7 @@ fn nearest(outline: &Outline, point: DVec2) -> DVec2 {
     if distance_squared(outline, point) == 0.0 {
         return point;
     }
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
     let on_edge = |(a, b): (&DVec2, &DVec2)| {
         let way = *b - *a;
@@ -277,7 +277,7 @@ fn bridge(from: DVec2, to: DVec2) -> Outline {
 
 fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
     let way = DVec2::from_angle(turn);
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     let points = rings.flatten().map(|point| way.rotate(*point));
     bounds_of(points).unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY))
 }

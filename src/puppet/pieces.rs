@@ -239,7 +239,7 @@ fn contact(one: &Outline, other: &Outline) -> DVec2 {
     if area(&shared) > (NEAR * size).powi(2) {
         return middle(shared).unwrap_or_default();
     }
-    let corners = one.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let corners = one.rings();
     let gap = |point: &DVec2| distance_squared(other, *point);
     let nearest = corners.flatten().copied();
     let nearest = nearest.min_by(|a, b| gap(a).total_cmp(&gap(b)));

@@ -220,7 +220,7 @@ fn text(out: &mut String, at: DVec2, text: &str, style: &str) {
 
 fn path(outline: &Outline, place: impl Fn(DVec2) -> DVec2) -> String {
     let mut out = String::new();
-    for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+    for ring in outline.rings() {
         for (index, point) in ring.iter().enumerate() {
             let at = place(*point);
             let command = if index == 0 { 'M' } else { 'L' };

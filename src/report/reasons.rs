@@ -200,7 +200,7 @@ impl<'a> Reasons<'a> {
         let (bends, own): (Vec<_>, Vec<_>) = own
             .map(|(_, form)| self.in_figure(*form, main))
             .partition(|said| said.undo == Some(Undo::Bends));
-        let form = own.into_iter().next().or_else(|| self.by_name(part));
+        let form = own.into_iter().next().or_else(|| self.of_part(part));
         match (form, bends.into_iter().next()) {
             (Some(form), Some(bends)) => Some(Said {
                 text: format!("{}; {}", form.text, bends.text),
@@ -214,7 +214,7 @@ impl<'a> Reasons<'a> {
     pub(crate) fn node_forms(&self, main: PartId) -> Vec<Said> {
         let in_figure = self.forms.get(&main).into_iter().flatten();
         let in_figure = in_figure.map(|(_, form)| self.in_figure(*form, main));
-        let mut said: Vec<Said> = self.by_name(main).into_iter().chain(in_figure).collect();
+        let mut said: Vec<Said> = self.of_part(main).into_iter().chain(in_figure).collect();
         said.sort_by_key(|said| said.undo);
         said.dedup();
         said
@@ -253,10 +253,17 @@ impl<'a> Reasons<'a> {
         }
     }
 
-    fn by_name(&self, part: PartId) -> Option<Said> {
+    /// What its corners or its name do to the form of a part.
+    fn of_part(&self, part: PartId) -> Option<Said> {
         let Compiled {
             bindings, drawing, ..
         } = self.compiled;
+        if bindings.parts[part].is_too_fine {
+            return Some(Said {
+                text: "a plate: too many corners".to_owned(),
+                undo: None,
+            });
+        }
         let (text, undo) = match bindings.form_by_name(drawing, part)? {
             FormByName::Rounded => ("rounded: part of a body", Undo::Rounded),
             FormByName::Disc => ("a disc: wheel", Undo::Disc),

@@ -88,7 +88,7 @@ pub(crate) fn bends(
         let [covering, covered] =
             [index, wearer].map(|part| outline(bindings, part, &parts_of_node[part]));
         let (low, high) = geometry::bounds(&covering)?;
-        let rings = covering.polygons.iter().flat_map(|polygon| &polygon.rings);
+        let rings = covering.rings();
         let points = rings.flatten().map(|point| y_up(*point));
         if bend.is_rigid(high - low) || !bend.bends_at(points) {
             return None;

@@ -203,6 +203,6 @@ fn distance(outlines: &[&Outline], point: DVec2) -> f64 {
 
 /// The points of an outline's borders.
 fn points(outline: &Outline) -> impl Iterator<Item = DVec2> + '_ {
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     rings.flatten().copied()
 }

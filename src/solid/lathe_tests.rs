@@ -148,9 +148,7 @@ fn turned_outlines_are_lawful() {
         let sides = [1.0, -1.0].map(|x| half(&drawn, DVec2::new(x, -1.0), [0.0, extent]));
         let profile = union(&sides);
         let moment: f64 = profile
-            .polygons
-            .iter()
-            .flat_map(|p| &p.rings)
+            .rings()
             .map(|ring| {
                 let n = ring.len();
                 (0..n)

@@ -173,7 +173,7 @@ fn expected_volume(outline: &Outline, kind: &Profile, options: &Options) -> Opti
         return None;
     }
     // A copy is built as a point, too, if some of its points would coincide in `f32`.
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     let points: Vec<DVec2> = rings.flatten().copied().collect();
     let gaps = points.iter().enumerate();
     let gaps = gaps.flat_map(|(i, p)| points[..i].iter().map(|q| p.distance(*q)));

@@ -91,7 +91,7 @@ pub(super) fn scales<const ACROSS: bool, const ALONG: bool>(scale: f64) -> [f64;
 /// Whether copies of an outline that are smaller across the axis, along it or both reach out of it. `outline` is relative to its
 /// centre.
 pub(super) fn overflows<const ACROSS: bool, const ALONG: bool>(outline: &Outline) -> bool {
-    let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = || outline.rings();
     let reach = rings().flatten().map(|point| point.length_squared());
     let slack = OVERFLOW * reach.fold(0.0, f64::max);
     // Copies stay inside if each edge sees the centre, or the line to which copies shrink, on its filled side.

@@ -20,12 +20,7 @@ pub(super) struct Rings {
 
 impl Rings {
     pub(super) fn of(outline: &Outline) -> Rings {
-        let count = outline
-            .polygons
-            .iter()
-            .flat_map(|p| &p.rings)
-            .map(Vec::len)
-            .sum();
+        let count = outline.rings().map(Vec::len).sum();
         let mut all = Rings {
             points: Vec::with_capacity(count),
             next: Vec::with_capacity(count),

@@ -4,8 +4,10 @@ use std::borrow::Cow;
 
 use glam::{DAffine2, DVec2};
 
-use super::paths::{affine, bez_path, rings};
-use crate::geometry::{FillRule, Outline, bounds, bounds_of, intersect, resolve_overlaps, union};
+use super::paths::{affine, bez_path};
+use crate::geometry::{
+    FillRule, Outline, bounds, bounds_of, flatten, intersect, resolve_overlaps, union,
+};
 
 /// Of clips with fewer points, all polygons are looked at for each shape.
 const MANY: usize = 1000;
@@ -37,8 +39,7 @@ impl Clip {
             bounds_of(border.copied()).unwrap_or_default()
         });
         let boxes = boxes.collect();
-        let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let points = rings.map(Vec::len).sum();
+        let points = outline.point_count();
         let mut out = vec![Self {
             outline,
             boxes,
@@ -108,7 +109,7 @@ fn collect(group: &usvg::Group, transform: DAffine2, tolerance: f64, out: &mut V
                     _ => FillRule::NonZero,
                 };
                 let bez = bez_path(path.data(), transform * affine(path.abs_transform()));
-                out.push(resolve_overlaps(rings(&bez, tolerance), rule));
+                out.push(resolve_overlaps(flatten(&bez, tolerance), rule));
             }
             _ => {}
         }

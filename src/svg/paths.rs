@@ -8,7 +8,7 @@ use roxmltree::Node;
 use usvg::tiny_skia_path as skia;
 
 use super::{Line, Paint};
-use crate::geometry::{FillRule, Outline, Ring, flatten, resolve_overlaps, subtract};
+use crate::geometry::{FillRule, Outline, flatten, resolve_overlaps, subtract};
 
 /// The smallest tolerance of flattening, as a fraction of the path's extent. It limits the number of segments.
 const FINEST: f64 = 1e-5;
@@ -118,7 +118,7 @@ impl StrokeSource {
             None => Outline::default(),
             Some(path) => {
                 let path = bez_path(&path, self.transform);
-                resolve_overlaps(rings(&path, self.tolerance), FillRule::NonZero)
+                resolve_overlaps(flatten(&path, self.tolerance), FillRule::NonZero)
             }
         }
     }
@@ -152,12 +152,6 @@ pub(super) fn bez_path(path: &skia::Path, transform: DAffine2) -> BezPath {
         }
     }
     out
-}
-
-/// Flattens a path, with a tolerance relative to its larger extent.
-pub(super) fn rings(path: &BezPath, tolerance: f64) -> Vec<Ring> {
-    let bounds = path.control_box();
-    flatten(path, tolerance * bounds.width().max(bounds.height()))
 }
 
 /// How far a curve leaves the straight line between its ends at least, as a share of that line's length.

@@ -13,7 +13,7 @@ use super::elements::{Ids, element, labels, start_tag};
 use super::fit::ImageViewports;
 use super::links::{options, report_links, unusable};
 use super::paint::is_opaque;
-use super::paths::{StrokeSource, affine, bez_path, curved, open_line, rings};
+use super::paths::{StrokeSource, affine, bez_path, curved, open_line};
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::tangles::Tangles;
@@ -25,7 +25,7 @@ use super::{
 };
 use crate::budget::{Budget, Work};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
-use crate::geometry::{FillRule, Outline, resolve_crossings, resolve_overlaps};
+use crate::geometry::{FillRule, Outline, flatten, resolve_crossings, resolve_overlaps};
 use crate::resolver::Resolver;
 use crate::source::Span;
 
@@ -326,7 +326,7 @@ impl Context<'_, '_> {
             return None;
         }
         let whole = bez_path(path.data(), self.page * affine(path.abs_transform()));
-        let whole = resolve_overlaps(rings(&whole, self.tolerance), FillRule::NonZero);
+        let whole = resolve_overlaps(flatten(&whole, self.tolerance), FillRule::NonZero);
         (!whole.polygons.is_empty()).then(|| {
             let name = shape.describe_as(&whole, self.page_box);
             Loss::ClippedAway(name, shape.element.span)
@@ -358,11 +358,11 @@ impl Context<'_, '_> {
                 usvg::FillRule::EvenOdd => FillRule::EvenOdd,
             };
             let crossings;
-            (outline, crossings) = resolve_crossings(rings(&bez, self.tolerance), rule);
+            (outline, crossings) = resolve_crossings(flatten(&bez, self.tolerance), rule);
             self.tangles.add(crossings, stroke.is_some());
             outline = task.clip(outline);
         } else if stroke.is_some() {
-            self.tangles.add_line(&rings(&bez, self.tolerance));
+            self.tangles.add_line(&flatten(&bez, self.tolerance));
             line = open_line(&bez, node);
         }
         // Painted first, the stroke is seen beside the fill only.

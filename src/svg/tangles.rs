@@ -4,12 +4,12 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::elements::start_tag;
-use super::paths::{affine, bez_path, rings};
+use super::paths::{affine, bez_path};
 use super::prepare::Prepared;
 use super::shapes::Context;
 use super::walk::{Leaf, Task};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{Ring, count_crossings};
+use crate::geometry::{Ring, count_crossings, flatten};
 
 /// How often the outlines of any drawing may cross themselves: finding the pieces takes about a second.
 const MOST: usize = 400_000;
@@ -66,7 +66,7 @@ impl Tangles {
                 continue;
             };
             let outline = bez_path(path.data(), affine(path.abs_transform()));
-            let crossings = count_crossings(&rings(&outline, context.tolerance));
+            let crossings = count_crossings(&flatten(&outline, context.tolerance));
             if crossings > most {
                 (worst, most) = (Some(task), crossings);
             }

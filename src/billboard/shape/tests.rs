@@ -66,7 +66,7 @@ pub(super) fn only(view: usize, views: usize) -> Vec<f64> {
 }
 
 fn distance_to_border(outline: &Outline, point: DVec2) -> f64 {
-    let rings = outline.polygons.iter().flat_map(|p| &p.rings);
+    let rings = outline.rings();
     let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
     let distances = edges.map(|(a, b)| {
         let along = (point - *a).dot(*b - *a) / (*b - *a).length_squared();

@@ -306,8 +306,15 @@ impl Bindings {
         let form = self.form(part);
         let profile = self.attributes(form).profile(drawing)?;
         let Part {
-            shape, host, sheet, ..
+            shape,
+            host,
+            sheet,
+            is_too_fine,
+            ..
         } = &self.parts[part];
+        if *is_too_fine {
+            return Some(Profile::plate(plate_depth(drawing)));
+        }
         let profile = match sheet.filter(|_| !self.is_shape_set(form)) {
             Some(most) => profile.at_most(most),
             None => profile,

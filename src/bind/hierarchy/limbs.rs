@@ -229,6 +229,6 @@ fn nearest_to(points: impl Iterator<Item = DVec2>, to: DVec2) -> Option<DVec2> {
 
 /// The points of an outline's borders.
 fn points(outline: &Outline) -> impl Iterator<Item = DVec2> + '_ {
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     rings.flatten().copied()
 }

@@ -197,8 +197,7 @@ struct Area {
 impl Area {
     fn new(outline: Arc<Outline>) -> Option<Self> {
         let (low, high) = bounds(&outline)?;
-        let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let has_many_points = rings.map(Vec::len).sum::<usize>() > MANY_POINTS;
+        let has_many_points = outline.point_count() > MANY_POINTS;
         Some(Self {
             outline,
             bounds: [low, high],
@@ -240,7 +239,7 @@ impl Area {
 }
 
 fn edges(outline: &Outline) -> RTree<Line<[f64; 2]>> {
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     let edges = rings.flat_map(|ring| {
         let next = ring.iter().cycle().skip(1);
         let pairs = ring.iter().zip(next);

@@ -260,7 +260,7 @@ fn of_volume(
     let bands = garments
         .iter()
         .map(|garment| Bands::of(&shapes[garment.shape].outline));
-    let bands: Vec<Bands<'_>> = bands.collect();
+    let bands: Vec<Bands> = bands.collect();
     let of_piece = |(_, polygon): (f64, &Polygon)| {
         let outline = Arc::new(Outline {
             polygons: vec![polygon.clone()],
@@ -275,7 +275,7 @@ fn of_piece(
     context: &FigureContext<'_>,
     shapes: &[Shape],
     on: usize,
-    (garments, bands): (&[Garment], &[Bands<'_>]),
+    (garments, bands): (&[Garment], &[Bands]),
     outline: &Arc<Outline>,
 ) -> Vec<Back> {
     let ring = &outline.polygons[0].rings[0];
@@ -323,7 +323,7 @@ fn of_piece(
 /// Per sample the largest of the shapes that cover it on the border and inside: not the highlights on hair, but the hair.
 fn worn(
     shapes: &[Shape],
-    (garments, bands): (&[Garment], &[Bands<'_>]),
+    (garments, bands): (&[Garment], &[Bands]),
     samples: &[Sample],
 ) -> Vec<[Option<usize>; 2]> {
     let worn = |later: DVec2, earlier: DVec2| {

@@ -83,9 +83,7 @@ fn outline_width(context: &FigureContext<'_>, stroke: &Shape, host: &Shape) -> O
 
 /// What is left of an outline beside a stroke around it, if that is enough of it.
 fn without(outline: &Outline, stroke: &Outline) -> Option<Outline> {
-    let all = [outline, stroke].map(|outline| &outline.polygons);
-    let rings = all.into_iter().flatten().flat_map(|polygon| &polygon.rings);
-    let points: usize = rings.map(Vec::len).sum();
+    let points = outline.point_count() + stroke.point_count();
     if points > MAX_POINTS {
         return None;
     }

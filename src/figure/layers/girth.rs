@@ -188,7 +188,7 @@ fn sections(shape: &Shape) -> Girth {
 /// Where an outline crosses level lines, from left to right.
 fn crossings(outline: &Outline, first: f64, step: f64) -> Vec<Vec<f64>> {
     let mut lines: Vec<Vec<f64>> = vec![Vec::new(); SECTIONS];
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     for ring in rings {
         let next = ring.iter().cycle().skip(1);
         for (from, to) in ring.iter().zip(next) {

@@ -24,6 +24,7 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::FigureContext;
 use crate::bind::{Part, PartId, Seen};
 use crate::figure::PartFrames;
+use crate::geometry::Bands;
 use crate::memo::Memo;
 use crate::scene::WorldTransform;
 use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
@@ -38,6 +39,8 @@ pub(super) use buried::{Buried, report};
 
 /// The share of its area from which on a shape that lies on its own part, or on those that it hangs on, is a detail.
 const DETAIL: f64 = 0.95;
+/// Of how many shapes under one it is found out whether it reaches around them, the topmost first.
+const MOST_REACHED: usize = 64;
 /// The step by which what is drawn later comes out, as a share of the figure's larger extent.
 const STEP: f64 = 0.002;
 /// The same for the longest chain of shapes that lie over one another.
@@ -515,17 +518,22 @@ fn covers(
         .enumerate()
         .map(|(above, below)| {
             let own = &shapes[above];
-            if !may_wrap(own, details[above]) {
+            if below.is_empty() || !may_wrap(own, details[above]) {
                 return Vec::new();
             }
+            let bands = Bands::of(&own.outline);
             let is_parent = |below: usize| {
                 let [node, other] = [above, below].map(|shape| nodes.of_shape[shape]);
                 !is_one && node != other && nodes.hangs_on(other, node)
             };
-            let below = below.iter().map(|overlap| overlap.below);
-            let below = below.filter(|below| !is_parent(*below) && !details[*below]);
-            let reached = below.filter(|below| wraps::wraps(own, &chords[*below]));
-            reached.collect()
+            let topmost = below.iter().rev().map(|overlap| overlap.below);
+            let topmost = topmost.filter(|below| !is_parent(*below) && !details[*below]);
+            let reached = topmost
+                .take(MOST_REACHED)
+                .filter(|below| wraps::wraps(own, &bands, &chords[*below]));
+            let mut reached: Vec<usize> = reached.collect();
+            reached.reverse();
+            reached
         })
         .collect();
     details

@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use super::shapes::Shape;
-use crate::geometry::{contains, edges, perimeter, shoelace};
+use crate::budget::{self, Step};
+use crate::geometry::{Bands, edges, perimeter, shoelace};
 
 /// Points along the border of a shape.
 const CHORDS: usize = 160;
@@ -32,7 +33,7 @@ pub(super) fn chords(shape: &Shape) -> Vec<Chord> {
     let outline = &shape.outline;
     let around = perimeter(outline);
     let apart = around / CHORDS as f64;
-    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = outline.rings();
     let area: f64 = rings.map(shoelace).sum();
     let filled_side = if area < 0.0 { -1.0 } else { 1.0 };
     let mut chords = Vec::with_capacity(CHORDS);
@@ -76,12 +77,13 @@ fn crossing(from: DVec2, direction: DVec2, [a, b]: [DVec2; 2]) -> Option<f64> {
     ((0.0..=1.0).contains(&place)).then(|| to.perp_dot(edge) / across)
 }
 
-/// Whether a shape reaches around another one, whose chords these are.
-pub(super) fn wraps(shape: &Shape, chords: &[Chord]) -> bool {
+/// Whether a shape reaches around another one, whose chords these are. `bands` are those of the shape's outline.
+pub(super) fn wraps(shape: &Shape, bands: &Bands, chords: &[Chord]) -> bool {
+    budget::count(Step::Overlap, 1);
     let holds = |chord: &Chord, share: f64| {
         let point = chord.from + chord.along * share;
         let (low, high) = shape.bounds;
-        point.clamp(low, high) == point && contains(&shape.outline, point)
+        point.clamp(low, high) == point && bands.contains(point)
     };
     let begin: Vec<&Chord> = chords.iter().filter(|chord| holds(chord, SLACK)).collect();
     if begin.len() < 2 {

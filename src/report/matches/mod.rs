@@ -237,7 +237,7 @@ fn color([r, g, b]: [u8; 3]) -> Color {
 /// An outline as a path in the picture; `None` if it is empty.
 fn path(outline: &Outline, place: impl Fn(DVec2) -> DVec2) -> Option<Path> {
     let mut path = PathBuilder::new();
-    for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+    for ring in outline.rings() {
         for (index, point) in ring.iter().enumerate() {
             let at = place(*point);
             match index {

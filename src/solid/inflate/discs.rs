@@ -1,12 +1,12 @@
-//! The largest discs that touch the border of an outline from inside (shrinking ball: Ma, Bae & Choi, "3D medial axis point
+//! The largest discs that touch the border of a polygon from inside (shrinking ball: Ma, Bae & Choi, "3D medial axis point
 //! approximation using nearest neighbors and the normal field", 2012).
 
 use glam::DVec2;
 
 use crate::budget::{self, Step};
-use crate::geometry::{Outline, bounds, bounds_of, edges};
+use crate::geometry::{Ring, bounds_of, edges_of};
 
-/// A disc counts as inside the outline if the border comes no closer to its centre than this, relative
+/// A disc counts as inside the polygon if the border comes no closer to its centre than this, relative
 /// to its radius: flattened curves cut off that little.
 const SLACK: f64 = 0.9;
 /// The largest number of iterations for a disc; a handful is usual.
@@ -26,7 +26,7 @@ const GROWTH: f64 = 4.0;
 /// Fewer edges stay in the order of their rings.
 const MANY: usize = 4 * RUN * FAN;
 
-/// A disc in an outline.
+/// A disc in a polygon.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Disc {
     /// 0 where there is none.
@@ -35,8 +35,8 @@ pub(super) struct Disc {
     opposite: Option<DVec2>,
 }
 
-/// The edges of an outline, and boxes around runs of them. Edges that follow each other are near each other, so that the boxes are small:
-/// if there are few, neighbours on a ring, and otherwise along a curve through all of the outline's box, because rings in rings, and
+/// The edges of a polygon, and boxes around runs of them. Edges that follow each other are near each other, so that the boxes are small:
+/// if there are few, neighbours on a ring, and otherwise along a curve through all of the polygon's box, because rings in rings, and
 /// turns of a spiral, are near to each other over all of their length.
 pub(super) struct Discs {
     edges: Vec<Edge>,
@@ -55,7 +55,7 @@ struct Edge {
     along: DVec2,
     /// The inverse of the squared length.
     inverse: f64,
-    /// Its place among those of the outline.
+    /// Its place among those of the polygon.
     number: u32,
 }
 
@@ -161,8 +161,11 @@ struct Nearest {
 }
 
 impl Discs {
-    pub(super) fn of(outline: &Outline, reach: f64) -> Self {
-        let edges = edges(outline).zip(0..).map(|([from, to], number)| Edge {
+    /// Those of one polygon, whose rings these are.
+    pub(super) fn of(rings: &[Ring]) -> Self {
+        let (low, high) = bounds_of(rings.iter().flatten().copied()).unwrap_or_default();
+        let reach = low.distance(high);
+        let edges = edges_of(rings).zip(0..).map(|([from, to], number)| Edge {
             from,
             along: to - from,
             inverse: from.distance_squared(to).max(f64::MIN_POSITIVE).recip(),
@@ -170,7 +173,7 @@ impl Discs {
         });
         let mut edges: Vec<Edge> = edges.collect();
         if edges.len() > MANY {
-            let all = bounds(outline).unwrap_or_default();
+            let all = (low, high);
             edges.sort_by_cached_key(|edge| place_on_curve(edge.from + 0.5 * edge.along, all));
         }
         let are_many = edges.len() > MANY;
@@ -333,28 +336,23 @@ mod tests {
     use std::f64::consts::TAU;
 
     use super::*;
-    use crate::geometry::{Polygon, Ring};
 
     /// A star with so many tips.
-    fn star(tips: usize) -> Outline {
+    fn star(tips: usize) -> Vec<Ring> {
         let place = |i: usize| {
             let angle = TAU * i as f64 / (2 * tips) as f64;
             DVec2::from_angle(angle) * if i.is_multiple_of(2) { 10.0 } else { 6.0 }
         };
-        let ring: Ring = (0..2 * tips).map(place).collect();
-        let polygon = Polygon { rings: vec![ring] };
-        Outline {
-            polygons: vec![polygon],
-        }
+        vec![(0..2 * tips).map(place).collect()]
     }
 
     #[test]
     fn discs_are_free_and_large() {
         for tips in [40, 400, CROWD] {
-            let outline = star(tips);
-            let discs = Discs::of(&outline, 30.0);
+            let rings = star(tips);
+            let discs = Discs::of(&rings);
             assert_eq!(discs.least.is_some(), tips == CROWD);
-            let all: Vec<[DVec2; 2]> = edges(&outline).collect();
+            let all: Vec<[DVec2; 2]> = edges_of(&rings).collect();
             let mut disc = Disc::default();
             for [from, to] in all.iter().step_by(all.len() / 40 - 1) {
                 let foot = from.lerp(*to, 0.5);

@@ -8,7 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::delaunay::Delaunay;
 use super::points::Points;
-use crate::geometry::{bounds_of, crosses};
+use crate::geometry::{Bands, bounds_of};
 use crate::solid::stack::PlacementTransform;
 
 /// The number of rounds in which triangles without an inner point are given one.
@@ -73,8 +73,8 @@ pub(in crate::solid) fn mesh(points: &Points, transform: &PlacementTransform) ->
         // Triangles that cross the border should be small when they are told apart.
         insert(&mut delaunay, inner, &mut vertices);
         let walls = points.edges.iter().map(|edge| edge.map(|i| places[i]));
-        let walls: Vec<[DVec2; 2]> = walls.collect();
-        delaunay.find_inside(Some(|point| encloses(&walls, point)));
+        let walls = Bands::new(walls.collect());
+        delaunay.find_inside(Some(|point| walls.contains(point)));
     } else {
         delaunay.find_inside(None::<fn(DVec2) -> bool>);
         insert(&mut delaunay, inner, &mut vertices);
@@ -175,12 +175,6 @@ fn numbered(delaunay: &Delaunay, vertices: &[Option<u32>]) -> Mesh {
         *corner = number[*corner as usize];
     }
     mesh
-}
-
-fn encloses(walls: &[[DVec2; 2]], point: DVec2) -> bool {
-    walls
-        .iter()
-        .fold(false, |inside, wall| inside != crosses(*wall, point))
 }
 
 #[cfg(test)]

@@ -92,6 +92,14 @@ impl Balloon {
         }
     }
 
+    /// About how many points of an outline columns stand on, drawing units.
+    pub(super) fn border_points(&self, outline: &Outline) -> usize {
+        let between = self
+            .line
+            .map_or(0, |width| tube::points_between(outline, width));
+        outline.point_count() + between
+    }
+
     /// The heights of [`field`](Self::field) over a mesh of the outline at its final place, model units; `scale` are model units a
     /// drawing unit.
     pub(super) fn heights(&self, mesh: &Mesh, half: DVec2, scale: f64) -> Vec<f64> {

@@ -8,12 +8,14 @@
 use glam::{DVec2, DVec3};
 
 use super::discs::{Disc, Discs};
-use crate::geometry::{Outline, bounds, perimeter};
+use crate::geometry::{Outline, bounds, bounds_of, perimeter};
 
 /// The largest number of points added along borders, and of columns.
 pub(super) const MAX_COLUMNS: usize = 1 << 13;
 /// The largest number of inner points.
 const MAX_INSIDE: usize = 1 << 16;
+/// The fewest layers per 180° of a polygon that is small beside the outline, if that has more.
+const LEAST_SEGMENTS: u32 = 8;
 /// Corners that turn left by more have no column, because discs in them have no size; radians.
 const CONVEX: f64 = 0.9;
 /// Corners that turn right have columns this far apart, radians.
@@ -61,47 +63,61 @@ pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
         points: Vec::new(),
         edges: Vec::new(),
     };
-    let Some((low, high)) = bounds(outline) else {
+    let Some(whole) = bounds(outline).map(smaller_side) else {
         return all;
     };
-    let size = high - low;
-    let discs = Discs::of(outline, size.length());
-    let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
     let around = perimeter(outline);
-    let usual = std::f64::consts::PI * size.min_element() / 2.0 / f64::from(segments);
-    let apart = usual.max(4.0 * around / MAX_COLUMNS as f64);
-
     // Of more columns, most would be left out again.
-    let fan = if rings().map(Vec::len).sum::<usize>() > MAX_COLUMNS {
+    let fan = if outline.point_count() > MAX_COLUMNS {
         f64::INFINITY
     } else {
         FAN
     };
-    let mut columns = Vec::new();
-    for ring in rings() {
-        border(ring, [apart, fan], &discs, &mut all, &mut columns);
+    // Polygon by polygon, so that an eye that is drawn in one path with the other one is as round as by itself.
+    let mut groups = Vec::with_capacity(outline.polygons.len());
+    for polygon in &outline.polygons {
+        let points = polygon.rings.iter().flatten().copied();
+        let size = bounds_of(points).map_or(0.0, smaller_side);
+        // What is smaller is as precise with fewer layers.
+        let fewer = f64::from(segments) * (size / whole).sqrt();
+        let segments = (fewer.ceil() as u32).clamp(segments.min(LEAST_SEGMENTS), segments);
+        let usual = std::f64::consts::PI * size / 2.0 / f64::from(segments);
+        let apart = usual.max(4.0 * around / MAX_COLUMNS as f64);
+        let discs = Discs::of(&polygon.rings);
+        let mut columns = Vec::new();
+        for ring in &polygon.rings {
+            border(ring, [apart, fan], &discs, &mut all, &mut columns);
+        }
+        let radii = columns.iter().map(|column| column.radius);
+        let most = radii.fold(0.0, f64::max);
+        columns.retain(|column| column.radius > NOTHING * most);
+        groups.push((columns, segments, most));
     }
-    let most = columns
-        .iter()
-        .map(|column| column.radius)
-        .fold(0.0, f64::max);
-    columns.retain(|column| column.radius > NOTHING * most);
-    let layers = thinned(&mut columns, segments);
-    inside(&columns, layers, most, &mut all.points);
+    let count = groups.iter().map(|(columns, ..)| columns.len()).sum();
+    for (mut columns, segments, most) in groups {
+        let layers = thin(&mut columns, count, segments);
+        inside(&columns, layers, most, &mut all.points);
+    }
     all
 }
 
-/// Leaves columns out where there are too many. Returns how many points each has, for a rounding of so many layers per 180°.
-pub(super) fn thinned(columns: &mut Vec<Column>, segments: u32) -> usize {
-    if columns.len() > MAX_COLUMNS {
-        let step = columns.len().div_ceil(MAX_COLUMNS);
+/// The smaller side of a box.
+fn smaller_side((low, high): (DVec2, DVec2)) -> f64 {
+    (high - low).min_element()
+}
+
+/// Leaves columns out where there are too many of a whole outline. Returns how many points each has, for a rounding of so many layers
+/// per 180°.
+pub(super) fn thin(columns: &mut Vec<Column>, count: usize, segments: u32) -> usize {
+    let step = count.div_ceil(MAX_COLUMNS);
+    if step > 1 {
         let mut place = 0;
         columns.retain(|_| {
             place += 1;
             place % step == 0
         });
     }
-    let most = MAX_INSIDE / columns.len().max(1);
+    let most = MAX_INSIDE / count.clamp(1, MAX_COLUMNS);
     (segments.div_ceil(2) as usize).clamp(1, most.max(1))
 }
 

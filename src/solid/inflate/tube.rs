@@ -10,8 +10,8 @@ use rstar::primitives::Line;
 
 use super::MIN_HEIGHT;
 use super::mesh::Mesh;
-use super::points::{Column, MAX_COLUMNS, Points, inside, thinned};
-use crate::geometry::Outline;
+use super::points::{Column, MAX_COLUMNS, Points, inside, thin};
+use crate::geometry::{Outline, perimeter};
 
 /// The distance between points along straight stretches, in widths of the line.
 const ALONG: f64 = 4.0;
@@ -29,18 +29,21 @@ pub(in crate::solid) fn points(outline: &Outline, width: f64, segments: u32) -> 
         edges: Vec::new(),
     };
     let radius = width / 2.0;
-    let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-    let edges =
-        rings().flat_map(|ring| (0..ring.len()).map(move |i| ring[(i + 1) % ring.len()] - ring[i]));
-    let around: f64 = edges.map(DVec2::length).sum();
-    let apart = (ALONG * width).max(4.0 * around / MAX_COLUMNS as f64);
+    let apart = (ALONG * width).max(4.0 * perimeter(outline) / MAX_COLUMNS as f64);
     let mut columns = Vec::new();
-    for ring in rings() {
+    for ring in outline.rings() {
         border(ring, radius, apart, &mut all, &mut columns);
     }
-    let layers = thinned(&mut columns, segments);
+    let count = columns.len();
+    let layers = thin(&mut columns, count, segments);
     inside(&columns, layers, radius, &mut all.points);
     all
+}
+
+/// How many points there are between those of the outline of a line of this width.
+pub(in crate::solid) fn points_between(outline: &Outline, width: f64) -> usize {
+    let count = perimeter(outline) / (ALONG * width);
+    count.min((MAX_COLUMNS / 4) as f64) as usize
 }
 
 /// Adds the points of a ring, and the columns that stand on them.

@@ -85,9 +85,10 @@ impl Kind for Inflate {
         surface(&self.field(outline, half, options), options)
     }
 
-    fn triangles(&self, points: usize, _: DVec2, options: &Options) -> u64 {
+    fn triangles(&self, outline: &Outline, _: DVec2, options: &Options) -> u64 {
         // Columns of half as many points stand on the border, about four for each layer.
         let layers = steps_per_half_turn(options) as usize;
+        let points = self.0.border_points(outline);
         (points.max(4 * layers) * 2 * layers) as u64
     }
 

@@ -34,8 +34,8 @@ impl Kind for Lathe {
         Some([half.x * side.cos().min(0.0), half.x])
     }
 
-    fn triangles(&self, points: usize, _: DVec2, options: &Options) -> u64 {
-        (points * 4 * steps_per_half_turn(options) as usize) as u64
+    fn triangles(&self, outline: &Outline, _: DVec2, options: &Options) -> u64 {
+        (outline.point_count() * 4 * steps_per_half_turn(options) as usize) as u64
     }
 
     fn depends_on_axis(&self) -> bool {

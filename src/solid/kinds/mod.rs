@@ -79,6 +79,11 @@ kinds! {
 }
 
 impl Profile {
+    /// A plate that reaches as far to both sides, drawing units.
+    pub fn plate(reach: f64) -> Self {
+        Self::Default(taper::Default::plate(reach))
+    }
+
     /// The same; what is inflated without a given height is no higher than this, drawing units.
     pub fn at_most(self, height: f64) -> Self {
         match self {
@@ -92,7 +97,7 @@ impl Profile {
     pub fn boxed(self, reach: f64) -> Self {
         match self {
             Self::Inflate(inflate) => Self::Inflate(inflate.boxed(reach)),
-            Self::Default(_) => Self::Default(taper::Default::plate(reach)),
+            Self::Default(_) => Self::plate(reach),
             other => other,
         }
     }
@@ -157,12 +162,12 @@ pub trait Kind {
         DEFAULT_SEGMENTS
     }
 
-    /// About how many triangles the solid has over an outline with so many points.
-    fn triangles(&self, points: usize, half: DVec2, options: &Options) -> u64 {
+    /// About how many triangles the solid has over an outline, in drawing units.
+    fn triangles(&self, outline: &Outline, half: DVec2, options: &Options) -> u64 {
         let bands = self.layers(half, options).len().saturating_sub(1);
         // Where it is scaled one way only, walls may be split in four.
         let each = if self.depends_on_axis() { 4 } else { 2 };
-        (points * (each * bands + 2)) as u64
+        (outline.point_count() * (each * bands + 2)) as u64
     }
 
     /// The solid's plane faces parallel to the drawing, if it has any.

@@ -37,8 +37,8 @@ impl Region {
     pub(super) fn new(outline: Outline) -> Option<Self> {
         let bounds = bounds(&outline)?;
         let bounds = [bounds.0, bounds.1];
-        let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let count: usize = rings().map(Vec::len).sum();
+        let rings = || outline.rings();
+        let count = outline.point_count();
         let cells = Cells::over(bounds, CELLS * count as f64);
         let mut is_border = vec![false; cells.count()];
         for ring in rings() {

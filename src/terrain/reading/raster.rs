@@ -271,7 +271,7 @@ impl BandSection<'_> {
     fn path(&self, outline: &Outline, grid: &Grid) -> Option<Path> {
         let corner = self.corner.map(|at| at as f64);
         let mut path = PathBuilder::new();
-        for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+        for ring in outline.rings() {
             for (index, point) in ring.iter().enumerate() {
                 let p = grid.cells(*point) - DVec2::from(corner);
                 let (x, y) = (p.x as f32, p.y as f32);

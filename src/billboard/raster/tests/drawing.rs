@@ -203,7 +203,7 @@ fn stroke(width: f32) -> Stroke {
 
 fn path(outline: &Outline) -> Option<Path> {
     let mut builder = PathBuilder::new();
-    for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+    for ring in outline.rings() {
         for (index, point) in ring.iter().enumerate() {
             match index {
                 0 => builder.move_to(point.x as f32, point.y as f32),

@@ -62,7 +62,7 @@ fn in_picture(point: DVec2) -> DVec2 {
 fn drawn_picture(drawn: &Drawn, frame: &Frame) -> Labels {
     let shapes = drawn.view.regions.iter().zip(&drawn.items);
     let shape = |(region, item): (&Region, &usize)| {
-        let rings = region.outline.polygons.iter().flat_map(|p| &p.rings);
+        let rings = region.outline.rings();
         let point = |p: &DVec2| in_picture(frame.on_screen(*p));
         Shape {
             label: *item,

@@ -27,7 +27,7 @@ const OPENS: f64 = 2.0;
 /// What it costs to leave a text without a unit: more than any unit may cost in sum with what it displaces.
 const UNBOUND: f64 = 1e7;
 /// How many candidates all texts have at most; where more texts compete for the units in one place, the rest get the nearest free ones.
-const MAX_CANDIDATES: usize = 1 << 17;
+const MAX_CANDIDATES: usize = 1 << 15;
 /// A binding is uncertain if all texts together would cost less than this more without it, font sizes.
 const UNCERTAIN: f64 = 0.6;
 /// How much more certain a binding is for each point of the text at which the unit shows.

@@ -1,5 +1,6 @@
 //! Units, which texts name, and what each would cost a text.
 
+use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -12,6 +13,7 @@ use super::words::{self, Place, Sense};
 use crate::bind::bindings::PartId;
 use crate::bind::matching::parts::MatchedPart;
 use crate::bind::matching::stacking::{Facts, Stacking};
+use crate::budget::{self, Step};
 use crate::geometry::{BoxTree, Outline, area_around, connected, distance_squared, indexed_box};
 use crate::memo::{Bits, Long, Memo, Same};
 use crate::svg::GroupId;
@@ -253,19 +255,19 @@ impl Units {
         let points = text.points.0.map(DVec2::from);
         let em = text.em.0;
         let mut found: Vec<Candidate> = Vec::new();
+        let mut places: FxHashMap<usize, usize> = FxHashMap::default();
         let mut offer = |unit: usize, cost: f64, shows: bool| {
-            let shows_at = u8::from(shows);
-            match found.iter_mut().find(|found| found.unit == unit) {
-                Some(found) => {
-                    found.cost = found.cost.min(cost);
-                    found.shows_at += shows_at;
-                }
-                None => found.push(Candidate {
+            let place = *places.entry(unit).or_insert(found.len());
+            if place == found.len() {
+                found.push(Candidate {
                     unit,
                     cost,
-                    shows_at,
-                }),
+                    shows_at: 0,
+                });
             }
+            let found = &mut found[place];
+            found.cost = found.cost.min(cost);
+            found.shows_at += u8::from(shows);
         };
         let distinct = if text.has_leader { 1 } else { points.len() };
         for (index, point) in points[..distinct].iter().enumerate() {
@@ -292,6 +294,7 @@ impl Units {
                 }
             }
         }
+        budget::count(Step::Candidate, found.len());
         found.retain(|found| self.units[found.unit].scope == Some(text.scope));
         for candidate in &mut found {
             candidate.cost += self.penalties(candidate, text, &points);
@@ -352,6 +355,7 @@ impl Units {
 /// The units nearest to a point, each with the square of its distance.
 fn nearest(tree: &RTree<Member>, point: DVec2, count: usize) -> Vec<(usize, f64)> {
     let mut nearest: Vec<(usize, f64)> = Vec::with_capacity(count + 1);
+    let mut known: FxHashMap<usize, f64> = FxHashMap::default();
     // By the distance of boxes, which is never more than that of outlines and much quicker to find.
     let members = tree.nearest_neighbor_iter_with_distance_2(point.to_array());
     for (member, least) in members.take(VISITS * count) {
@@ -365,15 +369,23 @@ fn nearest(tree: &RTree<Member>, point: DVec2, count: usize) -> Vec<(usize, f64)
         if nearest.len() == count && distance >= farthest {
             continue;
         }
-        if let Some(index) = nearest.iter().position(|(unit, _)| *unit == member.unit) {
-            if nearest[index].1 <= distance {
-                continue;
+        match known.entry(member.unit) {
+            Entry::Occupied(entry) if *entry.get() <= distance => continue,
+            Entry::Occupied(mut entry) => {
+                entry.insert(distance);
+                nearest.retain(|(unit, _)| *unit != member.unit);
             }
-            nearest.remove(index);
+            Entry::Vacant(entry) => {
+                entry.insert(distance);
+            }
         }
         let place = nearest.partition_point(|(_, other)| *other <= distance);
         nearest.insert(place, (member.unit, distance));
-        nearest.truncate(count);
+        // One that is forgotten may have a member that is nearer.
+        if let Some((unit, _)) = nearest.get(count) {
+            known.remove(unit);
+            nearest.truncate(count);
+        }
     }
     nearest
 }
