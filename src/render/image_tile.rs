@@ -2,7 +2,6 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::Shading;
 use super::fragment::{Fragment, FragmentKind, PixelSampler, same_surface};
 use super::ground::{GroundLight, shadow_fade, shadow_on_lines};
 use super::light::{IncidentLight, Lights, share};
@@ -17,8 +16,8 @@ pub(super) const HALO: u32 = 2;
 /// The triangles that rays meet are not known before the rays are traced.
 const TRACED: Option<fn(usize) -> Option<usize>> = None;
 
-/// Renders the pixels of the tile that begins at `left`, `top`; rows from the top, RGBA. `ground` is the light on the ground,
-/// unless it is computed in each pixel.
+/// Renders the pixels of the tile that begins at `left`, `top`; rows from the top, RGBA. `ground` is the light on the ground; without it
+/// base colours are shown.
 pub(super) fn draw_tile(
     sampler: &PixelSampler<'_>,
     lights: &Lights,
@@ -28,7 +27,7 @@ pub(super) fn draw_tile(
     [width, height]: [u32; 2],
 ) -> Vec<[u8; 4]> {
     let pixels = (top..top + height).flat_map(|y| (left..left + width).map(move |x| (x, y)));
-    if sampler.shading == Shading::Unlit {
+    let Some(ground) = ground else {
         let mut fragments = Vec::new();
         return pixels
             .map(|(x, y)| {
@@ -38,29 +37,25 @@ pub(super) fn draw_tile(
                 pixel(color, &SRGB, background)
             })
             .collect();
-    }
-    let tile = Tile::new(sampler, lights, ground, [left, top], [width, height]);
+    };
+    let tile = Tile::new(sampler, lights, [left, top], [width, height]);
     pixels
         .map(|(x, y)| {
-            if let Some(ground) = ground.filter(|_| !sampler.coverage.contains(x, y)) {
+            if !sampler.coverage.contains(x, y) {
                 let color = bare_ground(sampler, ground, x, y);
                 return pixel(color, &LINEAR, background);
             }
             let mut color = Vec4::ZERO;
             for fragment in tile.at(x, y) {
-                let light = match (fragment.kind, ground) {
-                    (FragmentKind::Ground, Some(ground)) => {
+                let light = match fragment.kind {
+                    FragmentKind::Ground => {
                         let fade = shadow_fade(fragment.place, &sampler.tracer.surface);
                         ground_color(sampler, x, y, shadow(ground.at(x, y)) * fade)
                     }
-                    (FragmentKind::Ground, None) => {
+                    FragmentKind::Model(material) => {
                         let incident = tile.gathered(x, y, fragment);
-                        let shadow = shade(fragment, &incident, sampler.tracer, lights).w;
-                        ground_color(sampler, x, y, shadow)
-                    }
-                    (FragmentKind::Model(_), _) => {
-                        let incident = tile.gathered(x, y, fragment);
-                        shade(fragment, &incident, sampler.tracer, lights)
+                        let material = &sampler.tracer.materials[material];
+                        shade(fragment, material, &incident, lights).extend(1.0)
                     }
                 };
                 color += light * fragment.weight;
@@ -174,15 +169,14 @@ impl Tile {
     fn new(
         sampler: &PixelSampler<'_>,
         lights: &Lights,
-        ground: Option<&GroundLight>,
         [left, top]: [u32; 2],
         [width, height]: [u32; 2],
     ) -> Self {
         let halo = i64::from(HALO);
         let corner = [i64::from(left) - halo, i64::from(top) - halo];
         let size = [width + 2 * HALO, height + 2 * HALO];
-        // Pixels that show nothing but the ground need no fragments if the light on it is known.
-        let is_bare = |x: u32, y: u32| ground.is_some() && !sampler.coverage.contains(x, y);
+        // Pixels that show nothing but the ground need no fragments: the light on it is known.
+        let is_bare = |x: u32, y: u32| !sampler.coverage.contains(x, y);
         let mut tile = match sampler.sampling.refinement {
             Refinement::Pixel => Self::filled(corner, size, |x, y, out| {
                 if !is_bare(x, y) {
@@ -234,7 +228,7 @@ impl Tile {
             ];
             let share = share(x.max(0) as u32, y.max(0) as u32);
             for fragment in &mut tile.fragments[ends[0]..ends[1]] {
-                if ground.is_none() || fragment.kind != FragmentKind::Ground {
+                if fragment.kind != FragmentKind::Ground {
                     fragment.incident = lights.incident(sampler.tracer, fragment, share);
                 }
             }

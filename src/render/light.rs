@@ -2,8 +2,8 @@
 
 use glam::{Quat, Vec2, Vec3};
 
-use super::fragment::{Fragment, FragmentKind};
-use super::sampling::{GroundSampling, LightRays, Sampling};
+use super::fragment::Fragment;
+use super::sampling::{LightRays, Sampling};
 use super::trace::Tracer;
 
 /// `BLOCK` × `BLOCK` pixels share their rays.
@@ -87,7 +87,7 @@ pub(super) struct Lights {
     pub(super) directions: [Vec3; LAMPS],
     /// The rays from the model, distributed over the pixels of a block.
     model: Rays,
-    /// Those from the ground, distributed over a block of pixels or over a cell of the lattice.
+    /// Those from the ground, distributed over the points of a cell of the lattice.
     ground: Rays,
 }
 
@@ -126,29 +126,21 @@ impl Lights {
     pub(super) fn new(yaw: f64, sampling: &Sampling) -> Self {
         let turn = Quat::from_rotation_y(yaw.to_radians() as f32);
         let directions = LAMP.map(|lamp| turn * lamp.direction.normalize());
-        let (ground, neighbors) = match sampling.ground {
-            GroundSampling::Pixels(rays) => (rays, BLOCK_PIXELS),
-            GroundSampling::Lattice { rays, .. } => (rays, CELL_POINTS),
-        };
         Self {
             directions,
             model: Rays::new(directions, sampling.model, BLOCK_PIXELS),
-            ground: Rays::new(directions, ground, neighbors),
+            ground: Rays::new(directions, sampling.ground.rays, CELL_POINTS),
         }
     }
 
-    /// The light that reaches a fragment, by the rays of pixel `share` of its block.
+    /// The light that reaches a fragment of the model, by the rays of pixel `share` of its block.
     pub(super) fn incident(
         &self,
         tracer: &Tracer<'_>,
         piece: &Fragment,
         share: usize,
     ) -> IncidentLight {
-        let rays = match piece.kind {
-            FragmentKind::Ground => &self.ground,
-            FragmentKind::Model(_) => &self.model,
-        };
-        self.reaching(tracer, piece.place, piece.normal, rays, share)
+        self.reaching(tracer, piece.place, piece.normal, &self.model, share)
     }
 
     /// The light that reaches a point of the ground, by the rays of point `share` of its cell of the lattice.

@@ -15,7 +15,7 @@ use super::image_tile::{HALO, draw_tile};
 use super::light::Lights;
 use super::model::Model;
 use super::raster::Raster;
-use super::sampling::{FILM, GroundSampling, Refinement, STILL, Sampling};
+use super::sampling::{FILM, Refinement, STILL, Sampling};
 use super::surface::{Normalization, Surface};
 use super::trace::Tracer;
 use super::{MAX_SIDE, Options, RenderError, Shading, on_pool};
@@ -246,12 +246,9 @@ pub(super) fn draw(
         shading: options.shading,
         floor: *floor,
     };
-    let ground = match sampling.ground {
-        GroundSampling::Lattice { spacing, .. } if options.shading != Shading::Unlit => Some(
-            GroundLight::new(tracer, &lights, camera, options.size, spacing),
-        ),
-        _ => None,
-    };
+    let spacing = sampling.ground.spacing;
+    let is_lit = options.shading != Shading::Unlit;
+    let ground = is_lit.then(|| GroundLight::new(tracer, &lights, camera, options.size, spacing));
     let side = sampling.tile;
     let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
     let bands = pixels

@@ -33,17 +33,13 @@ pub(super) struct LightRays {
     pub(super) sky: usize,
 }
 
-/// Where the light on the ground is computed.
+/// The lattice on which the light on the ground is computed. The pixels between interpolate: shadows on the ground are soft.
 #[derive(Debug)]
-pub(super) enum GroundSampling {
-    /// In every pixel, as on the model.
-    Pixels(LightRays),
-    /// On a lattice with this spacing in pixels. The pixels between interpolate: shadows on the ground are soft.
-    Lattice {
-        spacing: u32,
-        /// Rays of each point of the lattice.
-        rays: LightRays,
-    },
+pub(super) struct GroundSampling {
+    /// Pixels from one point to the next.
+    pub(super) spacing: u32,
+    /// Rays of each point.
+    pub(super) rays: LightRays,
 }
 
 /// A still picture: each pixel is as good as 16 rays to everything can make it.
@@ -56,10 +52,13 @@ pub(super) static STILL: Sampling = Sampling {
         sky: 6,
     },
     // Faint shadows show on white, and only the key lamp casts one.
-    ground: GroundSampling::Pixels(LightRays {
-        lamps: [3, 0, 0],
-        sky: 16,
-    }),
+    ground: GroundSampling {
+        spacing: 2,
+        rays: LightRays {
+            lamps: [10, 0, 0],
+            sky: 20,
+        },
+    },
     tile: 64,
 };
 
@@ -72,7 +71,7 @@ pub(super) static FILM: Sampling = Sampling {
         lamps: [1, 1, 1],
         sky: 2,
     },
-    ground: GroundSampling::Lattice {
+    ground: GroundSampling {
         spacing: 3,
         rays: LightRays {
             lamps: [4, 0, 0],

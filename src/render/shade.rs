@@ -1,12 +1,10 @@
 //! Shading: from incident light to the colour of a fragment.
 
-use glam::{Vec3, Vec4};
+use glam::Vec3;
 
-use super::fragment::{Fragment, FragmentKind};
-use super::ground::shadow_fade;
+use super::fragment::Fragment;
 use super::light::{IncidentLight, Lights, open_sky, sky};
 use super::surface::Material;
-use super::trace::Tracer;
 
 /// The reflectance of a dielectric at normal incidence.
 const DIELECTRIC_REFLECTANCE: f32 = 0.04;
@@ -15,27 +13,17 @@ const SHOULDER: f32 = 0.6;
 /// The darkest shadow on the ground.
 const SHADOW: f32 = 0.62;
 
-/// Premultiplied colour and alpha of a fragment, not yet multiplied by its weight.
+/// The colour of a fragment of the model.
 pub(super) fn shade(
     fragment: &Fragment,
+    material: &Material,
     incident: &IncidentLight,
-    tracer: &Tracer<'_>,
     lights: &Lights,
-) -> Vec4 {
-    match fragment.kind {
-        FragmentKind::Ground => {
-            let fade = shadow_fade(fragment.place, &tracer.surface);
-            Vec4::new(0.0, 0.0, 0.0, shadow(ground_light(incident, lights)) * fade)
-        }
-        FragmentKind::Model(material) => {
-            let material = &tracer.materials[material];
-            let light = if material.unlit {
-                fragment.color
-            } else {
-                tone_mapped(lit(fragment, material, incident, lights))
-            };
-            light.extend(1.0)
-        }
+) -> Vec3 {
+    if material.unlit {
+        fragment.color
+    } else {
+        tone_mapped(lit(fragment, material, incident, lights))
     }
 }
 
