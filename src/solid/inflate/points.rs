@@ -66,7 +66,8 @@ pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
     let Some(whole) = bounds(outline).map(smaller_side) else {
         return all;
     };
-    let around = perimeter(outline);
+    let usual = spacing(whole, segments);
+    let least = 4.0 * perimeter(outline) / MAX_COLUMNS as f64;
     // Of more columns, most would be left out again.
     let fan = if outline.point_count() > MAX_COLUMNS {
         f64::INFINITY
@@ -81,8 +82,8 @@ pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
         // What is smaller is as precise with fewer layers.
         let fewer = f64::from(segments) * (size / whole).sqrt();
         let segments = (fewer.ceil() as u32).clamp(segments.min(LEAST_SEGMENTS), segments);
-        let usual = std::f64::consts::PI * size / 2.0 / f64::from(segments);
-        let apart = usual.max(4.0 * around / MAX_COLUMNS as f64);
+        // Between the distance that it would have by itself and that of the whole, which splinters need not be finer than.
+        let apart = (spacing(size, segments) * usual).sqrt().max(least);
         let discs = Discs::of(&polygon.rings);
         let mut columns = Vec::new();
         for ring in &polygon.rings {
@@ -99,6 +100,11 @@ pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
         inside(&columns, layers, most, &mut all.points);
     }
     all
+}
+
+/// The distance of columns on a polygon whose box is so wide at its smaller side, for a rounding of so many layers per 180°.
+fn spacing(size: f64, segments: u32) -> f64 {
+    std::f64::consts::PI * size / 2.0 / f64::from(segments)
 }
 
 /// The smaller side of a box.
