@@ -55,6 +55,7 @@ const USES: &[(&str, &[&str])] = &[
         &[
             "anatomy",
             "assignment",
+            "budget",
             "diagnostic",
             "geometry",
             "index",

@@ -3,7 +3,9 @@
 use glam::{Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
-use super::camera::Camera;
+use super::camera::{Camera, on_level};
+use super::coverage::Coverage;
+use super::lanes::Hit;
 use super::light::{CELL, Lights};
 use super::shade::ground_light;
 use super::surface::Surface;
@@ -36,6 +38,14 @@ fn smooth(share: f32) -> f32 {
     share * share * (3.0 - 2.0 * share)
 }
 
+/// A point of the lattice on the ground.
+struct LatticePoint {
+    /// The share of the light that reaches it, 0 to 1.
+    light: f32,
+    /// Whether the camera sees it. Where the model covers the ground it is dark, which must not show beside the model.
+    is_seen: bool,
+}
+
 /// The light on the ground in a picture, on a lattice of points.
 pub(super) struct GroundLight {
     spacing: u32,
@@ -50,23 +60,38 @@ impl GroundLight {
         tracer: &Tracer<'_>,
         lights: &Lights,
         camera: &Camera,
+        coverage: &Coverage,
         size: [u32; 2],
         spacing: u32,
     ) -> Self {
         // One point before the picture and two behind it: pixels interpolate, and points gather from their neighbours.
         let [columns, rows] = size.map(|side| (side.div_ceil(spacing) + 4) as usize);
         let level = tracer.surface.low.y;
+        let is_covered = |point: [usize; 2]| {
+            let [x, y] = point.map(|place| place.saturating_sub(1) as u32 * spacing);
+            coverage.contains(x, y)
+        };
         let at = |index: usize| {
             let [column, row] = [index % columns, index / columns];
             let pixel = |point: usize| (point as f32 - 1.0) * spacing as f32;
-            let place = camera.on_level(Vec2::new(pixel(column), pixel(row)), level)?;
+            let (origin, direction) = camera.ray(Vec2::new(pixel(column), pixel(row)));
+            let distance = on_level(origin, direction, level)?;
+            let place = origin + direction * distance;
+            if shadow_fade(place, &tracer.surface) <= 0.0 {
+                return None;
+            }
             let share = (row % CELL as usize) * CELL as usize + column % CELL as usize;
-            let lit = shadow_fade(place, &tracer.surface) > 0.0;
-            lit.then(|| ground_light(&lights.on_ground(tracer, place, share), lights))
+            let hides = |hit: Hit| hit.distance < distance;
+            let is_hidden = is_covered([column, row])
+                && tracer.closest(origin, direction, 0.0).is_some_and(hides);
+            Some(LatticePoint {
+                light: ground_light(&lights.on_ground(tracer, place, share), lights),
+                is_seen: !is_hidden,
+            })
         };
-        let own: Vec<Option<f32>> = (0..columns * rows).into_par_iter().map(at).collect();
+        let own: Vec<Option<LatticePoint>> = (0..columns * rows).into_par_iter().map(at).collect();
         // Each of the rays of a cell has the same weight.
-        let gathered = |index: usize| {
+        let gathered = |index: usize, counts: fn(&LatticePoint) -> bool| {
             let [column, row] = [index % columns, index / columns];
             let mut sum = 0.0;
             let mut weights = 0.0;
@@ -77,18 +102,27 @@ impl GroundLight {
                     (column + 1, 1.0),
                 ] {
                     let inside = x < columns && y < rows;
-                    if let Some(Some(light)) = inside.then(|| own[y * columns + x]) {
-                        sum += light * high * wide;
+                    let point = if inside {
+                        own[y * columns + x].as_ref()
+                    } else {
+                        None
+                    };
+                    if let Some(point) = point.filter(|point| counts(point)) {
+                        sum += point.light * high * wide;
                         weights += high * wide;
                     }
                 }
             }
-            if weights > 0.0 { sum / weights } else { 1.0 }
+            (weights > 0.0).then(|| sum / weights)
+        };
+        let light = |index: usize| {
+            let seen = gathered(index, |point| point.is_seen);
+            seen.or_else(|| gathered(index, |_| true)).unwrap_or(1.0)
         };
         Self {
             spacing,
             columns,
-            points: (0..columns * rows).map(gathered).collect(),
+            points: (0..columns * rows).map(light).collect(),
         }
     }
 

@@ -248,7 +248,16 @@ pub(super) fn draw(
     };
     let spacing = sampling.ground.spacing;
     let is_lit = options.shading != Shading::Unlit;
-    let ground = is_lit.then(|| GroundLight::new(tracer, &lights, camera, options.size, spacing));
+    let ground = is_lit.then(|| {
+        GroundLight::new(
+            tracer,
+            &lights,
+            camera,
+            sampler.coverage,
+            options.size,
+            spacing,
+        )
+    });
     let side = sampling.tile;
     let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
     let bands = pixels
