@@ -102,11 +102,7 @@ impl GroundLight {
                     (column + 1, 1.0),
                 ] {
                     let inside = x < columns && y < rows;
-                    let point = if inside {
-                        own[y * columns + x].as_ref()
-                    } else {
-                        None
-                    };
+                    let point = inside.then(|| own[y * columns + x].as_ref()).flatten();
                     if let Some(point) = point.filter(|point| counts(point)) {
                         sum += point.light * high * wide;
                         weights += high * wide;

@@ -20,7 +20,7 @@ pub(super) struct Rings {
 
 impl Rings {
     pub(super) fn of(outline: &Outline) -> Rings {
-        let count = outline.rings().map(Vec::len).sum();
+        let count = outline.point_count();
         let mut all = Rings {
             points: Vec::with_capacity(count),
             next: Vec::with_capacity(count),

@@ -29,7 +29,7 @@ pub(in crate::solid) fn points(outline: &Outline, width: f64, segments: u32) -> 
         edges: Vec::new(),
     };
     let radius = width / 2.0;
-    let apart = (ALONG * width).max(4.0 * perimeter(outline) / MAX_COLUMNS as f64);
+    let apart = apart(outline, width);
     let mut columns = Vec::new();
     for ring in outline.rings() {
         border(ring, radius, apart, &mut all, &mut columns);
@@ -40,10 +40,14 @@ pub(in crate::solid) fn points(outline: &Outline, width: f64, segments: u32) -> 
     all
 }
 
-/// How many points there are between those of the outline of a line of this width.
+/// The distance between points along the outline of a line of this width.
+fn apart(outline: &Outline, width: f64) -> f64 {
+    (ALONG * width).max(4.0 * perimeter(outline) / MAX_COLUMNS as f64)
+}
+
+/// About how many points there are between those of the outline of a line of this width.
 pub(in crate::solid) fn points_between(outline: &Outline, width: f64) -> usize {
-    let count = perimeter(outline) / (ALONG * width);
-    count.min((MAX_COLUMNS / 4) as f64) as usize
+    (perimeter(outline) / apart(outline, width)) as usize
 }
 
 /// Adds the points of a ring, and the columns that stand on them.
