@@ -14,7 +14,7 @@ use super::surface::Alpha;
 use super::trace::Tracer;
 
 /// The rays that decide whether a pixel contains an edge.
-const MIN_RAYS: usize = 4;
+pub(super) const MIN_RAYS: usize = 4;
 /// The largest number of surfaces that a ray passes through.
 const MAX_LAYERS: usize = 64;
 /// Below this transmittance nothing more is visible.
@@ -88,7 +88,7 @@ impl PixelSampler<'_> {
         };
         let mut rays = 0;
         for index in 0..self.sampling.edge {
-            let uniform = index == few && self.is_uniform(&out[first..], few);
+            let uniform = index == few && self.are_uniform(&out[first..], few as f32 - 0.5);
             if uniform {
                 break;
             }
@@ -101,6 +101,22 @@ impl PixelSampler<'_> {
             rays += 1;
         }
         average(&mut out[first..], rays);
+    }
+
+    /// As [`sample`](Self::sample), by the first few rays. `met` gives the triangles that they meet.
+    pub(super) fn sample_few(
+        &self,
+        x: u32,
+        y: u32,
+        met: impl Fn(usize) -> Option<usize>,
+        out: &mut Vec<Fragment>,
+    ) {
+        let first = out.len();
+        let corner = Vec2::new(x as f32, y as f32);
+        for index in 0..MIN_RAYS {
+            self.show(met(index), corner + even(index), first, out);
+        }
+        average(&mut out[first..], MIN_RAYS);
     }
 
     /// As [`sample`](Self::sample), by the ray through the middle. `met` is the triangle that it meets, if this is known.
@@ -139,9 +155,15 @@ impl PixelSampler<'_> {
             })
     }
 
-    /// Whether the first `few` rays are enough.
+    /// Whether a pixel that was sampled by so many rays needs no more.
     #[inline]
-    fn is_uniform(&self, seen: &[Fragment], few: usize) -> bool {
+    pub(super) fn is_uniform(&self, seen: &[Fragment], rays: usize) -> bool {
+        self.are_uniform(seen, 1.0 - 0.5 / rays as f32)
+    }
+
+    /// Whether there is one plain surface, with more than this weight, or nothing.
+    #[inline]
+    fn are_uniform(&self, seen: &[Fragment], least: f32) -> bool {
         match seen {
             [] => true,
             [one] => {
@@ -152,7 +174,7 @@ impl PixelSampler<'_> {
                         material.sampler.is_none() && material.alpha == Alpha::Opaque
                     }
                 };
-                flat && one.weight > few as f32 - 0.5
+                flat && one.weight > least
             }
             _ => false,
         }

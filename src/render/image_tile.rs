@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
-use super::fragment::{Fragment, FragmentKind, PixelSampler, same_surface};
+use super::fragment::{Fragment, FragmentKind, MIN_RAYS, PixelSampler, same_surface};
 use super::ground::{GroundLight, shadow_fade, shadow_on_lines};
 use super::light::{IncidentLight, Lights, share};
 use super::raster::Area;
@@ -155,6 +155,13 @@ fn base_color(fragments: &[Fragment], lines: f32) -> Vec4 {
     parts.sum()
 }
 
+/// The pixels of an area that are in the picture or behind it, row by row.
+fn pixels_of(area: Area) -> impl Iterator<Item = [u32; 2]> {
+    let rows = area.top.max(0)..area.top + i64::from(area.height);
+    let columns = area.left.max(0)..area.left + i64::from(area.width);
+    rows.flat_map(move |y| columns.clone().map(move |x| [x as u32, y as u32]))
+}
+
 /// The fragments of a tile and its halo.
 struct Tile {
     left: i64,
@@ -177,46 +184,45 @@ impl Tile {
         let size = [width + 2 * HALO, height + 2 * HALO];
         // Pixels that show nothing but the ground need no fragments: the light on it is known.
         let is_bare = |x: u32, y: u32| !sampler.coverage.contains(x, y);
-        let mut tile = match sampler.sampling.refinement {
-            Refinement::Pixel => Self::filled(corner, size, |x, y, out| {
+        let area = Area {
+            left: corner[0],
+            top: corner[1],
+            width: size[0],
+            height: size[1],
+        };
+        let mut tile = match (sampler.sampling.refinement, &sampler.raster) {
+            (Refinement::Pixel, None) => Self::filled(corner, size, |x, y, out| {
                 if !is_bare(x, y) {
                     sampler.sample(x, y, TRACED, out);
                 }
             }),
-            Refinement::Neighbors => {
-                let area = Area {
-                    left: corner[0],
-                    top: corner[1],
-                    width: size[0],
-                    height: size[1],
-                };
-                let middles = sampler.raster.as_ref().map(|raster| raster.middles(area));
+            (Refinement::Pixel, Some(raster)) => {
+                let covered = pixels_of(area).filter(|[x, y]| !is_bare(*x, *y));
+                let covered: Vec<[u32; 2]> = covered.collect();
+                let samples = raster.samples(area, &covered, MIN_RAYS);
+                let mut number = 0..;
+                let few = Self::filled(corner, size, |x, y, out| {
+                    if !is_bare(x, y)
+                        && let Some(pixel) = number.next()
+                    {
+                        sampler.sample_few(x, y, |index| samples.at(pixel, index), out);
+                    }
+                });
+                let is_edge = |[x, y]: &[u32; 2]| !sampler.is_uniform(few.at(*x, *y), MIN_RAYS);
+                few.refined(sampler, area, covered.into_iter().filter(is_edge).collect())
+            }
+            (Refinement::Neighbors, raster) => {
+                let middles = raster.as_ref().map(|raster| raster.middles(area));
                 let once = Self::filled(corner, size, |x, y, out| {
                     if !is_bare(x, y) {
                         let met = middles.as_ref().map(|middles| middles.at(x, y));
                         sampler.sample_once(x, y, met, out);
                     }
                 });
-                let is_enough = |x: u32, y: u32| {
-                    is_bare(x, y) || sampler.is_enough(once.at(x, y), once.neighbors(x, y))
+                let is_edge = |[x, y]: &[u32; 2]| {
+                    !is_bare(*x, *y) && !sampler.is_enough(once.at(*x, *y), once.neighbors(*x, *y))
                 };
-                let edges: Vec<[u32; 2]> =
-                    once.pixels().filter(|[x, y]| !is_enough(*x, *y)).collect();
-                let count = sampler.sampling.edge;
-                let samples = sampler.raster.as_ref();
-                let samples = samples.map(|raster| raster.samples(area, &edges, count));
-                let mut edges = edges.into_iter().enumerate().peekable();
-                Self::filled(corner, size, |x, y, out| {
-                    match edges.next_if(|(_, edge)| *edge == [x, y]) {
-                        None => out.extend_from_slice(once.at(x, y)),
-                        // Most pixels beside an edge contain none: the first few rays tell.
-                        Some((edge, _)) => {
-                            let met = samples.as_ref();
-                            let met = met.map(|samples| move |index| samples.at(edge, index));
-                            sampler.sample(x, y, met, out);
-                        }
-                    }
-                })
+                once.refined(sampler, area, pixels_of(area).filter(is_edge).collect())
             }
         };
         let width = tile.width;
@@ -234,6 +240,27 @@ impl Tile {
             }
         }
         tile
+    }
+
+    /// The tile with all rays of the pixels at edges, which are listed row by row.
+    fn refined(&self, sampler: &PixelSampler<'_>, area: Area, edges: Vec<[u32; 2]>) -> Self {
+        let count = sampler.sampling.edge;
+        let samples = sampler.raster.as_ref();
+        let samples = samples.map(|raster| raster.samples(area, &edges, count));
+        let mut edges = edges.into_iter().enumerate().peekable();
+        Self::filled(
+            [area.left, area.top],
+            [area.width, area.height],
+            |x, y, out| match edges.next_if(|(_, edge)| *edge == [x, y]) {
+                None => out.extend_from_slice(self.at(x, y)),
+                // Most pixels beside an edge contain none: the first few rays tell.
+                Some((edge, _)) => {
+                    let met = samples.as_ref();
+                    let met = met.map(|samples| move |index| samples.at(edge, index));
+                    sampler.sample(x, y, met, out);
+                }
+            },
+        )
     }
 
     /// A tile whose pixels `sample` gives. Those left of the picture and above it have no fragments.
@@ -260,15 +287,6 @@ impl Tile {
             fragments,
             starts,
         }
-    }
-
-    /// The pixels of the tile and its halo, as far as they are in the picture or behind it.
-    fn pixels(&self) -> impl Iterator<Item = [u32; 2]> {
-        let width = self.width as i64;
-        let height = (self.starts.len() as i64 - 1) / width;
-        let rows = self.top.max(0)..self.top + height;
-        let columns = self.left.max(0)..self.left + width;
-        rows.flat_map(move |y| columns.clone().map(move |x| [x as u32, y as u32]))
     }
 
     /// The fragments of the pixels beside, above and below a pixel, as far as they are in the tile or its halo.

@@ -17,7 +17,7 @@
 //! on every machine. There is no noise and no random number: each pixel of a block of four
 //! by four sends its own sixteenth of one fixed set of rays, and gathers the rest from its neighbours on the same
 //! surface (interleaved sampling: Keller and Heidrich 2001). Same input, same picture, on any number of threads. Pictures of
-//! films take fewer rays than still ones, and what their camera sees is rasterised.
+//! films take fewer rays than still ones. What the camera sees first is found by going through the triangles, unless they are large.
 //!
 //! Conventions: the model's axes are glTF's (right-handed, +Y up, its front looks along +Z). Rendering happens in
 //! normalised space: the world moved and scaled so that the model's bounding box is centred at the origin and its longest side is 1.

@@ -15,7 +15,7 @@ use super::image_tile::{HALO, draw_tile};
 use super::light::Lights;
 use super::model::Model;
 use super::raster::Raster;
-use super::sampling::{FILM, Refinement, STILL, Sampling};
+use super::sampling::{FILM, STILL, Sampling};
 use super::surface::{Normalization, Surface};
 use super::trace::Tracer;
 use super::{MAX_SIDE, Options, RenderError, Shading, on_pool};
@@ -228,26 +228,19 @@ pub(super) fn draw(
     } = take;
     let lights = Lights::new(camera.yaw, sampling);
     let places = places(&tracer.surface, camera);
-    let raster = match sampling.refinement {
-        Refinement::Neighbors if options.shading != Shading::Unlit => Raster::new(
-            tracer,
-            camera,
-            &places,
-            options.size.map(|side| side + HALO),
-        ),
-        _ => None,
-    };
+    let is_lit = options.shading != Shading::Unlit;
+    let size = options.size.map(|side| side + HALO);
+    let raster = is_lit.then(|| Raster::new(tracer, camera, &places, size));
     let sampler = PixelSampler {
         tracer,
         camera,
         coverage: &Coverage::new(&tracer.surface, &places, options.size, HALO),
-        raster,
+        raster: raster.flatten(),
         sampling,
         shading: options.shading,
         floor: *floor,
     };
     let spacing = sampling.ground.spacing;
-    let is_lit = options.shading != Shading::Unlit;
     let ground = is_lit.then(|| {
         GroundLight::new(
             tracer,

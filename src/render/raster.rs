@@ -1,5 +1,5 @@
 //! Finds what the rays of a picture meet by going through its triangles, each of which meets few rays, instead of going through its
-//! rays. In pictures of films most triangles are about as large as a pixel, so this is several times faster.
+//! rays. In most pictures triangles are not much larger than a pixel, so this is several times faster.
 //!
 //! The formulas are those of [`super::lanes`], for rays whose direction is not normalised: its length along the camera's axis is 1. Their
 //! numerators are then linear in the place in the picture.

@@ -48,8 +48,8 @@ pub(super) static STILL: Sampling = Sampling {
     refinement: Refinement::Pixel,
     empty: 4,
     model: LightRays {
-        lamps: [3, 1, 1],
-        sky: 6,
+        lamps: [2, 1, 1],
+        sky: 4,
     },
     // Faint shadows show on white, and only the key lamp casts one.
     ground: GroundSampling {
@@ -59,7 +59,7 @@ pub(super) static STILL: Sampling = Sampling {
             sky: 20,
         },
     },
-    tile: 64,
+    tile: 128,
 };
 
 /// A picture of a film, which is seen for a moment. The rays are the same in all pictures, so that nothing flickers.
