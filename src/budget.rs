@@ -22,9 +22,9 @@ impl Work {
     /// How much of it is free for any drawing, and how much more each point that it draws allows for.
     const fn allowance(self) -> (u64, u64) {
         match self {
-            Self::Dashes => (20_000, 1),
+            Self::Dashes => (5_000, 1),
             // A plate takes four of each point.
-            Self::Triangles => (2_000_000, 16),
+            Self::Triangles => (1_000_000, 16),
             Self::ClipPoints => (4_000_000, 32),
             // One outline of 4,096.
             Self::ComparedCorners => (1 << 15, 1),
@@ -125,17 +125,17 @@ mod tests {
     #[test]
     fn a_budget_grows_with_the_drawing() {
         let [small, large] = [10, 100_000].map(Budget::of);
-        assert_eq!(small.most(Work::Dashes), 20_000);
+        assert_eq!(small.most(Work::Dashes), 5_000);
         assert_eq!(large.most(Work::Dashes), 100_000);
     }
 
     #[test]
     fn shares_keep_within_a_budget() {
         let budget = Budget::of(0);
-        assert_eq!(budget.share(Work::Dashes, vec![9_000, 11_000]), None);
-        let wanted = vec![50_000, 1000, 30_000, 9000];
+        assert_eq!(budget.share(Work::Dashes, vec![2_000, 3_000]), None);
+        let wanted = vec![12_500, 250, 7_500, 2250];
         let share = budget.share(Work::Dashes, wanted.clone()).unwrap();
-        assert_eq!(share, 6_333);
+        assert_eq!(share, 1_583);
         let given: u64 = wanted.iter().map(|own| *own.min(&share)).sum();
         assert!(given <= budget.most(Work::Dashes));
     }
