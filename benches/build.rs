@@ -23,6 +23,8 @@ use sizes::sizes;
 
 /// With this argument, the program is the baseline: it only reads the drawing.
 const BASELINE: &str = "--usvg";
+/// With this one, it prints a drawing of so many parts.
+const DRAWING: &str = "--drawing";
 
 fn main() {
     // cargo passes `--bench`.
@@ -36,6 +38,11 @@ fn main() {
         let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).expect("a sound drawing");
         // Dropping it is not measured.
         std::mem::forget(std::hint::black_box(tree));
+        return;
+    }
+    if arguments.next_if(|argument| argument == DRAWING).is_some() {
+        let parts = arguments.next().and_then(|parts| parts.parse().ok());
+        print!("{}", drawing(parts.expect("a number of parts")).0);
         return;
     }
     let sizes = sizes(arguments, &[1_000, 10_000, 100_000]);
