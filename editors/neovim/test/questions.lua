@@ -146,7 +146,7 @@ return {
     'completion behind @, $ and Shape, and what is told of a proposal',
     function()
       h.open(h.example('human.svg'))
-      h.equal(labels(complete(arm, 5)), { 'Lbody', 'Ubody', 'Larm', 'Head', 'U-1', 'U-2' })
+      h.equal(labels(complete(arm, 5)), { 'Lbody', 'Larm', 'Ubody', 'Head', 'U-1', 'U-2' })
       local keywords = complete(arm, 11)
       h.equal(vim.list_slice(labels(keywords), 1, 4), { 'Color', 'Offset', 'Stack', 'Origin' })
       local kinds = complete(arm, 17)
