@@ -16,6 +16,8 @@ pub(crate) enum Work {
     ClipPoints,
     /// Pairs of corners of outlines with many, in kinds of solids that compare them, in units of 512.
     ComparedCorners,
+    /// Pairs of shapes that lie over one another.
+    Overlaps,
 }
 
 impl Work {
@@ -28,6 +30,7 @@ impl Work {
             Self::ClipPoints => (4_000_000, 32),
             // One outline of 4,096.
             Self::ComparedCorners => (1 << 15, 1),
+            Self::Overlaps => (1 << 14, 1),
         }
     }
 }

@@ -218,7 +218,7 @@ impl Layers {
         let recent = memo.get((), |_: &()| Arc::new(RecentHeights::default()));
         let mut shapes = shapes(context);
         let mut nodes = Nodes::new(context, &shapes);
-        let overlaps = overlaps(&shapes);
+        let overlaps = overlaps(&shapes, context.drawing.budget);
         let solid = |shape: &Shape| {
             shape.solid(context.natural(
                 frames,

@@ -4,6 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::shapes::Shape;
+use crate::budget::{Budget, Work};
 use crate::geometry::{Intervals, OrderedBoxes, Scanlines};
 use crate::threads::GRAIN;
 
@@ -32,16 +33,23 @@ pub(super) struct Scratch {
     other: Intervals,
 }
 
-/// Per shape those that it lies over, back-most first.
-pub(super) fn overlaps(shapes: &[Shape]) -> Vec<Vec<Overlap>> {
+/// Per shape those that it lies over, back-most first. If all together are over the budget, those on top of many have only the topmost
+/// of these, which hide most of the others.
+pub(super) fn overlaps(shapes: &[Shape], budget: Budget) -> Vec<Vec<Overlap>> {
     let boxes = OrderedBoxes::new(shapes.iter().map(|shape| shape.bounds).collect());
-    (0..shapes.len())
-        .into_par_iter()
-        .with_min_len(GRAIN)
+    let shapes_below = (0..shapes.len()).into_par_iter().with_min_len(GRAIN);
+    let mut overlaps: Vec<Vec<Overlap>> = shapes_below
         .map_init(Scratch::default, |scratch, shape| {
             below(shapes, shape, &boxes, scratch)
         })
-        .collect()
+        .collect();
+    let counts = overlaps.iter().map(|below| below.len() as u64);
+    if let Some(share) = budget.share(Work::Overlaps, counts.collect()) {
+        for below in &mut overlaps {
+            below.drain(..below.len().saturating_sub(share as usize));
+        }
+    }
+    overlaps
 }
 
 fn below(
