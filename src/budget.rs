@@ -12,6 +12,8 @@ pub(crate) enum Work {
     Dashes,
     /// Triangles of solids.
     Triangles,
+    /// Triangles of what is rounded or pointed, with the fewest layers that it may have.
+    LeastTriangles,
     /// Points of clips, once for each shape that is clipped.
     ClipPoints,
     /// Pairs of corners of outlines with many, in kinds of solids that compare them, in units of 512.
@@ -27,6 +29,7 @@ impl Work {
             Self::Dashes => (5_000, 1),
             // A plate takes four of each point.
             Self::Triangles => (1_000_000, 16),
+            Self::LeastTriangles => (600_000, 16),
             Self::ClipPoints => (4_000_000, 32),
             // One outline of 4,096.
             Self::ComparedCorners => (1 << 15, 1),

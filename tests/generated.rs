@@ -105,6 +105,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::IdleBend, "bend-without-effect"),
     (Code::LongerDashes, "limit-dashes"),
     (Code::TooFine, "limit-corners"),
+    (Code::TooMuchRound, "limit-round"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),
     (Code::AxisGuess, "shape-axis-guess"),

@@ -1,54 +1,113 @@
-//! Outlines with too many corners for their `Shape`: what is rounded or pointed, but for what is inflated, takes work that grows faster
-//! than the number of corners.
+//! What is too fine to be round: outlines with too many corners for their `Shape`, and solids of too many triangles.
+
+use glam::DVec2;
 
 use super::bindings::{Bindings, Part, PartId, PartKind};
 use crate::budget::Work;
 use crate::diagnostic::{Code, Diagnostic, listed};
+use crate::solid::{self, LEAST_SEGMENTS, Placement, Profile};
+use crate::source::Span;
 use crate::svg::Drawing;
 
 /// Shapes with so many corners are never too fine.
 const FEW: u64 = 512;
 
-/// Makes plates of the shapes with the most corners if all of them together would go over the budget of the drawing, and says so.
+/// Makes plates of the shapes that would cause the most work if all of them together would go over the budgets of the drawing, and says
+/// so.
 pub(super) fn limit(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    let (too_many, most) = parts_over(drawing, bindings, Work::ComparedCorners, compared_corners);
+    if let Some(first) = too_many.first().copied() {
+        let kind = bindings.attributes(bindings.form(first)).shape().kind;
+        let most = (most * FEW).isqrt();
+        let message = format!(
+            "{}: {} too many corners for `{kind}`, which takes {most} in this drawing",
+            are_plates(bindings, &too_many),
+            if too_many.len() == 1 {
+                "it has"
+            } else {
+                "they have"
+            },
+        );
+        let help = "simplify the path (in Inkscape: Path → Simplify), or write `Shape inflate`, which has no such limit";
+        let warning = Diagnostic::new(Code::TooFine, place(drawing, bindings, first), message);
+        diagnostics.push(warning.help(help));
+        make_plates(bindings, &too_many);
+    }
+    let (too_many, _) = parts_over(drawing, bindings, Work::LeastTriangles, least_triangles);
+    if let Some(first) = too_many.first().copied() {
+        let most = drawing.budget.most(Work::LeastTriangles);
+        let message = format!(
+            "{}: if all were round, the drawing would have more than {most} triangles for them, even with `Segments {LEAST_SEGMENTS}`",
+            are_plates(bindings, &too_many),
+        );
+        let help = "draw fewer or simpler shapes (in Inkscape: Path → Simplify), or write `Shape default` for those that may be flat";
+        let warning = Diagnostic::new(Code::TooMuchRound, place(drawing, bindings, first), message);
+        diagnostics.push(warning.help(help));
+        make_plates(bindings, &too_many);
+    }
+}
+
+/// The parts that may have less of a kind of work than what is wanted for them, and how much each may have at most.
+fn parts_over(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    work: Work,
+    wanted: impl Fn(&Part, &Profile) -> Option<u64>,
+) -> (Vec<PartId>, u64) {
     let parts = bindings.parts.iter_enumerated();
     let built = parts.filter(|(_, part)| matches!(part.kind, PartKind::Main | PartKind::Sub));
-    let counted = built.map(|(index, part)| (index, part.outline.point_count() as u64));
-    let fine = counted.filter(|(part, corners)| {
-        let profile = || bindings.profile(drawing, *part);
-        *corners > FEW
-            && profile()
-                .is_some_and(|profile| profile.is_soft() && profile.height_field().is_none())
+    let wanted = built.filter_map(|(index, part)| {
+        let profile = bindings.profile(drawing, index)?;
+        let is_soft = profile.is_soft();
+        Some((index, wanted(part, &profile).filter(|_| is_soft)?))
     });
-    let fine: Vec<(PartId, u64)> = fine.collect();
-    let work = |corners: u64| corners * corners / FEW;
-    let wanted = fine.iter().map(|(_, corners)| work(*corners)).collect();
-    let Some(share) = drawing.budget.share(Work::ComparedCorners, wanted) else {
-        return;
+    let wanted: Vec<(PartId, u64)> = wanted.collect();
+    let amounts = wanted.iter().map(|(_, amount)| *amount);
+    let Some(share) = drawing.budget.share(work, amounts.collect()) else {
+        return (Vec::new(), 0);
     };
-    let too_fine = fine.iter().filter(|(_, corners)| work(*corners) > share);
-    let too_fine: Vec<PartId> = too_fine.map(|(part, _)| *part).collect();
-    let Some(first) = too_fine.first().copied() else {
-        return;
+    let over = wanted.iter().filter(|(_, amount)| *amount > share);
+    (over.map(|(part, _)| *part).collect(), share)
+}
+
+/// The pairs of corners that are compared to round an outline, but for what is inflated.
+fn compared_corners(part: &Part, profile: &Profile) -> Option<u64> {
+    let corners = part.outline.point_count() as u64;
+    (corners > FEW && profile.height_field().is_none()).then_some(corners * corners / FEW)
+}
+
+/// The triangles that a solid has if it is as coarse as may be.
+fn least_triangles(part: &Part, profile: &Profile) -> Option<u64> {
+    let half = DVec2::new(part.measure.half_across, part.measure.half_along);
+    let options = solid::Options {
+        segments: LEAST_SEGMENTS,
+        crease: 0.0,
+        placement: Placement::default(),
     };
-    let names = too_fine.iter();
+    Some(profile.triangles(&part.outline, half, &options))
+}
+
+/// Says which parts are plates.
+fn are_plates(bindings: &Bindings, parts: &[PartId]) -> String {
+    let names = parts.iter();
     let names = listed(names.map(|part| format!("`{}`", bindings.parts[*part].name)));
-    let are_plates = match too_fine.len() {
-        1 => format!("{names} is a plate: it has"),
-        count => format!("{count} shapes are plates, {names}: they have"),
-    };
-    let kind = bindings.attributes(bindings.form(first)).shape().kind;
-    let most = (share * FEW).isqrt();
-    let message =
-        format!("{are_plates} too many corners for `{kind}`, which takes {most} in this drawing");
-    let Part { string, shape, .. } = &bindings.parts[first];
-    let span = match string {
+    match parts.len() {
+        1 => format!("{names} is a plate"),
+        count => format!("{count} shapes are plates, {names}"),
+    }
+}
+
+/// Where it is said that a part is a plate: its string or its shape.
+fn place(drawing: &Drawing, bindings: &Bindings, part: PartId) -> Span {
+    let Part { string, shape, .. } = &bindings.parts[part];
+    match string {
         Some(string) => bindings.strings[*string].text.whole(),
         None => drawing.shapes[*shape].element.span,
-    };
-    let help = "simplify the path (in Inkscape: Path → Simplify), or write `Shape inflate`, which has no such limit";
-    diagnostics.push(Diagnostic::new(Code::TooFine, span, message).help(help));
-    for part in too_fine {
-        bindings.parts[part].is_too_fine = true;
+    }
+}
+
+fn make_plates(bindings: &mut Bindings, parts: &[PartId]) {
+    for part in parts {
+        bindings.parts[*part].is_too_fine = true;
     }
 }

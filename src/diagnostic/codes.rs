@@ -622,6 +622,15 @@ codes! {
     ///
     /// Simplify the path, in Inkscape with *Path → Simplify*, or use `Shape inflate`, which has no such limit.
     TooFine = "W335", "too many corners";
+    /// So much of the drawing is rounded or pointed that its solids would have too many triangles, however few layers each has. Those that
+    /// take the most are plates instead. A line has more of them the longer and thinner it is.
+    ///
+    /// ```text
+    /// a thousand hair-thin lines across the page
+    /// ```
+    ///
+    /// Draw fewer shapes or simpler ones, in Inkscape with *Path → Simplify*, or write `Shape default` for those that may be flat.
+    TooMuchRound = "W336", "too much that is round";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

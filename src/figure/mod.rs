@@ -32,7 +32,7 @@ use crate::resolver::Resolver;
 use crate::scene::{
     MaterialId, Mesh, NodeId, PartMaterial, Primitive, Scene, SurfacePatch, WorldTransform,
 };
-use crate::solid::{self, LaidSolid, Placement, Profile, Sides, Solid};
+use crate::solid::{self, LEAST_SEGMENTS, LaidSolid, Placement, Profile, Sides, Solid};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
@@ -90,8 +90,7 @@ pub(crate) struct Figures<'a> {
 /// A deviation that nobody sees, as a share of the larger extent of all parts: a twentieth of a pixel in a picture a thousand
 /// pixels wide.
 const INVISIBLE: f64 = 5e-5;
-/// The fewest layers per half turn of roundings in drawings with very many triangles, and the most.
-const LEAST_SEGMENTS: u32 = 4;
+/// The most layers per half turn of roundings in drawings with very many triangles.
 const MOST_SEGMENTS: u32 = 512;
 /// How far ink comes out at most, as a share of its stroke's width.
 const MAX_INK_STEP: f64 = 0.5;

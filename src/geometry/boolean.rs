@@ -38,7 +38,7 @@ const SLIVER: f64 = 1e-6;
 const VALID_EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
 
 /// The area that rings enclose by a fill rule, as valid polygons. If they cross more than 20,000 times, it is exact to
-/// within about 1/2,000 of their extent, or less where it has very many pieces.
+/// within about 1/1,000 of their extent, or less where it has very many pieces.
 pub fn resolve_overlaps(rings: Vec<Ring>, rule: FillRule) -> Outline {
     resolve_crossings(rings, rule).0
 }

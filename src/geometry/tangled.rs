@@ -9,15 +9,18 @@ use crate::budget::{self, Step};
 pub(super) const MAX_CROSSINGS: usize = 20_000;
 /// How many pairs of edges are compared. Rings with more edges above each other that hardly cross are let through.
 const MAX_PAIRS: usize = 1 << 26;
+/// The same for so many rings or more, which are not let through: rings in rings take long even where they only come close.
+const MAX_PAIRS_OF_RINGS: usize = 1 << 24;
+const MANY_RINGS: usize = 256;
 /// Pixels along the longer side of the picture, at most and at least.
-const SIDES: std::ops::RangeInclusive<u32> = 64..=2048;
+const SIDES: std::ops::RangeInclusive<u32> = 64..=1024;
 /// How many rows of pixels the edges of a picture may pass, all together, at more than the smallest size.
-const MAX_ROWS: f64 = 4e6;
+const MAX_ROWS: f64 = 1e6;
 /// The largest number of points of an area that is taken from a picture at more than the smallest size.
-const MAX_POINTS: usize = 100_000;
+const MAX_POINTS: usize = 30_000;
 
-/// How often the edges of rings cross, or a number above 20,000: sweep and prune along the axis along which edges are
-/// shorter, compared with all of the rings.
+/// How often the edges of rings cross, or a number above 20,000, also where many rings lie in one another very densely: sweep and prune
+/// along the axis along which edges are shorter, compared with all of the rings.
 pub(crate) fn crossings(rings: &[Ring]) -> usize {
     let count: usize = rings.iter().map(Vec::len).sum();
     let mut edges: Vec<[DVec2; 2]> = Vec::with_capacity(count);
@@ -46,6 +49,9 @@ pub(crate) fn crossings(rings: &[Ring]) -> usize {
         for b in edges[index + 1..].iter().take_while(|b| b[0].x < a[1].x) {
             pairs += 1;
             crossings += usize::from(cross(a, b));
+        }
+        if rings.len() >= MANY_RINGS && pairs > MAX_PAIRS_OF_RINGS {
+            crossings = MAX_CROSSINGS + 1;
         }
         if crossings > MAX_CROSSINGS || pairs > MAX_PAIRS {
             break;

@@ -260,7 +260,7 @@ impl<'a> Reasons<'a> {
         } = self.compiled;
         if bindings.parts[part].is_too_fine {
             return Some(Said {
-                text: "a plate: too many corners".to_owned(),
+                text: "a plate: too fine to be round".to_owned(),
                 undo: None,
             });
         }

@@ -40,6 +40,9 @@ pub(crate) use pile::{
 };
 pub use source::{Sides, Solid};
 
+/// The fewest layers per half turn of roundings in drawings with very many triangles.
+pub(crate) const LEAST_SEGMENTS: u32 = 4;
+
 /// What a solid depends on besides its outline and its profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
