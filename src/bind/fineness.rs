@@ -15,59 +15,60 @@ const FEW: u64 = 512;
 /// Makes plates of the shapes that would cause the most work if all of them together would go over the budgets of the drawing, and says
 /// so.
 pub(super) fn limit(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
-    let (too_many, most) = parts_over(drawing, bindings, Work::ComparedCorners, compared_corners);
-    if let Some(first) = too_many.first().copied() {
-        let kind = bindings.attributes(bindings.form(first)).shape().kind;
-        let most = (most * FEW).isqrt();
+    if let Some((parts, share)) =
+        parts_over(drawing, bindings, Work::ComparedCorners, compared_corners)
+    {
+        let kind = bindings.attributes(bindings.form(parts[0])).shape().kind;
+        let have = if parts.len() == 1 {
+            "it has"
+        } else {
+            "they have"
+        };
+        let most = (share * FEW).isqrt();
         let message = format!(
-            "{}: {} too many corners for `{kind}`, which takes {most} in this drawing",
-            are_plates(bindings, &too_many),
-            if too_many.len() == 1 {
-                "it has"
-            } else {
-                "they have"
-            },
+            "{}: {have} too many corners for `{kind}`, which takes {most} in this drawing",
+            are_plates(bindings, &parts),
         );
         let help = "simplify the path (in Inkscape: Path → Simplify), or write `Shape inflate`, which has no such limit";
-        let warning = Diagnostic::new(Code::TooFine, place(drawing, bindings, first), message);
+        let warning = Diagnostic::new(Code::TooFine, place(drawing, bindings, parts[0]), message);
         diagnostics.push(warning.help(help));
-        make_plates(bindings, &too_many);
+        make_plates(bindings, &parts);
     }
-    let (too_many, _) = parts_over(drawing, bindings, Work::LeastTriangles, least_triangles);
-    if let Some(first) = too_many.first().copied() {
+    if let Some((parts, _)) = parts_over(drawing, bindings, Work::LeastTriangles, least_triangles) {
         let most = drawing.budget.most(Work::LeastTriangles);
         let message = format!(
             "{}: if all were round, the drawing would have more than {most} triangles for them, even with `Segments {LEAST_SEGMENTS}`",
-            are_plates(bindings, &too_many),
+            are_plates(bindings, &parts),
         );
         let help = "draw fewer or simpler shapes (in Inkscape: Path → Simplify), or write `Shape default` for those that may be flat";
-        let warning = Diagnostic::new(Code::TooMuchRound, place(drawing, bindings, first), message);
+        let warning = Diagnostic::new(
+            Code::TooMuchRound,
+            place(drawing, bindings, parts[0]),
+            message,
+        );
         diagnostics.push(warning.help(help));
-        make_plates(bindings, &too_many);
+        make_plates(bindings, &parts);
     }
 }
 
-/// The parts that may have less of a kind of work than what is wanted for them, and how much each may have at most.
+/// The parts for which more of a kind of work is wanted than each of them may have at most, if there are any, and how much that is.
 fn parts_over(
     drawing: &Drawing,
     bindings: &Bindings,
     work: Work,
-    wanted: impl Fn(&Part, &Profile) -> Option<u64>,
-) -> (Vec<PartId>, u64) {
+    wanted: fn(&Part, &Profile) -> Option<u64>,
+) -> Option<(Vec<PartId>, u64)> {
     let parts = bindings.parts.iter_enumerated();
     let built = parts.filter(|(_, part)| matches!(part.kind, PartKind::Main | PartKind::Sub));
     let wanted = built.filter_map(|(index, part)| {
         let profile = bindings.profile(drawing, index)?;
-        let is_soft = profile.is_soft();
-        Some((index, wanted(part, &profile).filter(|_| is_soft)?))
+        Some((index, wanted(part, &profile).filter(|_| profile.is_soft())?))
     });
     let wanted: Vec<(PartId, u64)> = wanted.collect();
     let amounts = wanted.iter().map(|(_, amount)| *amount);
-    let Some(share) = drawing.budget.share(work, amounts.collect()) else {
-        return (Vec::new(), 0);
-    };
+    let share = drawing.budget.share(work, amounts.collect())?;
     let over = wanted.iter().filter(|(_, amount)| *amount > share);
-    (over.map(|(part, _)| *part).collect(), share)
+    Some((over.map(|(part, _)| *part).collect(), share))
 }
 
 /// The pairs of corners that are compared to round an outline, but for what is inflated.

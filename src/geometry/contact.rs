@@ -121,34 +121,35 @@ impl<'a> Sorted<'a> {
         self.edges().iter().filter(is_in).copied().collect()
     }
 
-    /// Whether it holds a ring of another body whose borders are apart from its own.
-    fn holds(&self, other: &Self) -> bool {
+    /// Whether it holds a ring of another body whose borders are apart from its own; also if no steps are left before that is clear.
+    fn holds(&self, other: &Self, left: &mut usize) -> bool {
         let (low, high) = self.body.bounds;
-        let rings = other
-            .body
-            .outlines
-            .iter()
-            .flat_map(|outline| outline.rings());
-        let mut points = rings.filter_map(|ring| ring.first());
+        let outlines = &other.body.outlines;
+        let rings = outlines.iter().flat_map(|outline| outline.rings());
+        let points = rings.filter_map(|ring| ring.first());
+        let mut points = points.filter(|point| point.clamp(low, high) == **point);
+        let edges = self.edges().len();
         points.any(|point| {
             let mut outlines = self.body.outlines.iter();
-            point.clamp(low, high) == *point && outlines.any(|outline| contains(outline, *point))
+            !spend(left, edges) || outlines.any(|outline| contains(outline, *point))
         })
     }
 }
 
+/// Takes steps, and tells whether any are left.
+fn spend(left: &mut usize, steps: usize) -> bool {
+    *left = left.saturating_sub(steps);
+    *left > 0
+}
+
 /// Whether the distance between two bodies is at most `gap`; `true` if no steps are left before that is clear.
 fn are_near(a: &Sorted<'_>, b: &Sorted<'_>, gap: f64, left: &mut usize) -> bool {
-    if a.holds(b) || b.holds(a) {
+    if a.holds(b, left) || b.holds(a, left) {
         return true;
     }
     let around = |body: &Body<'_>| (body.bounds.0 - gap, body.bounds.1 + gap);
     let (near_a, near_b) = (a.edges_in(around(b.body)), b.edges_in(around(a.body)));
-    let mut spend = |steps: usize| {
-        *left = left.saturating_sub(steps);
-        *left > 0
-    };
-    let mut is_near = !spend(a.edges().len() + b.edges().len());
+    let mut is_near = !spend(left, a.edges().len() + b.edges().len());
     // Sweep and prune: each pair is met at the edge that begins farther left.
     let mut sweep = |these: &[Edge], those: &[Edge]| {
         let mut first = 0;
@@ -160,7 +161,7 @@ fn are_near(a: &Sorted<'_>, b: &Sorted<'_>, gap: f64, left: &mut usize) -> bool 
                 && let Some(other) = others.next()
                 && other.low.x <= edge.high.x + gap
             {
-                is_near = edge.is_near(other, gap) || !spend(1);
+                is_near = edge.is_near(other, gap) || !spend(left, 1);
             }
         }
     };
