@@ -67,6 +67,18 @@ function builds(records) {
   return ['| | |', '|---|---|', ...rows.map(([name, value]) => `| ${name} | ${value} |`)].join('\n')
 }
 
+/** Those that were refused, each with the first thing that is said about it. */
+function refused(records) {
+  const rows = records
+    .filter((record) => outcome(record) === 'refused')
+    .map((record) => {
+      const [, code, message] = /error\[(\w+)\]: (.*)/.exec(record.said ?? '') ?? []
+      const why = message === undefined ? 'nothing was said' : `${message.replaceAll('|', '\\|')} (${link(code)})`
+      return `| ${ofDrawing(record)} | ${why} |`
+    })
+  return rows.length ? `Refused were:\n\n| drawing | why |\n|---|---|\n${rows.join('\n')}\n\n` : ''
+}
+
 /** Silhouettes as a whole. */
 function overall(compared) {
   const measured = compared.filter(({ overlap }) => typeof overlap === 'number').sort((a, b) => a.overlap - b.overlap)
@@ -106,7 +118,7 @@ ${rows.join('\n')}${unseen}`
 
 /** The summary of a run. */
 export function summary({ sources, records, listed, heldBack }) {
-  return `${packages(sources, records)}\n\n${builds(records)}\n\n${silhouettes(listed, heldBack)}\n`
+  return `${packages(sources, records)}\n\n${builds(records)}\n\n${refused(records)}${silhouettes(listed, heldBack)}\n`
 }
 
 /** A page with the text between its markers replaced. */
