@@ -14,7 +14,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
 use super::query::{bounds, bounds_of, shoelace};
-use super::tangled::{MAX_CROSSINGS, crossings, pictured};
+use super::tangled::{MAX_CROSSINGS, MAX_PICTURED, crossings, pictured};
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
 use crate::budget::{self, Step};
@@ -38,16 +38,17 @@ const SLIVER: f64 = 1e-6;
 const VALID_EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
 
 /// The area that rings enclose by a fill rule, as valid polygons. If they cross more than 20,000 times, it is exact to
-/// within about 1/1,000 of their extent, or less where it has very many pieces.
+/// within about 1/2,000 of their extent, or less where it has very many pieces.
 pub fn resolve_overlaps(rings: Vec<Ring>, rule: FillRule) -> Outline {
-    resolve_crossings(rings, rule).0
+    resolve_crossings(rings, rule, MAX_PICTURED).0
 }
 
-/// The same, and how often the rings cross, which the time grows with. More than 20,000 times count as 50,000.
-pub(crate) fn resolve_crossings(rings: Vec<Ring>, rule: FillRule) -> (Outline, usize) {
+/// The same, and how often the rings cross, which the time grows with. More than 20,000 times count as 50,000; then the area has about
+/// so many points at most.
+pub(crate) fn resolve_crossings(rings: Vec<Ring>, rule: FillRule, most: usize) -> (Outline, usize) {
     resolve(rings, rule).unwrap_or_else(|tangled| {
         // What is left crosses where rings touch only, unless it is all dots.
-        let area = resolve(pictured(&tangled, rule), FillRule::EvenOdd);
+        let area = resolve(pictured(&tangled, rule, most), FillRule::EvenOdd);
         (area.unwrap_or_default().0, TANGLED)
     })
 }

@@ -1,15 +1,27 @@
 //! Outlines that are wider or narrower by the same distance everywhere.
 
+use glam::DVec2;
 use i_overlay::mesh::float::stroke::offset::StrokeOffset;
 use i_overlay::mesh::float::style::{LineJoin, StrokeStyle};
 
-use super::{FillRule, Outline, resolve_overlaps, subtract, union};
+use resvg::tiny_skia;
+
+use super::{FillRule, Outline, bounds, pixel_borders, resolve_overlaps, subtract, union};
 
 /// The angle between two points of a round corner, radians.
 const ROUND: f64 = 0.3;
+/// Outlines with more points are moved in a picture: the bands along their borders may lie over one another everywhere.
+const MANY: usize = 4096;
+/// Pixels along the longer side of the picture.
+const SIDE: f64 = 1024.0;
 
 /// The outline moved outwards by a distance, user units, or inwards if that is negative. Corners that move apart become round.
+///
+/// The result is exact to within a pixel of a picture of 1,024 along the longer side if the outline has more than 4,096 points.
 pub(crate) fn offset(outline: &Outline, distance: f64) -> Outline {
+    if outline.point_count() > MANY {
+        return offset_in_picture(outline, distance).unwrap_or_default();
+    }
     let rings = outline.rings();
     let rings = rings.map(|ring| ring.iter().map(|p| p.to_array()).collect());
     let rings: Vec<Vec<[f64; 2]>> = rings.collect();
@@ -25,11 +37,56 @@ pub(crate) fn offset(outline: &Outline, distance: f64) -> Outline {
     }
 }
 
+/// The same, in a picture; `None` if nothing is there.
+fn offset_in_picture(outline: &Outline, distance: f64) -> Option<Outline> {
+    let (low, high) = bounds(outline)?;
+    let reach = distance.max(0.0);
+    let (low, high) = (low - reach, high + reach);
+    let scale = SIDE / (high - low).max_element();
+    let [width, height] = ((high - low) * scale).ceil().max(DVec2::ONE).to_array();
+    let (width, height) = (width as u32, height as u32);
+    let mut path = tiny_skia::PathBuilder::new();
+    for ring in outline.rings() {
+        let mut points = ring.iter().map(|point| ((*point - low) * scale).as_vec2());
+        if let Some(first) = points.next() {
+            path.move_to(first.x, first.y);
+            points.for_each(|point| path.line_to(point.x, point.y));
+            path.close();
+        }
+    }
+    let path = path.finish()?;
+    let stroke = tiny_skia::Stroke {
+        width: (2.0 * distance.abs() * scale) as f32,
+        line_join: tiny_skia::LineJoin::Round,
+        ..tiny_skia::Stroke::default()
+    };
+    let picture = |path: &tiny_skia::Path, rule| {
+        let mut mask = tiny_skia::Mask::new(width, height)?;
+        mask.fill_path(path, rule, false, tiny_skia::Transform::identity());
+        Some(mask)
+    };
+    let area = picture(&path, tiny_skia::FillRule::EvenOdd)?;
+    let band = path.stroke(&stroke, 1.0);
+    let band = band.and_then(|band| picture(&band, tiny_skia::FillRule::Winding));
+    let mut rings = pixel_borders(width, height, |x, y| {
+        let at = (y * width + x) as usize;
+        let is_in = |mask: &tiny_skia::Mask| mask.data()[at] != 0;
+        let (in_area, in_band) = (is_in(&area), band.as_ref().is_some_and(is_in));
+        if distance < 0.0 {
+            in_area && !in_band
+        } else {
+            in_area || in_band
+        }
+    });
+    for point in rings.iter_mut().flatten() {
+        *point = low + *point / scale;
+    }
+    Some(resolve_overlaps(rings, FillRule::EvenOdd))
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
-
-    use glam::DVec2;
 
     use super::*;
     use crate::geometry::{Ring, area, bounds, contains};
@@ -65,5 +122,27 @@ mod tests {
     fn what_is_too_narrow_vanishes() {
         assert!(offset(&frame(), -2.2).polygons.is_empty());
         assert!(offset(&Outline::default(), 1.0).polygons.is_empty());
+    }
+
+    #[test]
+    fn a_picture_moves_borders_as_far() {
+        // A gear of 40 teeth with a hole.
+        let around = |count: usize, radius: &dyn Fn(usize) -> f64| -> Ring {
+            let angle = |i: usize| i as f64 * std::f64::consts::TAU / count as f64;
+            (0..count)
+                .map(|i| radius(i) * DVec2::from_angle(angle(i)))
+                .collect()
+        };
+        let teeth = around(800, &|i| if i / 10 % 2 == 0 { 100.0 } else { 90.0 });
+        let hole = around(60, &|_| 30.0);
+        let gear = resolve_overlaps(vec![teeth, hole], FillRule::EvenOdd);
+        for distance in [-12.0, -3.0, 2.0, 9.0] {
+            let exact = area(&offset(&gear, distance));
+            let pictured = area(&offset_in_picture(&gear, distance).unwrap());
+            assert!(
+                (pictured / exact - 1.0).abs() < 0.004,
+                "{distance}: {pictured}, not {exact}"
+            );
+        }
     }
 }

@@ -13,11 +13,11 @@ const MAX_PAIRS: usize = 1 << 26;
 const MAX_PAIRS_OF_RINGS: usize = 1 << 24;
 const MANY_RINGS: usize = 256;
 /// Pixels along the longer side of the picture, at most and at least.
-const SIDES: std::ops::RangeInclusive<u32> = 64..=1024;
+const SIDES: std::ops::RangeInclusive<u32> = 64..=2048;
 /// How many rows of pixels the edges of a picture may pass, all together, at more than the smallest size.
-const MAX_ROWS: f64 = 1e6;
-/// The largest number of points of an area that is taken from a picture at more than the smallest size.
-const MAX_POINTS: usize = 30_000;
+const MAX_ROWS: f64 = 4e6;
+/// The largest number of points of all areas of a drawing that are taken from pictures at more than the smallest size.
+pub(crate) const MAX_PICTURED: usize = 100_000;
 
 /// How often the edges of rings cross, or a number above 20,000, also where many rings lie in one another very densely: sweep and prune
 /// along the axis along which edges are shorter, compared with all of the rings.
@@ -61,8 +61,9 @@ pub(crate) fn crossings(rings: &[Ring]) -> usize {
     crossings
 }
 
-/// The borders of the area that rings enclose by a fill rule, to within a pixel of a picture of it. They may touch.
-pub(super) fn pictured(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
+/// The borders of the area that rings enclose by a fill rule, to within a pixel of a picture of it, with at most so many points unless
+/// the picture is of the smallest size. They may touch.
+pub(super) fn pictured(rings: &[Ring], rule: FillRule, most: usize) -> Vec<Ring> {
     let Some((low, high)) = bounds_of(rings.iter().flatten().copied()) else {
         return Vec::new();
     };
@@ -70,7 +71,13 @@ pub(super) fn pictured(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
     let mut side = *SIDES.end();
     let edges = rings.iter().flat_map(|ring| ring.windows(2));
     let upright: f64 = edges.map(|edge| (edge[1].y - edge[0].y).abs()).sum();
-    while side > *SIDES.start() && f64::from(side) * upright / extent > MAX_ROWS {
+    // Half as many points are expected of half as many pixels.
+    let fewest = MAX_PICTURED as f64 / most.max(1) as f64;
+    let is_too_fine = |side: u32| {
+        let coarser = f64::from(SIDES.end() / side);
+        coarser * coarser < fewest || f64::from(side) * upright / extent > MAX_ROWS
+    };
+    while side > *SIDES.start() && is_too_fine(side) {
         side /= 2;
     }
     loop {
@@ -82,7 +89,7 @@ pub(super) fn pictured(rings: &[Ring], rule: FillRule) -> Vec<Ring> {
             (high - low) * scale,
         );
         let count: usize = borders.iter().map(Vec::len).sum();
-        if count <= MAX_POINTS || side <= *SIDES.start() {
+        if count <= most || side <= *SIDES.start() {
             let points = borders.iter_mut().flatten();
             points.for_each(|point| *point = low + *point / scale);
             return borders;

@@ -25,7 +25,7 @@ use super::{
 };
 use crate::budget::{Budget, Work};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
-use crate::geometry::{FillRule, Outline, flatten, resolve_crossings, resolve_overlaps};
+use crate::geometry::{FillRule, Outline, flatten, resolve_overlaps};
 use crate::resolver::Resolver;
 use crate::source::Span;
 
@@ -124,7 +124,7 @@ pub(super) fn read(
         page,
         page_box: (offset, size),
         tolerance,
-        tangles: Tangles::new(prepared),
+        tangles: Tangles::new(prepared, &tasks),
         dashes: Dashes::of(&tasks, budget),
     };
     context.check_clips(&tasks, budget)?;
@@ -357,9 +357,8 @@ impl Context<'_, '_> {
                 usvg::FillRule::NonZero => FillRule::NonZero,
                 usvg::FillRule::EvenOdd => FillRule::EvenOdd,
             };
-            let crossings;
-            (outline, crossings) = resolve_crossings(flatten(&bez, self.tolerance), rule);
-            self.tangles.add(crossings, stroke.is_some());
+            let rings = flatten(&bez, self.tolerance);
+            outline = self.tangles.resolve(rings, rule, stroke.is_some());
             outline = task.clip(outline);
         } else if stroke.is_some() {
             self.tangles.add_line(&flatten(&bez, self.tolerance));

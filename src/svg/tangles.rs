@@ -9,7 +9,9 @@ use super::prepare::Prepared;
 use super::shapes::Context;
 use super::walk::{Leaf, Task};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{Ring, count_crossings, flatten};
+use crate::geometry::{
+    FillRule, MAX_PICTURED, Outline, Ring, count_crossings, flatten, resolve_crossings,
+};
 
 /// How often the outlines of any drawing may cross themselves: finding the pieces takes about a second.
 const MOST: usize = 400_000;
@@ -18,19 +20,37 @@ const BYTES_EACH: usize = 2;
 /// How often the outline of a stroke crosses itself where its middle line does once: both of its sides cross both.
 const BY_STROKE: usize = 4;
 
+/// Paths with fewer points hardly cross themselves so often that their area is taken from a picture.
+const MANY_POINTS: usize = 128;
+
 /// How often the outlines of a drawing cross themselves so far.
 pub(super) struct Tangles {
     count: AtomicUsize,
     most: usize,
+    /// How many points each area that is taken from a picture may have.
+    points_each: usize,
 }
 
 impl Tangles {
     /// None yet.
-    pub(super) fn new(prepared: &Prepared) -> Self {
+    pub(super) fn new(prepared: &Prepared, tasks: &[Task<'_>]) -> Self {
+        let points = tasks.iter().map(|task| match task.node {
+            Leaf::Path(path) => path.data().points().len(),
+            Leaf::Image(_) => 0,
+        });
+        let long = points.filter(|points| *points >= MANY_POINTS).count();
         Self {
             count: AtomicUsize::new(0),
             most: MOST.max(prepared.text.len() / BYTES_EACH),
+            points_each: MAX_PICTURED / long.max(1),
         }
+    }
+
+    /// The area that rings enclose by a fill rule; counts how often they cross.
+    pub(super) fn resolve(&self, rings: Vec<Ring>, rule: FillRule, has_stroke: bool) -> Outline {
+        let (outline, crossings) = resolve_crossings(rings, rule, self.points_each);
+        self.add(crossings, has_stroke);
+        outline
     }
 
     /// Whether there are so many that the drawing will be refused.
@@ -39,7 +59,7 @@ impl Tangles {
     }
 
     /// Adds the crossings of a filled shape, and of its stroke if it has one.
-    pub(super) fn add(&self, crossings: usize, has_stroke: bool) {
+    fn add(&self, crossings: usize, has_stroke: bool) {
         let times = 1 + BY_STROKE * usize::from(has_stroke);
         self.count.fetch_add(times * crossings, Ordering::Relaxed);
     }
