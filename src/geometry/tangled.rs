@@ -71,7 +71,7 @@ pub(super) fn pictured(rings: &[Ring], rule: FillRule, most: usize) -> Vec<Ring>
     let mut side = *SIDES.end();
     let edges = rings.iter().flat_map(|ring| ring.windows(2));
     let upright: f64 = edges.map(|edge| (edge[1].y - edge[0].y).abs()).sum();
-    // Half as many points are expected of half as many pixels.
+    // A quarter of the pixels has about a quarter of the points.
     let fewest = MAX_PICTURED as f64 / most.max(1) as f64;
     let is_too_fine = |side: u32| {
         let coarser = f64::from(SIDES.end() / side);
