@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
-use crate::geometry::{Outline, area, bounds, perimeter};
+use crate::geometry::{Outline, area, bounds, perimeter, squared_distances};
 
 /// About as many cells lie side by side across a slender outline …
 const ACROSS: f64 = 14.0;
@@ -337,63 +337,9 @@ impl Grid {
     }
 
     /// Per cell its distance from the nearest cell outside.
-    ///
-    /// Source: Felzenszwalb & Huttenlocher, *Distance transforms of sampled functions* (2012).
     fn distances(&self, inside: &[bool]) -> Vec<f64> {
-        let Cells { columns, rows, .. } = self.cells;
-        let far = (columns + rows).pow(2) as f64;
-        let square = inside.iter().map(|inside| if *inside { far } else { 0.0 });
-        let mut squares: Vec<f64> = square.collect();
-        let mut transform = Transform::default();
-        for column in 0..columns {
-            transform.apply(&mut squares[column..], columns, rows);
-        }
-        for row in squares.chunks_exact_mut(columns) {
-            transform.apply(row, 1, columns);
-        }
+        let squares = squared_distances(inside, self.cells.columns);
         squares.into_iter().map(f64::sqrt).collect()
-    }
-}
-
-/// The distance transform of a row, with its memory.
-#[derive(Default)]
-struct Transform {
-    values: Vec<f64>,
-    /// The parabolas of the lower envelope: their places, and where each begins to be the lowest.
-    envelope: Vec<(usize, f64)>,
-}
-
-impl Transform {
-    /// Replaces f(p) by the least (p − q)² + f(q), for `count` values that are `stride` apart.
-    fn apply(&mut self, row: &mut [f64], stride: usize, count: usize) {
-        let Self { values, envelope } = self;
-        values.clear();
-        values.extend(row.iter().step_by(stride).take(count));
-        envelope.clear();
-        let height = |at: usize| values[at] + (at * at) as f64;
-        for at in 0..count {
-            let mut from = f64::NEG_INFINITY;
-            while let Some(&(last, begin)) = envelope.last() {
-                from = (height(at) - height(last)) / (2 * (at - last)) as f64;
-                if from > begin {
-                    break;
-                }
-                envelope.pop();
-                from = f64::NEG_INFINITY;
-            }
-            envelope.push((at, from));
-        }
-        let mut lowest = 0;
-        for (at, value) in row.iter_mut().step_by(stride).take(count).enumerate() {
-            while envelope
-                .get(lowest + 1)
-                .is_some_and(|(_, from)| *from < at as f64)
-            {
-                lowest += 1;
-            }
-            let (place, _) = envelope[lowest];
-            *value = (at as f64 - place as f64).powi(2) + values[place];
-        }
     }
 }
 

@@ -6,7 +6,9 @@ use i_overlay::mesh::float::style::{LineJoin, StrokeStyle};
 
 use resvg::tiny_skia;
 
-use super::{FillRule, Outline, bounds, pixel_borders, resolve_overlaps, subtract, union};
+use super::{
+    FillRule, Outline, bounds, pixel_borders, resolve_overlaps, squared_distances, subtract, union,
+};
 
 /// The angle between two points of a round corner, radians.
 const ROUND: f64 = 0.3;
@@ -40,46 +42,42 @@ pub(crate) fn offset(outline: &Outline, distance: f64) -> Outline {
 /// The same, in a picture; `None` if nothing is there.
 fn offset_in_picture(outline: &Outline, distance: f64) -> Option<Outline> {
     let (low, high) = bounds(outline)?;
-    let reach = distance.max(0.0);
-    let (low, high) = (low - reach, high + reach);
-    let scale = SIDE / (high - low).max_element();
-    let [width, height] = ((high - low) * scale).ceil().max(DVec2::ONE).to_array();
-    let (width, height) = (width as u32, height as u32);
+    let extent = (high - low).max_element() + 2.0 * distance.max(0.0);
+    // With two empty pixels at each side.
+    let pixel = extent / (SIDE - 4.0);
+    let around = distance.max(0.0) + 2.0 * pixel;
+    let origin = low - around;
+    let size = ((high + around - origin) / pixel).ceil().max(DVec2::ONE);
+    let (width, height) = (size.x as u32, size.y as u32);
     let mut path = tiny_skia::PathBuilder::new();
     for ring in outline.rings() {
-        let mut points = ring.iter().map(|point| ((*point - low) * scale).as_vec2());
+        let mut points = ring
+            .iter()
+            .map(|point| ((*point - origin) / pixel).as_vec2());
         if let Some(first) = points.next() {
             path.move_to(first.x, first.y);
             points.for_each(|point| path.line_to(point.x, point.y));
             path.close();
         }
     }
-    let path = path.finish()?;
-    let stroke = tiny_skia::Stroke {
-        width: (2.0 * distance.abs() * scale) as f32,
-        line_join: tiny_skia::LineJoin::Round,
-        ..tiny_skia::Stroke::default()
-    };
-    let picture = |path: &tiny_skia::Path, rule| {
-        let mut mask = tiny_skia::Mask::new(width, height)?;
-        mask.fill_path(path, rule, false, tiny_skia::Transform::identity());
-        Some(mask)
-    };
-    let area = picture(&path, tiny_skia::FillRule::EvenOdd)?;
-    let band = path.stroke(&stroke, 1.0);
-    let band = band.and_then(|band| picture(&band, tiny_skia::FillRule::Winding));
+    let mut mask = tiny_skia::Mask::new(width, height)?;
+    let whole = tiny_skia::Transform::identity();
+    mask.fill_path(&path.finish()?, tiny_skia::FillRule::EvenOdd, false, whole);
+    let is_outwards = distance >= 0.0;
+    let far: Vec<bool> = mask
+        .data()
+        .iter()
+        .map(|solid| (*solid == 0) == is_outwards)
+        .collect();
+    let squares = squared_distances(&far, width as usize);
+    // From the middle of a pixel to that of the nearest one on the other side it is half a pixel more than to the border.
+    let reach = (distance.abs() / pixel + 0.5).powi(2);
     let mut rings = pixel_borders(width, height, |x, y| {
-        let at = (y * width + x) as usize;
-        let is_in = |mask: &tiny_skia::Mask| mask.data()[at] != 0;
-        let (in_area, in_band) = (is_in(&area), band.as_ref().is_some_and(is_in));
-        if distance < 0.0 {
-            in_area && !in_band
-        } else {
-            in_area || in_band
-        }
+        let square = squares[(y * width + x) as usize];
+        (square <= reach) == is_outwards
     });
     for point in rings.iter_mut().flatten() {
-        *point = low + *point / scale;
+        *point = origin + *point * pixel;
     }
     Some(resolve_overlaps(rings, FillRule::EvenOdd))
 }
