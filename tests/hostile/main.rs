@@ -26,7 +26,7 @@ const FEW: u64 = 20_000;
 
 /// What grows faster, until a limit stops it: discs among many rings, tips and teeth, and what overlaps itself or others everywhere. Each
 /// must be needed.
-const KNOWN: [(&str, &str); 31] = [
+const KNOWN: [(&str, &str); 32] = [
     ("circles-overlapping-inflated", "Cell"),
     ("circles-of-one-path-overlapping", "Pair"),
     ("rings-nested-round", "Pair"),
@@ -46,6 +46,7 @@ const KNOWN: [(&str, &str); 31] = [
     ("scribbles", "Triangle"),
     ("bars-crossed", "Point"),
     ("bars-crossed", "Pair"),
+    ("bars-crossed", "Triangle"),
     ("spiral", "Pair"),
     ("spiral-inflated", "Pair"),
     ("spiral-inflated", "DiscEdge"),
