@@ -15,9 +15,8 @@ const FEW: u64 = 512;
 /// Makes plates of the shapes that would cause the most work if all of them together would go over the budgets of the drawing, and says
 /// so.
 pub(super) fn limit(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
-    if let Some((parts, share)) =
-        parts_over(drawing, bindings, Work::ComparedCorners, compared_corners)
-    {
+    let corners = |index| compared_corners(drawing, bindings, index);
+    if let Some((parts, share)) = parts_over(drawing, bindings, Work::ComparedCorners, corners) {
         let kind = bindings.attributes(bindings.form(parts[0])).shape().kind;
         let have = if parts.len() == 1 {
             "it has"
@@ -34,7 +33,8 @@ pub(super) fn limit(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mu
         diagnostics.push(warning.help(help));
         make_plates(bindings, &parts);
     }
-    if let Some((parts, _)) = parts_over(drawing, bindings, Work::LeastTriangles, least_triangles) {
+    let triangles = |index| least_triangles(drawing, bindings, index);
+    if let Some((parts, _)) = parts_over(drawing, bindings, Work::LeastTriangles, triangles) {
         let most = drawing.budget.most(Work::LeastTriangles);
         let message = format!(
             "{}: if all were round, the drawing would have more than {most} triangles for them, even with `Segments {LEAST_SEGMENTS}`",
@@ -56,14 +56,11 @@ fn parts_over(
     drawing: &Drawing,
     bindings: &Bindings,
     work: Work,
-    wanted: fn(&Part, &Profile) -> Option<u64>,
+    wanted: impl Fn(PartId) -> Option<u64>,
 ) -> Option<(Vec<PartId>, u64)> {
     let parts = bindings.parts.iter_enumerated();
     let built = parts.filter(|(_, part)| matches!(part.kind, PartKind::Main | PartKind::Sub));
-    let wanted = built.filter_map(|(index, part)| {
-        let profile = bindings.profile(drawing, index)?;
-        Some((index, wanted(part, &profile).filter(|_| profile.is_soft())?))
-    });
+    let wanted = built.filter_map(|(index, _)| Some((index, wanted(index)?)));
     let wanted: Vec<(PartId, u64)> = wanted.collect();
     let amounts = wanted.iter().map(|(_, amount)| *amount);
     let share = drawing.budget.share(work, amounts.collect())?;
@@ -71,21 +68,34 @@ fn parts_over(
     Some((over.map(|(part, _)| *part).collect(), share))
 }
 
+/// How a part becomes round; `None` if it does not.
+fn soft(drawing: &Drawing, bindings: &Bindings, part: PartId) -> Option<Profile> {
+    bindings
+        .profile(drawing, part)
+        .filter(|profile| profile.is_soft())
+}
+
 /// The pairs of corners that are compared to round an outline, but for what is inflated.
-fn compared_corners(part: &Part, profile: &Profile) -> Option<u64> {
-    let corners = part.outline.point_count() as u64;
-    (corners > FEW && profile.height_field().is_none()).then_some(corners * corners / FEW)
+fn compared_corners(drawing: &Drawing, bindings: &Bindings, part: PartId) -> Option<u64> {
+    let corners = bindings.parts[part].outline.point_count() as u64;
+    let is_compared =
+        || soft(drawing, bindings, part).is_some_and(|profile| profile.height_field().is_none());
+    (corners > FEW && is_compared()).then_some(corners * corners / FEW)
 }
 
 /// The triangles that a solid has if it is as coarse as may be.
-fn least_triangles(part: &Part, profile: &Profile) -> Option<u64> {
-    let half = DVec2::new(part.measure.half_across, part.measure.half_along);
+fn least_triangles(drawing: &Drawing, bindings: &Bindings, part: PartId) -> Option<u64> {
+    let profile = soft(drawing, bindings, part)?;
+    let Part {
+        outline, measure, ..
+    } = &bindings.parts[part];
+    let half = DVec2::new(measure.half_across, measure.half_along);
     let options = solid::Options {
         segments: LEAST_SEGMENTS,
         crease: 0.0,
         placement: Placement::default(),
     };
-    Some(profile.triangles(&part.outline, half, &options))
+    Some(profile.triangles(outline, half, &options))
 }
 
 /// Says which parts are plates.

@@ -14,7 +14,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
 use super::query::{bounds, bounds_of, shoelace};
-use super::tangled::{MAX_CROSSINGS, MAX_PICTURED, crossings, pictured};
+use super::tangled::{Crossings, MAX_CROSSINGS, MAX_PICTURED, crossings, pictured};
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
 use crate::budget::{self, Step};
@@ -46,15 +46,20 @@ pub fn resolve_overlaps(rings: Vec<Ring>, rule: FillRule) -> Outline {
 /// The same, and how often the rings cross, which the time grows with. More than 20,000 times count as 50,000; then the area has about
 /// so many points at most.
 pub(crate) fn resolve_crossings(rings: Vec<Ring>, rule: FillRule, most: usize) -> (Outline, usize) {
-    resolve(rings, rule).unwrap_or_else(|tangled| {
+    resolve(rings, rule, false).unwrap_or_else(|tangled| {
         // What is left crosses where rings touch only, unless it is all dots.
-        let area = resolve(pictured(&tangled, rule, most), FillRule::EvenOdd);
+        let area = resolve(pictured(&tangled, rule, most), FillRule::EvenOdd, true);
         (area.unwrap_or_default().0, TANGLED)
     })
 }
 
-/// The area and how often the rings cross, or the rings without repetitions if they cross too often.
-fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<(Outline, usize), Vec<Ring>> {
+/// The area and how often the rings cross, or the rings without repetitions if they cross too often, or lie in one another too densely
+/// although they are not from a picture.
+fn resolve(
+    mut rings: Vec<Ring>,
+    rule: FillRule,
+    is_pictured: bool,
+) -> Result<(Outline, usize), Vec<Ring>> {
     for ring in &mut rings {
         if !ring.iter().all(|p| p.is_finite()) {
             ring.retain(|p| p.is_finite());
@@ -75,12 +80,14 @@ fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<(Outline, usize), Vec
     };
     let mut crossed = 0;
     if !simple {
-        crossed = crossings(&rings);
-        match crossed {
-            0 => simple = is_simple(&rings, &grid),
-            count if count > MAX_CROSSINGS => return Err(rings),
-            _ => {}
+        let Crossings { count, is_dense } = crossings(&rings);
+        if count > MAX_CROSSINGS || (is_dense && !is_pictured) {
+            return Err(rings);
         }
+        if count == 0 {
+            simple = is_simple(&rings, &grid);
+        }
+        crossed = count;
     }
     if simple && rings.len() <= disjoint::MAX_NESTED_RINGS {
         rings.retain(|ring| !is_sliver(ring, grid.extent));

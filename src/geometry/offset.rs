@@ -4,8 +4,7 @@ use glam::DVec2;
 use i_overlay::mesh::float::stroke::offset::StrokeOffset;
 use i_overlay::mesh::float::style::{LineJoin, StrokeStyle};
 
-use resvg::tiny_skia;
-
+use super::tangled::pixels;
 use super::{
     FillRule, Outline, bounds, pixel_borders, resolve_overlaps, squared_distances, subtract, union,
 };
@@ -16,6 +15,8 @@ const ROUND: f64 = 0.3;
 const MANY: usize = 4096;
 /// Pixels along the longer side of the picture.
 const SIDE: f64 = 1024.0;
+/// How many pixels the nearest pixel beyond a border is away from it.
+const BEYOND: f64 = 0.25;
 
 /// The outline moved outwards by a distance, user units, or inwards if that is negative. Corners that move apart become round.
 ///
@@ -49,29 +50,14 @@ fn offset_in_picture(outline: &Outline, distance: f64) -> Option<Outline> {
     let origin = low - around;
     let size = ((high + around - origin) / pixel).ceil().max(DVec2::ONE);
     let (width, height) = (size.x as u32, size.y as u32);
-    let mut path = tiny_skia::PathBuilder::new();
-    for ring in outline.rings() {
-        let mut points = ring
-            .iter()
-            .map(|point| ((*point - origin) / pixel).as_vec2());
-        if let Some(first) = points.next() {
-            path.move_to(first.x, first.y);
-            points.for_each(|point| path.line_to(point.x, point.y));
-            path.close();
-        }
-    }
-    let mut mask = tiny_skia::Mask::new(width, height)?;
-    let whole = tiny_skia::Transform::identity();
-    mask.fill_path(&path.finish()?, tiny_skia::FillRule::EvenOdd, false, whole);
+    let place = |point: DVec2| (point - origin) / pixel;
+    let solid = pixels(outline.rings(), FillRule::EvenOdd, place, [width, height]);
     let is_outwards = distance >= 0.0;
-    let far: Vec<bool> = mask
-        .data()
-        .iter()
-        .map(|solid| (*solid == 0) == is_outwards)
-        .collect();
+    let far: Vec<bool> = solid.iter().map(|solid| *solid != is_outwards).collect();
     let squares = squared_distances(&far, width as usize);
-    // From the middle of a pixel to that of the nearest one on the other side it is half a pixel more than to the border.
-    let reach = (distance.abs() / pixel + 0.5).powi(2);
+    // The middle of the nearest pixel on the other side is beyond the border: by half a pixel on average where that is level or upright, by
+    // a tenth where it is round.
+    let reach = (distance.abs() / pixel + BEYOND).powi(2);
     let mut rings = pixel_borders(width, height, |x, y| {
         let square = squares[(y * width + x) as usize];
         (square <= reach) == is_outwards

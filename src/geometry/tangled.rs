@@ -9,9 +9,9 @@ use crate::budget::{self, Step};
 pub(super) const MAX_CROSSINGS: usize = 20_000;
 /// How many pairs of edges are compared. Rings with more edges above each other that hardly cross are let through.
 const MAX_PAIRS: usize = 1 << 26;
-/// The same for so many rings or more, which are not let through: rings in rings take long even where they only come close.
-const MAX_PAIRS_OF_RINGS: usize = 1 << 24;
+/// Where so many rings have more pairs, they lie in one another so densely that finding their pieces takes long even if they hardly cross.
 const MANY_RINGS: usize = 256;
+const MAX_PAIRS_OF_RINGS: usize = 1 << 24;
 /// Pixels along the longer side of the picture, at most and at least.
 const SIDES: std::ops::RangeInclusive<u32> = 64..=2048;
 /// How many rows of pixels the edges of a picture may pass, all together, at more than the smallest size.
@@ -19,9 +19,21 @@ const MAX_ROWS: f64 = 4e6;
 /// The largest number of points of all areas of a drawing that are taken from pictures at more than the smallest size.
 pub(crate) const MAX_PICTURED: usize = 100_000;
 
-/// How often the edges of rings cross, or a number above 20,000, also where many rings lie in one another very densely: sweep and prune
-/// along the axis along which edges are shorter, compared with all of the rings.
-pub(crate) fn crossings(rings: &[Ring]) -> usize {
+/// How often the edges of rings cross, or a number above 20,000.
+pub(crate) fn count_crossings(rings: &[Ring]) -> usize {
+    crossings(rings).count
+}
+
+/// How the edges of rings cross.
+pub(super) struct Crossings {
+    /// How often, or a number above 20,000.
+    pub(super) count: usize,
+    /// Whether many rings lie in one another densely.
+    pub(super) is_dense: bool,
+}
+
+/// How the edges of rings cross: sweep and prune along the axis along which edges are shorter, compared with all of the rings.
+pub(super) fn crossings(rings: &[Ring]) -> Crossings {
     let count: usize = rings.iter().map(Vec::len).sum();
     let mut edges: Vec<[DVec2; 2]> = Vec::with_capacity(count);
     for ring in rings {
@@ -50,15 +62,15 @@ pub(crate) fn crossings(rings: &[Ring]) -> usize {
             pairs += 1;
             crossings += usize::from(cross(a, b));
         }
-        if rings.len() >= MANY_RINGS && pairs > MAX_PAIRS_OF_RINGS {
-            crossings = MAX_CROSSINGS + 1;
-        }
         if crossings > MAX_CROSSINGS || pairs > MAX_PAIRS {
             break;
         }
     }
     budget::count(Step::Pair, pairs);
-    crossings
+    Crossings {
+        count: crossings,
+        is_dense: rings.len() >= MANY_RINGS && pairs > MAX_PAIRS_OF_RINGS,
+    }
 }
 
 /// The borders of the area that rings enclose by a fill rule, to within a pixel of a picture of it, with at most so many points unless
@@ -82,12 +94,10 @@ pub(super) fn pictured(rings: &[Ring], rule: FillRule, most: usize) -> Vec<Ring>
     }
     loop {
         let scale = f64::from(side) / extent;
-        let mut borders = pixels(
-            rings,
-            rule,
-            |point| (point - low) * scale,
-            (high - low) * scale,
-        );
+        let size = (high - low) * scale;
+        let [width, height] = size.to_array().map(|side| (side.ceil() as u32).max(1));
+        let solid = pixels(rings, rule, |point| (point - low) * scale, [width, height]);
+        let mut borders = pixel_borders(width, height, |x, y| solid[(y * width + x) as usize]);
         let count: usize = borders.iter().map(Vec::len).sum();
         if count <= most || side <= *SIDES.start() {
             let points = borders.iter_mut().flatten();
@@ -98,14 +108,13 @@ pub(super) fn pictured(rings: &[Ring], rule: FillRule, most: usize) -> Vec<Ring>
     }
 }
 
-/// The borders in a picture of this size, in pixels.
-fn pixels(
-    rings: &[Ring],
+/// Which pixels of a picture of this size have their middle in the area that rings enclose, row by row.
+pub(super) fn pixels<'a>(
+    rings: impl IntoIterator<Item = &'a Ring>,
     rule: FillRule,
     place: impl Fn(DVec2) -> DVec2,
-    size: DVec2,
-) -> Vec<Ring> {
-    let [width, height] = size.to_array().map(|side| (side.ceil() as u32).max(1));
+    [width, height]: [u32; 2],
+) -> Vec<bool> {
     let columns = width as usize;
     // Per pixel how many more borders go down between it and the pixel to its left than up. Unlike a list of the edges that pass a row,
     // this takes no longer where they cross.
@@ -136,13 +145,11 @@ fn pixels(
             *turn = sum;
         }
     }
-    pixel_borders(width, height, |x, y| {
-        let turns = turns[y as usize * columns + x as usize];
-        match rule {
-            FillRule::NonZero => turns != 0,
-            FillRule::EvenOdd => turns % 2 != 0,
-        }
-    })
+    let is_filled = |turns: i32| match rule {
+        FillRule::NonZero => turns != 0,
+        FillRule::EvenOdd => turns % 2 != 0,
+    };
+    turns.into_iter().map(is_filled).collect()
 }
 
 /// Whether two edges cross at a point that is an end of neither.
@@ -172,7 +179,7 @@ mod tests {
     #[test]
     fn every_star_has_its_area() {
         for points in [101, 199, 211, 401, 4001] {
-            let is_tangled = crossings(&[star(points)]) > MAX_CROSSINGS;
+            let is_tangled = count_crossings(&[star(points)]) > MAX_CROSSINGS;
             assert_eq!(is_tangled, points > 199, "{points} points");
             let outline = resolve_overlaps(vec![star(points)], FillRule::NonZero);
             // Its border goes from the tips to where the edges beside them first cross.
@@ -205,8 +212,24 @@ mod tests {
         for teeth in [100, 20_000] {
             let upright = comb(teeth);
             let lying: Ring = upright.iter().map(|point| point.yx()).collect();
-            assert_eq!(crossings(&[upright]), 0);
-            assert_eq!(crossings(&[lying]), 0);
+            assert_eq!(count_crossings(&[upright]), 0);
+            assert_eq!(count_crossings(&[lying]), 0);
         }
+    }
+
+    #[test]
+    fn rings_in_rings_are_taken_from_a_picture() {
+        let circle = |radius: f64| -> Ring {
+            let angle = |i: u32| f64::from(i) * std::f64::consts::TAU / 60.0;
+            (0..60)
+                .map(|i| radius * DVec2::from_angle(angle(i)))
+                .collect()
+        };
+        let rings: Vec<Ring> = (1..=1000).map(|i| circle(f64::from(i) / 10.0)).collect();
+        let found = crossings(&rings);
+        assert!(found.is_dense && found.count == 0);
+        let whole = area(&resolve_overlaps(vec![circle(100.0)], FillRule::NonZero));
+        let striped = area(&resolve_overlaps(rings, FillRule::EvenOdd));
+        assert!((striped / whole - 0.5).abs() < 0.03, "{striped} of {whole}");
     }
 }

@@ -111,11 +111,7 @@ pub(super) fn read(
         f64::from(tree.size().width()),
         f64::from(tree.size().height()),
     );
-    let points = tasks.iter().map(|task| match task.node {
-        Leaf::Path(path) => path.data().points().len(),
-        Leaf::Image(_) => 4,
-    });
-    let budget = Budget::of(points.sum());
+    let budget = Budget::of(tasks.iter().map(Task::point_count).sum());
     let context = Context {
         document,
         styles: &styles,

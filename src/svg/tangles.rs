@@ -34,10 +34,7 @@ pub(super) struct Tangles {
 impl Tangles {
     /// None yet.
     pub(super) fn new(prepared: &Prepared, tasks: &[Task<'_>]) -> Self {
-        let points = tasks.iter().map(|task| match task.node {
-            Leaf::Path(path) => path.data().points().len(),
-            Leaf::Image(_) => 0,
-        });
+        let points = tasks.iter().map(Task::point_count);
         let long = points.filter(|points| *points >= MANY_POINTS).count();
         Self {
             count: AtomicUsize::new(0),

@@ -53,6 +53,14 @@ impl Inherited<'_> {
 }
 
 impl Task<'_> {
+    /// How many points are drawn, of an image its corners.
+    pub(super) fn point_count(&self) -> usize {
+        match self.node {
+            Leaf::Path(path) => path.data().points().len(),
+            Leaf::Image(_) => 4,
+        }
+    }
+
     /// Whether it has a stroke whose width on the page is not the one that is written, by more than a hundredth.
     fn has_scaled_stroke(&self) -> bool {
         let Leaf::Path(path) = self.node else {
