@@ -312,15 +312,19 @@ impl Bindings {
             is_too_fine,
             ..
         } = &self.parts[part];
+        let stroke = drawing.shapes[*shape].stroke.as_ref();
+        let line = stroke.filter(|_| self.parts[part].is_stroke && host.is_none());
         if *is_too_fine {
-            return Some(Profile::plate(plate_depth(drawing)));
+            let usual = plate_depth(drawing);
+            // A hair is as thick as it is wide.
+            let reach = line.map_or(usual, |line| usual.min(line.width() / 2.0));
+            return Some(Profile::plate(reach));
         }
         let profile = match sheet.filter(|_| !self.is_shape_set(form)) {
             Some(most) => profile.at_most(most),
             None => profile,
         };
-        let stroke = drawing.shapes[*shape].stroke.as_ref();
-        let profile = match stroke.filter(|_| self.parts[part].is_stroke && host.is_none()) {
+        let profile = match line {
             Some(line) => profile.of_line(line.width()),
             None => profile,
         };
