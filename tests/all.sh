@@ -54,12 +54,9 @@ closing() { # LOG
   ' "$1"
 }
 
-summary=()
-failed=0
-skipped=0
-step() { # NAME FUNCTION
-  local began=$SECONDS log=$logs/$1.log status verdict showing left_out line
-  printf '\n==== %s\n' "$1"
+# Runs a step. Its output goes to its log too, and what became of it into a file beside that.
+run() { # NAME FUNCTION
+  local began=$SECONDS log=$logs/$1.log showing status
   exec 3> >(tee "$log")
   showing=$!
   # Not in a condition: there `set -e` would not hold.
@@ -70,6 +67,16 @@ step() { # NAME FUNCTION
   exec 3>&-
   # All output is shown; what a step may have left running is not waited for.
   timeout 10 tail -s 0.1 -f --pid="$showing" /dev/null || true
+  echo "$status $((SECONDS - began))" > "$logs/$1.result"
+}
+
+summary=()
+failed=0
+skipped=0
+# Says what became of a step.
+conclude() { # NAME
+  local log=$logs/$1.log status seconds verdict left_out line
+  read -r status seconds < "$logs/$1.result"
   left_out=$(skips "$log" | sort | uniq -c | sed -E 's/^ *1 /skipped: /; s/^ *([0-9]+) /skipped \1 times: /')
   case $status in
     0) verdict=ok ;;
@@ -77,17 +84,53 @@ step() { # NAME FUNCTION
     *) verdict="FAILED (status $status)"; failed=1 ;;
   esac
   skipped=$((skipped + $(skips "$log" | wc -l)))
-  printf -- '---- %s: %s, %d s\n' "$1" "$verdict" $((SECONDS - began))
-  summary+=("$(printf '%-12s %4d s  %s' "$1" $((SECONDS - began)) "$verdict")")
+  printf -- '---- %s: %s, %d s\n' "$1" "$verdict" "$seconds"
+  summary+=("$(printf '%-12s %4d s  %s' "$1" "$seconds" "$verdict")")
   while IFS= read -r line; do
     [ -z "$line" ] || summary+=("                       $line")
   done < <(closing "$log"; echo "$left_out")
+}
+
+step() { # NAME FUNCTION
+  printf '\n==== %s\n' "$1"
+  run "$1" "$2"
+  conclude "$1"
+}
+
+# Begins steps in the background, one after the other, and shows them once all are done.
+aside=()
+row=
+begin_aside() { # NAME:FUNCTION…
+  local each
+  aside=("$@")
+  printf '\n==== beside what follows, shown at the end:%s\n' "$(printf ' %s' "${aside[@]%%:*}")"
+  # In a group of processes of its own, which can be ended.
+  set -m
+  (for each in "${aside[@]}"; do run "${each%:*}" "${each#*:}"; done) > /dev/null 2>&1 &
+  row=$!
+  set +m
+  trap 'kill -- "-$row" 2> /dev/null || true' EXIT
+}
+end_aside() {
+  local each name
+  wait "$row" || true
+  trap - EXIT
+  for each in "${aside[@]}"; do
+    name=${each%:*}
+    printf '\n==== %s\n' "$name"
+    # A row that was ended leaves steps out.
+    [ -e "$logs/$name.result" ] || { echo "did not end" > "$logs/$name.log"; echo 1 0 > "$logs/$name.result"; }
+    cat "$logs/$name.log"
+    conclude "$name"
+  done
 }
 
 formatting() { cargo fmt --check; }
 lints() { cargo clippy --locked --all-targets -- -D warnings; }
 # With the tests, for what is built alone has other features of some libraries, and all would be built once more.
 program() { cargo build --locked --bins --tests; }
+# The same, unless it has been done. Other steps may have cargo's lock meanwhile.
+use_program() { [ -n "${is_built:-}" ] || program; }
 # The tests of videos need ffmpeg. Of the output of tests that pass, what they skip is shown.
 tests() {
   if [ $quick = no ] && ! command -v ffmpeg > /dev/null; then (install ffmpeg ffmpeg) || [ $? = 77 ] || exit 1; fi
@@ -141,8 +184,8 @@ wasm() {
 package() {
   need npm
   need curl
-  node -e 'import("./editors/web/scripts/install.mjs").then(({ install }) => install())'
-  npm run build --prefix editors/web
+  with_web node -e 'import("./editors/web/scripts/install.mjs").then(({ install }) => install())'
+  with_web npm run build --prefix editors/web
   cargo package --locked --no-verify --allow-dirty
   rm -rf "$target"/package/okoshi-*/
   tar -xzf "$target"/package/okoshi-*.crate -C "$target/package"
@@ -158,7 +201,7 @@ licences() {
 }
 
 examples() {
-  program
+  use_program
   rm -rf "$models"
   mkdir -p "$models"
   local drawing name
@@ -183,9 +226,15 @@ plain() { built_models | grep -v '\.skin\.glb$'; }
 
 built() { [ -n "$(built_models)" ] || skip "there are no built examples"; }
 
+# Does what installs or builds in editors/web, one at a time.
+with_web() { flock "$target/web.lock" "$@"; }
+
 # Installs the packages of the tools, once.
 with_tools() {
-  [ $tools/node_modules/.package-lock.json -nt $tools/package-lock.json ] || (cd $tools && npm ci --no-audit --no-fund)
+  (
+    flock 4
+    [ $tools/node_modules/.package-lock.json -nt $tools/package-lock.json ] || (cd $tools && npm ci --no-audit --no-fund)
+  ) 4> "$target/tools.lock"
 }
 
 validator() {
@@ -222,8 +271,12 @@ install() { # WHAT PACKAGES…
     sudo -n true 2> /dev/null || skip "$what is not installed, and installing it takes root or sudo without password"
     sudo="sudo -n"
   fi
-  $sudo apt-get update -q
-  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends "$@"
+  # One at a time.
+  (
+    flock 4
+    $sudo apt-get update -q
+    $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends "$@"
+  ) 4> "$target/apt.lock"
 }
 
 # Models of clip art by others, beside the drawings.
@@ -250,7 +303,7 @@ sides() {
   [ $quick = no ] || skip "--quick"
   need npm
   with_tools
-  program
+  use_program
   rm -rf "$target/sides"
   OKOSHI=$(realpath "$okoshi") node $tools/sides.mjs "$target/sides"
 }
@@ -287,20 +340,20 @@ gallery() {
   command -v inkscape > /dev/null || install Inkscape inkscape
   need python3
   with_pillow
-  program
+  use_program
   OKOSHI=$(realpath "$okoshi") OUT="$target/gallery" bash $tools/gallery.sh
 }
 
 readme() {
   [ -f README.md ] || skip "there is no README.md"
-  program
+  use_program
   bash tests/readme.sh "$(realpath "$okoshi")"
 }
 
 extension() {
   need npm
-  program
-  OKOSHI=$(realpath "$okoshi") npm test --prefix editors/vscode
+  use_program
+  OKOSHI=$(realpath "$okoshi") with_web npm test --prefix editors/vscode
 }
 
 has_chromium() {
@@ -314,8 +367,8 @@ page() {
   need npm
   # Without a browser, the modules of the page are tested.
   if [ $quick = no ] && ! has_chromium; then (install Chromium chromium) || [ $? = 77 ] || exit 1; fi
-  program
-  OKOSHI=$(realpath "$okoshi") npm test --prefix editors/web
+  use_program
+  OKOSHI=$(realpath "$okoshi") with_web npm test --prefix editors/web
 }
 
 # Eglot is a package of its own before Emacs 29.
@@ -327,7 +380,7 @@ editors() {
     install "Neovim, Emacs or its Eglot" neovim emacs-nox python3-venv
     has_eglot || install "Emacs' Eglot" elpa-eglot
   fi
-  program
+  use_program
   OKOSHI=$(realpath "$okoshi") SCRATCH=$target/editors bash $tools/editors.sh
 }
 
@@ -339,7 +392,7 @@ inkscape_extension() {
     install "Inkscape or the tools that drive it" inkscape python3-cssselect python3-lxml python3-numpy xvfb openbox xdotool \
       imagemagick curl dbus libglib2.0-bin python3-gi gir1.2-gtk-3.0
   fi
-  program
+  use_program
   local status=0
   OKOSHI=$(realpath "$okoshi") SCRATCH=$target/inkscape bash $tools/inkscape.sh || status=$?
   [ $status != 77 ] || skip "Inkscape cannot run its extensions here"
@@ -349,23 +402,20 @@ inkscape_extension() {
 step format formatting
 step clippy lints
 step test tests
+# Each of the two rows takes about one core: what needs cargo, and what needs the program, which is built by now.
+if program; then is_built=yes; fi
+begin_aside examples:examples validator:validator schemas:schemas extension:extension page:page editors:editors inkscape:inkscape_extension \
+  blender:blender_import
+step package package
+step clip-art clip_art
 step doc manual
 step features features
 step wasm wasm
-step package package
 step licences licences
-step examples examples
-step validator validator
-step schemas schemas
-step clip-art clip_art
 step sides sides
-step blender blender_import
 step gallery gallery
 step readme readme
-step extension extension
-step page page
-step editors editors
-step inkscape inkscape_extension
+end_aside
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"
