@@ -45,22 +45,35 @@ pub(super) fn open(rig: &Rig, order: &[FigurePartId], rotations: &mut Rotations,
     }
     let (frames, reach) = (length.frames, length.frames_in(EASE));
     let mut openings = vec![vec![DVec3::ZERO; frames]; arms.len()];
+    // Per arm the frames in which it was outside, and has not been opened further since.
+    let mut is_settled = vec![vec![false; frames]; arms.len()];
+    let mut separating = vec![vec![0; trunk.len()]; arms.len()];
     let mut kinematics = ForwardKinematics::new(rig);
     for _ in 0..ROUNDS {
         let mut further = vec![vec![DVec3::ZERO; frames]; arms.len()];
         for frame in 0..frames {
+            if is_settled.iter().all(|is_settled| is_settled[frame]) {
+                continue;
+            }
             kinematics.pose(rig, rotations, order, frame);
-            for (arm, (openings, further)) in arms.iter().zip(openings.iter().zip(&mut further)) {
-                further[frame] = arm.way_out(rig, &kinematics.transforms, &trunk, openings[frame]);
+            for (index, arm) in arms.iter().enumerate() {
+                if !is_settled[index][frame] {
+                    let (placed, opening) = (&kinematics.transforms, openings[index][frame]);
+                    let separating = &mut separating[index];
+                    further[index][frame] = arm.way_out(rig, placed, &trunk, opening, separating);
+                }
             }
         }
         if further.iter().flatten().all(|way| *way == DVec3::ZERO) {
             break;
         }
-        for (openings, further) in openings.iter_mut().zip(further) {
+        for (index, further) in further.into_iter().enumerate() {
             let eased = eased(&further, reach, length.is_cycle);
-            for (opening, further) in openings.iter_mut().zip(eased) {
-                *opening = (*opening + further).clamp_length_max(MOST.to_radians());
+            let frames = openings[index].iter_mut().zip(&mut is_settled[index]);
+            for ((opening, is_settled), (way, further)) in frames.zip(further.iter().zip(eased)) {
+                let before = *opening;
+                *opening = (before + further).clamp_length_max(MOST.to_radians());
+                *is_settled = *way == DVec3::ZERO && *opening == before;
             }
         }
     }
@@ -107,6 +120,27 @@ impl Volume {
             part,
             planes: directions().map(plane).collect(),
         })
+    }
+
+    /// How far a point of the drawing is inside, and the nearest way out, if that is farther than `least`. `separating` is the plane that
+    /// was nearer for the point before, which most often is for this one too.
+    fn deeper_than(
+        &self,
+        least: f64,
+        point: DVec3,
+        separating: &mut usize,
+    ) -> Option<(f64, DVec3)> {
+        let is_near = |(way, reach): &(DVec3, f64)| reach - point.dot(*way) <= least;
+        if is_near(&self.planes[*separating]) {
+            return None;
+        }
+        match self.planes.iter().position(is_near) {
+            Some(plane) => {
+                *separating = plane;
+                None
+            }
+            None => Some(self.depth(point)),
+        }
     }
 
     /// How far a point of the drawing is inside, negative outside, and the nearest way out.
@@ -186,13 +220,14 @@ impl Arm {
     }
 
     /// The shortest way out of the trunk for the deepest point of an arm that is opened: a rotation vector in the axes of what the arm is
-    /// attached to. Zero if it is outside.
+    /// attached to. Zero if it is outside. `separating` has a plane of each volume that points before were beyond.
     fn way_out(
         &self,
         rig: &Rig,
         placed: &TiVec<FigurePartId, Transform>,
         trunk: &[Volume],
         opening: DVec3,
+        separating: &mut [usize],
     ) -> DVec3 {
         let drawn = |part: FigurePartId| rig.parts[part].node;
         let chest = placed[self.chest].rotation * drawn(self.chest).rotation.inverse();
@@ -202,10 +237,11 @@ impl Arm {
         for (part, point, allowed) in &self.points {
             let now = placed[*part].apply(drawn(*part).to_local(*point));
             let now = shoulder + turn * (now - shoulder);
-            for (volume, allowed) in trunk.iter().zip(allowed) {
+            for ((volume, allowed), separating) in trunk.iter().zip(allowed).zip(&mut *separating) {
                 let node = drawn(volume.part);
-                let (depth, way) = volume.depth(node.apply(placed[volume.part].to_local(now)));
-                if depth - allowed > deepest.0 {
+                let as_drawn = node.apply(placed[volume.part].to_local(now));
+                let least = allowed + deepest.0;
+                if let Some((depth, way)) = volume.deeper_than(least, as_drawn, separating) {
                     let way = placed[volume.part].rotation * node.rotation.inverse() * way;
                     deepest = (depth - allowed, now - shoulder, way);
                 }
