@@ -367,7 +367,7 @@ fn turning(name: &str, times: &[f32], interpolation: Interpolation) -> Animation
                 times: times.to_vec(),
                 interpolation,
             }),
-            values: Values::Rotations((0..times.len()).map(turn).collect()),
+            values: Values::Rotations(Arc::new((0..times.len()).map(turn).collect())),
         }],
     }
 }

@@ -70,6 +70,11 @@ impl KeyTimes {
         }
     }
 
+    /// Whether they are the frames of a clip of so many, each once.
+    pub(crate) fn are_frames(&self, count: usize) -> bool {
+        self.frames.iter().copied().eq(0..count)
+    }
+
     /// Their times.
     pub fn timing(&self) -> Arc<Timing> {
         Arc::clone(&self.timing)

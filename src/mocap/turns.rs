@@ -2,6 +2,11 @@
 
 use glam::{DQuat, DVec3};
 
+/// Whether consecutive quaternions are as near to each other as they can be.
+pub(crate) fn is_continuous(turns: &[DQuat]) -> bool {
+    turns.windows(2).all(|pair| pair[1].dot(pair[0]) >= 0.0)
+}
+
 /// Flips signs so that consecutive quaternions are as near to each other as possible; the rotations are the same.
 pub(crate) fn continuous(mut turns: Vec<DQuat>) -> Vec<DQuat> {
     for at in 1..turns.len() {

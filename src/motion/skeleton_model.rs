@@ -165,7 +165,7 @@ fn animation(
         if moves {
             add(Values::Translations(places));
         }
-        add(Values::Rotations(continuous(turns)));
+        add(Values::Rotations(continuous(turns).into()));
     }
     animation
 }

@@ -3,6 +3,8 @@
 //! Clips are joined after they were carried over, so motions of different skeletons, and those that move parts without any, can follow
 //! each other.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -106,6 +108,7 @@ pub(crate) fn joined(rig: &Rig, turns: &[Turn<'_>], blend: usize, is_loop: bool)
     }
     let mut clip = joined.0;
     for rotations in clip.rotations.iter_mut().flatten() {
+        let rotations = Arc::make_mut(rotations);
         *rotations = continuous(std::mem::take(rotations));
     }
     clip
@@ -203,7 +206,7 @@ impl Joined {
             let clips = || turns.iter().map(|turn| turn.clip);
             let clip = &mut joined.0;
             let moves = clips().any(|clip| clip.rotations[part].is_some());
-            clip.rotations[part] = moves.then(Vec::new);
+            clip.rotations[part] = moves.then(Arc::default);
             let travels = clips().any(|clip| clip.translations[part].is_some());
             clip.translations[part] = travels.then(Vec::new);
             let makes_room = clips().any(|clip| clip.turned[part].is_some());
@@ -225,7 +228,7 @@ impl Joined {
                 places.push(pose[index].position);
             }
             if let Some(rotations) = &mut clip.rotations[index] {
-                rotations.push(match part.parent.filter(|_| !part.is_rooted) {
+                Arc::make_mut(rotations).push(match part.parent.filter(|_| !part.is_rooted) {
                     Some(parent) => {
                         (pose[parent].rotation.inverse() * pose[index].rotation).normalize()
                     }

@@ -24,6 +24,8 @@ mod stepping;
 mod swing;
 mod turns;
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -121,8 +123,8 @@ pub struct SharedTurn {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RetargetedClip {
     /// Per part the rotation of its node in its parent's frame, of rooted nodes in the drawing's axes; `None` if it does not
-    /// change.
-    pub rotations: TiVec<FigurePartId, Option<Vec<DQuat>>>,
+    /// change. Animations share them where they need all of them.
+    pub rotations: TiVec<FigurePartId, Option<Arc<Vec<DQuat>>>>,
     /// Per part the position of its node; for rooted nodes only.
     pub translations: TiVec<FigurePartId, Option<Vec<DVec3>>>,
     /// Per frame whether a foot is in contact with the ground, and none takes over from another.

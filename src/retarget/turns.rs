@@ -3,6 +3,8 @@
 //! Retargeting has two stages, because a performance changes how parts turn, and the ground holds up the result: the turns, with what
 //! the clip's feet do, and then the travel, so that feet in contact stay in place whatever became of the legs.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -161,7 +163,10 @@ impl<'a> Turns<'a> {
     }
 
     /// Per part the rotations of its node in its parent's frame, of rooted nodes in the drawing's axes.
-    fn node_rotations(&self, rotations: &Rotations) -> TiVec<FigurePartId, Option<Vec<DQuat>>> {
+    fn node_rotations(
+        &self,
+        rotations: &Rotations,
+    ) -> TiVec<FigurePartId, Option<Arc<Vec<DQuat>>>> {
         let Self {
             rig, order, frames, ..
         } = self;
@@ -177,7 +182,7 @@ impl<'a> Turns<'a> {
                     .collect(),
                 Some(_) => continue,
             };
-            local[*part] = Some(continuous(turned));
+            local[*part] = Some(continuous(turned).into());
         }
         local
     }

@@ -1,5 +1,6 @@
 //! Builds the clips of figures: matched, retargeted, performed, limited, filmed.
 
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -256,7 +257,7 @@ impl<'a> ClipBuilder<'a> {
                 turn::joined(turns, &rigs, &clips, request.is_loop, self.memo)
             }
         };
-        let measured = self.measured(&rig, &retargeted);
+        let measured = LazyCell::new(|| self.measured(&rig, &retargeted));
         let frames = retargeted.grounded.len();
         let limits = request.limits.or_else(|| self.limits(group));
         let key_frame = performance
@@ -323,7 +324,7 @@ impl<'a> ClipBuilder<'a> {
             filmed: filmed.unwrap_or_default(),
             order: bones::nodes(group, &rig),
             retargeted,
-            measured,
+            rig,
             animated: Arc::clone(&self.animated),
         };
         self.note_loose(&clip, group, &drawn[main]);

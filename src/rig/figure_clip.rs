@@ -11,8 +11,7 @@ use crate::limited::{KeyTimes, Measured};
 use crate::mocap::{JointId, Skeleton};
 use crate::performance::Filmed;
 use crate::prepare::PreparedClip;
-use crate::retarget::RetargetedClip;
-use crate::retarget::{Follow, Matching, joints_named};
+use crate::retarget::{Follow, Matching, RetargetedClip, Rig, joints_named};
 use crate::scene::{Animation, Node, Scene};
 use crate::source::Span;
 
@@ -48,7 +47,7 @@ pub struct FigureClip {
     /// The parts in the order of `retargeted`, each with the number of its node: 0 is its own one, others bend it.
     pub(super) order: TiVec<FigurePartId, (PartId, usize)>,
     pub(super) retargeted: Arc<RetargetedClip>,
-    pub(super) measured: Arc<Measured>,
+    pub(super) rig: Arc<Rig>,
     pub(super) animated: Arc<AnimatedNodes>,
 }
 
@@ -147,7 +146,8 @@ impl FigureClip {
 
     /// The speed of every frame of the motion: the SSD of the points by which it is limited, in the square of drawing units.
     pub fn speeds(&self) -> Vec<f64> {
-        self.measured.poses().speeds()
+        let measured = Measured::of_figure(&self.rig, &self.retargeted);
+        measured.poses().speeds()
     }
 
     /// What drives a part of the figure, or why nothing does; `None` for parts of other figures.

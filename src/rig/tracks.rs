@@ -1,6 +1,7 @@
 //! Retargeted clips as animations of the scene's nodes.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use typed_index_collections::{TiSlice, TiVec};
@@ -8,7 +9,7 @@ use typed_index_collections::{TiSlice, TiVec};
 use crate::bind::PartId;
 use crate::labels::FigurePartId;
 use crate::limited::KeyTimes;
-use crate::mocap::turns::continuous;
+use crate::mocap::turns::{continuous, is_continuous};
 use crate::retarget::RetargetedClip;
 use crate::scene::{Animation, NodeId, Track, Values, WorldTransform};
 
@@ -85,22 +86,28 @@ impl AnimatedNodes {
                 }
             }
             if let Some(rotations) = &clip.rotations[index] {
-                let rotations = keys.frames.iter().map(|frame| {
-                    let rotation = if rest.is_mirrored {
-                        mirrored(rotations[*frame])
-                    } else {
-                        rotations[*frame]
-                    };
-                    if rest.is_rooted {
-                        self.world.rotate(rotation)
-                    } else {
-                        rotation
-                    }
-                });
-                add(
-                    keys.timing(),
-                    Values::Rotations(continuous(rotations.collect())),
-                );
+                let is_as_it_is = !rest.is_mirrored
+                    && !rest.is_rooted
+                    && keys.are_frames(rotations.len())
+                    && is_continuous(rotations);
+                let rotations = if is_as_it_is {
+                    Arc::clone(rotations)
+                } else {
+                    let rotations = keys.of(rotations).map(|rotation| {
+                        let rotation = if rest.is_mirrored {
+                            mirrored(rotation)
+                        } else {
+                            rotation
+                        };
+                        if rest.is_rooted {
+                            self.world.rotate(rotation)
+                        } else {
+                            rotation
+                        }
+                    });
+                    continuous(rotations.collect()).into()
+                };
+                add(keys.timing(), Values::Rotations(rotations));
             }
         }
         Animation {

@@ -61,7 +61,7 @@ pub enum Interpolation {
 #[non_exhaustive]
 pub enum Values {
     /// Rotations as unit quaternions, each in the same hemisphere as the one before.
-    Rotations(Vec<DQuat>),
+    Rotations(Arc<Vec<DQuat>>),
     /// Translations, metres.
     Translations(Vec<DVec3>),
     /// Per key the weight of each morph target of the node's mesh.

@@ -242,7 +242,7 @@ fn orbiting() -> Model {
             track(Values::Translations(
                 [5.0, -5.0, -5.0].map(|z| DVec3::Z * z).to_vec(),
             )),
-            track(Values::Rotations(vec![DQuat::IDENTITY, back, back])),
+            track(Values::Rotations(vec![DQuat::IDENTITY, back, back].into())),
         ],
     });
     model(&to_memory(&GLB, &scene, None).unwrap().bytes)

@@ -190,7 +190,10 @@ impl Moves {
         });
         RetargetedClip {
             turned: rotations.iter().map(|_| None).collect(),
-            rotations,
+            rotations: rotations
+                .into_iter()
+                .map(|turns| turns.map(Into::into))
+                .collect(),
             translations,
             grounded: grounded.collect(),
             rest: RestSource::default(),

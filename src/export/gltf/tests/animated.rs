@@ -11,7 +11,7 @@ fn timing(times: &[f32], interpolation: Interpolation) -> Arc<Timing> {
 
 fn turns(count: usize, step: f64) -> Values {
     let turn = |key| DQuat::from_rotation_x(key as f64 * step);
-    Values::Rotations((0..count).map(turn).collect())
+    Values::Rotations(Arc::new((0..count).map(turn).collect()))
 }
 
 fn places(count: usize) -> Values {
@@ -225,11 +225,8 @@ fn broken_animations_are_refused() {
         refused(&times(wrong), "keys out of order in time, or none");
     }
     refused(&times(&[0.0, 1.0]), "a different number of keys");
-    let wrong = Values::Rotations(vec![
-        DQuat::IDENTITY,
-        DQuat::IDENTITY * 0.5,
-        DQuat::IDENTITY,
-    ]);
+    let turns = vec![DQuat::IDENTITY, DQuat::IDENTITY * 0.5, DQuat::IDENTITY];
+    let wrong = Values::Rotations(turns.into());
     refused(&|a| a.tracks[0].values = wrong.clone(), "or not a rotation");
     let far = Values::Translations(vec![DVec3::ZERO, DVec3::ZERO, DVec3::X * 1e40]);
     refused(&|a| a.tracks[1].values = far.clone(), "not a number");

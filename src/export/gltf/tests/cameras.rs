@@ -54,7 +54,7 @@ fn filmed() -> Scene {
             Track {
                 node: camera,
                 timing: timing(Interpolation::Linear),
-                values: Values::Rotations(vec![DQuat::IDENTITY, turn]),
+                values: Values::Rotations(vec![DQuat::IDENTITY, turn].into()),
             },
         ],
     });
