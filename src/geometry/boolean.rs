@@ -14,7 +14,9 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
 use super::query::{bounds, bounds_of, shoelace};
-use super::tangled::{Crossings, MAX_CROSSINGS, MAX_PICTURED, crossings, pictured};
+use super::tangled::{
+    Crossings, MAX_CROSSINGS, MAX_PICTURED, crossings, pictured, sweeps_better_along_y,
+};
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
 use crate::budget::{self, Step};
@@ -66,7 +68,7 @@ fn resolve(
         }
     }
     rings.retain(|ring| ring.len() > 2);
-    let Some(grid) = Grid::over(rings.iter().flatten(), GRID_STEPS[0]) else {
+    let Some(mut grid) = Grid::over(rings.iter().flatten(), GRID_STEPS[0]) else {
         return Ok((Outline::default(), 0));
     };
     let flat = COLLINEAR * grid.extent;
@@ -84,6 +86,7 @@ fn resolve(
         if count > MAX_CROSSINGS || (is_dense && !is_pictured) {
             return Err(rings);
         }
+        grid.is_turned = sweeps_better_along_y(rings.iter().map(Vec::as_slice));
         if count == 0 {
             simple = is_simple(&rings, &grid);
         }
@@ -100,9 +103,10 @@ fn resolve(
     };
     let mut outline = Outline::default();
     for steps in GRID_STEPS {
-        let Some(coarse) = Grid::over(rings.iter().flatten(), steps) else {
+        let Some(mut coarse) = Grid::over(rings.iter().flatten(), steps) else {
             break;
         };
+        coarse.is_turned = grid.is_turned;
         let shapes = overlay(rings.iter(), &coarse, rule);
         let touches;
         (outline, touches) = finish(shapes, &coarse);
@@ -360,6 +364,8 @@ struct Grid {
     step: f64,
     /// The larger extent of the area.
     extent: f64,
+    /// Whether points are turned by a right angle on the grid, which is swept along x.
+    is_turned: bool,
 }
 
 impl Grid {
@@ -377,23 +383,31 @@ impl Grid {
             origin,
             step,
             extent,
+            is_turned: false,
         })
     }
 
-    fn point(&self, p: DVec2) -> IntPoint<i32> {
+    fn steps(&self, p: DVec2) -> DVec2 {
         let p = ((p - self.origin) / self.step).round();
+        if self.is_turned { p.perp() } else { p }
+    }
+
+    fn point(&self, p: DVec2) -> IntPoint<i32> {
+        let p = self.steps(p);
         IntPoint::new(p.x as i32, p.y as i32)
     }
 
     /// Points of other outlines may lie far off the grid; they are clamped.
     fn far_point(&self, p: DVec2) -> IntPoint<i64> {
         let far = DVec2::splat((1u64 << 60) as f64);
-        let p = ((p - self.origin) / self.step).round().clamp(-far, far);
+        let p = self.steps(p).clamp(-far, far);
         IntPoint::new(p.x as i64, p.y as i64)
     }
 
     fn back(&self, [x, y]: [i64; 2]) -> DVec2 {
-        self.origin + DVec2::new(x as f64, y as f64) * self.step
+        let p = DVec2::new(x as f64, y as f64);
+        let p = if self.is_turned { -p.perp() } else { p };
+        self.origin + p * self.step
     }
 }
 

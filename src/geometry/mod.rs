@@ -39,7 +39,7 @@ pub(crate) use query::{bounds_of, centroid, distance_squared};
 pub(crate) use query::{crosses, edge_distance_squared, edges, edges_of, perimeter, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
 pub(crate) use simplify::simplify;
-pub(crate) use tangled::{MAX_PICTURED, count_crossings};
+pub(crate) use tangled::{MAX_PICTURED, count_crossings, sweeps_better_along_y};
 
 use glam::DVec2;
 

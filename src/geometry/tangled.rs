@@ -12,6 +12,8 @@ const MAX_PAIRS: usize = 1 << 26;
 /// Where so many rings have more pairs, they lie in one another so densely that finding their pieces takes long even if they hardly cross.
 const MANY_RINGS: usize = 256;
 const MAX_PAIRS_OF_RINGS: usize = 1 << 24;
+/// With more edges above each other, a sweep takes long and much memory.
+const MANY_ABOVE: f64 = 1000.0;
 /// Pixels along the longer side of the picture, at most and at least.
 const SIDES: std::ops::RangeInclusive<u32> = 64..=2048;
 /// How many rows of pixels the edges of a picture may pass, all together, at more than the smallest size.
@@ -32,6 +34,23 @@ pub(super) struct Crossings {
     pub(super) is_dense: bool,
 }
 
+/// About how many edges of rings are above each other along each axis: those of a row of dashes are few along the row only.
+fn edges_above<'a>(rings: impl Iterator<Item = &'a [DVec2]> + Clone) -> DVec2 {
+    let edges = rings.clone().flat_map(|ring| {
+        let ends = ring.iter().zip(ring.iter().cycle().skip(1));
+        ends.map(|(from, to)| (*to - *from).abs())
+    });
+    let lengths: DVec2 = edges.sum();
+    let (low, high) = bounds_of(rings.flatten().copied()).unwrap_or_default();
+    lengths / (high - low).max(DVec2::splat(f64::MIN_POSITIVE))
+}
+
+/// Whether a sweep along x meets very many edges at a time, and one along y fewer: then it is worth turning the rings.
+pub(crate) fn sweeps_better_along_y<'a>(rings: impl Iterator<Item = &'a [DVec2]> + Clone) -> bool {
+    let above = edges_above(rings);
+    above.x > MANY_ABOVE && above.y < above.x
+}
+
 /// How the edges of rings cross: sweep and prune along the axis along which edges are shorter, compared with all of the rings.
 pub(super) fn crossings(rings: &[Ring]) -> Crossings {
     let count: usize = rings.iter().map(Vec::len).sum();
@@ -43,10 +62,7 @@ pub(super) fn crossings(rings: &[Ring]) -> Crossings {
             from = to;
         }
     }
-    let lengths: DVec2 = edges.iter().map(|[from, to]| (*to - *from).abs()).sum();
-    let (low, high) = bounds_of(rings.iter().flatten().copied()).unwrap_or_default();
-    // About how many edges are above each other along each axis: those of a row of dashes are few along the row only.
-    let above = lengths / (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
+    let above = edges_above(rings.iter().map(Vec::as_slice));
     for edge in &mut edges {
         if above.y < above.x {
             *edge = edge.map(DVec2::yx);

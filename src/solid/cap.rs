@@ -14,7 +14,7 @@ use i_triangle::int::validation::Validation;
 
 use super::ears;
 use super::rings::Rings;
-use crate::geometry::{bounds_of, is_convex};
+use crate::geometry::{bounds_of, is_convex, sweeps_better_along_y};
 
 /// Polygons with more points than this are triangulated by a sweep, others by ear clipping.
 const SWEEP: usize = 200;
@@ -82,8 +82,10 @@ fn sweep(points: &[DVec2], polygon: &[Range<usize>], triangles: &mut Vec<[u32; 3
     };
     let middle = low.midpoint(high);
     let scale = GRID / (high - low).max_element();
+    let is_turned = sweeps_better_along_y(polygon.iter().map(|ring| &points[ring.clone()]));
     let place = |p: &DVec2| {
         let p = ((*p - middle) * scale).round();
+        let p = if is_turned { p.perp() } else { p };
         IntPoint::new(p.x as i32, p.y as i32)
     };
     let mut shape: Vec<Vec<_>> = polygon
