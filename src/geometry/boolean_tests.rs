@@ -315,3 +315,24 @@ fn shared_points_are_touches() {
         }
     }
 }
+
+#[test]
+fn combs_are_the_same_upright_and_lying() {
+    // The last tooth crosses the comb, so that it is resolved on the grid.
+    let tooth = |i: u32| {
+        let (x, bottom) = (f64::from(i), if i == 1499 { -5.0 } else { 5.0 });
+        [(x, bottom), (x, 1e3), (x + 0.5, 1e3), (x + 0.5, bottom)]
+    };
+    let mut upright: Ring = (0..1500).flat_map(tooth).map(DVec2::from).collect();
+    upright.extend(ring(&[(1500.0, 5.0), (1500.0, 0.0), (0.0, 0.0)]));
+    let lying: Ring = upright.iter().map(|p| -p.perp()).collect();
+    let along_y = [&upright, &lying].map(|ring| sweeps_better_along_y([&ring[..]].into_iter()));
+    assert_eq!(along_y, [false, true]);
+    let [upright, lying] = [upright, lying].map(|ring| checked(vec![ring], FillRule::NonZero));
+    assert_eq!(shape(&upright), shape(&lying));
+    assert!((area(&upright) / area(&lying) - 1.0).abs() < 1e-6);
+    let turned = lying.map_rings(|ring| ring.iter().map(|p| p.perp()).collect());
+    for point in upright.rings().flatten() {
+        assert!(distance_squared(&turned, *point) < 1e-6);
+    }
+}

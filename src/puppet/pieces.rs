@@ -3,12 +3,14 @@
 use std::collections::BTreeMap;
 
 use glam::DVec2;
+use rstar::RTree;
+use rstar::primitives::Line;
 use typed_index_collections::{TiVec, ti_vec};
 
 use crate::anatomy::{self, Role};
 use crate::bind::{Bindings, PartId, PartKind};
 use crate::geometry::{
-    Outline, area, bounds, centroid, distance_squared, intersect, offset, union,
+    Bands, Outline, area, bounds, centroid, distance_squared, edges, intersect, offset, union,
 };
 use crate::lang::value::Origin;
 use crate::rig::{FigureGroup, FigurePartId, find_figures};
@@ -239,9 +241,15 @@ fn contact(one: &Outline, other: &Outline) -> DVec2 {
     if area(&shared) > (NEAR * size).powi(2) {
         return middle(shared).unwrap_or_default();
     }
-    let corners = one.rings();
-    let gap = |point: &DVec2| distance_squared(other, *point);
-    let nearest = corners.flatten().copied();
+    let inside = Bands::of(other);
+    let border = edges(other).map(|ends| Line::new(ends[0].to_array(), ends[1].to_array()));
+    let border = RTree::bulk_load(border.collect());
+    let gap = |point: &DVec2| {
+        let border = || border.nearest_neighbor_with_distance_2(point.to_array());
+        let border = (!inside.contains(*point)).then(border).flatten();
+        border.map_or(0.0, |(_, gap)| gap)
+    };
+    let nearest = one.rings().flatten().copied();
     let nearest = nearest.min_by(|a, b| gap(a).total_cmp(&gap(b)));
     let nearest = nearest.unwrap_or_default();
     let larger = NEAR * size + gap(&nearest).sqrt() / 2.0;

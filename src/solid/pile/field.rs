@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::LayForm;
 use super::cover::Cover;
 use super::ground::Target;
-use crate::geometry::{Outline, simplify};
+use crate::geometry::{Outline, edges_of, simplify};
 use crate::scene::Surface;
 use crate::solid::crease::Crease;
 use crate::solid::heights::{BothHeights, Heights};
@@ -23,11 +23,8 @@ use crate::solid::{Options, Placement, Solid};
 
 /// Points of the border are no closer than this, in tolerances.
 const NEAR: f64 = 0.2;
-/// Limit of the points that are added to those of a solid by itself and of its border, as a multiple of these, beside what the
-/// pile allows for. It is reached only over surfaces with many steps.
-const MAX_GROWTH: usize = 1;
-/// Limit of the points of a border.
-const MAX_BORDER: usize = 1 << 14;
+/// Crossings of a border with edges below that are looked at, about.
+const MAX_CROSSINGS: usize = 1 << 14;
 /// The least thickness, relative to depths, that `f32` can distinguish from none.
 const MIN_THICKNESS: f64 = 1e-6;
 /// Edges of rounded solids that are sharper than this are seen as edges, degrees: it is between the steps of a rounding and
@@ -88,7 +85,7 @@ impl Field {
             ..*options
         });
         let mut cover = Cover::new(mesh_of(&all, &in_place), target, tolerance);
-        let most = (MAX_GROWTH + 1) * all.points.len() + target.more_points;
+        let most = all.points.len() + target.growth.most(all.points.len());
         let mut refine =
             |cover: &mut Cover<'_>, wanted: &dyn Fn(&Cover<'_>, usize) -> Vec<DVec2>| {
                 let wanted = wanted(cover, most.saturating_sub(all.points.len()));
@@ -194,52 +191,80 @@ fn rings(points: &Points) -> Vec<Vec<DVec2>> {
     rings
 }
 
-/// The border with points where it crosses the edges of triangles below and the front bends there by more than the tolerance.
+/// The border with points where it crosses the edges of triangles below and the front bends there by more than the tolerance. Of too many
+/// only those where it bends more are kept.
 fn border(rings: &[Vec<DVec2>], target: &Target<'_>, tolerance: f64) -> Points {
     // Closer points would bend the border only where it is too steep to be seen.
     let apart = NEAR * tolerance;
+    let own: usize = rings.iter().map(Vec::len).sum();
+    let mut profiles: Vec<Vec<(f64, f64)>> = Vec::with_capacity(own);
+    let mut looked_at = 0;
+    let mut crossings = Vec::new();
+    for [from, to] in edges_of(rings) {
+        crossings.clear();
+        if looked_at < MAX_CROSSINGS {
+            for body in target.ground.visible() {
+                body.crossings(from, to, &mut crossings);
+            }
+            looked_at += crossings.len();
+        }
+        if crossings.is_empty() {
+            profiles.push(Vec::new());
+            continue;
+        }
+        crossings.sort_unstable_by(f64::total_cmp);
+        let length = from.distance(to);
+        let profile = std::iter::once(0.0)
+            .chain(crossings.iter().copied())
+            .chain([1.0]);
+        let at = |share: f64| {
+            let point = from.lerp(to, share);
+            // Height fields are 0 along the border.
+            let reach = target.reach(point).unwrap_or_default();
+            (share, target.at(point, reach).front)
+        };
+        let mut profile: Vec<(f64, f64)> = profile.map(at).collect();
+        profile.dedup_by(|next, last| (next.0 - last.0) * length < apart && next.0 < 1.0);
+        profiles.push(profile);
+    }
+    // Borders that lie on one another would have ever more points.
+    let most = target.growth.most(own);
+    let mut tolerance = tolerance;
+    let shares = loop {
+        let inner = profiles
+            .iter()
+            .map(|profile| inner_bends(profile, tolerance));
+        let inner: Vec<Vec<f64>> = inner.collect();
+        if inner.iter().map(Vec::len).sum::<usize>() <= most {
+            break inner;
+        }
+        tolerance *= 2.0;
+    };
     let mut points = Points {
         points: Vec::new(),
         edges: Vec::new(),
     };
-    let mut crossings = Vec::new();
+    let mut shares = shares.iter();
     for ring in rings {
         let start = points.points.len();
-        for (index, from) in ring.iter().enumerate() {
-            points.points.push(*from);
-            let to = ring[(index + 1) % ring.len()];
-            crossings.clear();
-            if points.points.len() < MAX_BORDER {
-                for body in target.ground.visible() {
-                    body.crossings(*from, to, &mut crossings);
-                }
-            }
-            if crossings.is_empty() {
-                continue;
-            }
-            crossings.sort_unstable_by(f64::total_cmp);
-            let length = from.distance(to);
-            let profile = std::iter::once(0.0)
-                .chain(crossings.iter().copied())
-                .chain([1.0]);
-            let at = |share: f64| {
-                let point = from.lerp(to, share);
-                // Height fields are 0 along the border.
-                let reach = target.reach(point).unwrap_or_default();
-                (share, target.at(point, reach).front)
-            };
-            let mut profile: Vec<(f64, f64)> = profile.map(at).collect();
-            profile.dedup_by(|next, last| (next.0 - last.0) * length < apart && next.0 < 1.0);
-            if let [_, inner @ .., _] = &bends(&profile, tolerance)[..] {
-                let places = inner.iter().map(|index| from.lerp(to, profile[*index].0));
-                points.points.extend(places);
-            }
+        for ([from, to], shares) in edges_of([ring]).zip(&mut shares) {
+            points.points.push(from);
+            let places = shares.iter().map(|share| from.lerp(to, *share));
+            points.points.extend(places);
         }
         let end = points.points.len();
         let next = |i: usize| if i + 1 == end { start } else { i + 1 };
         points.edges.extend((start..end).map(|i| [i, next(i)]));
     }
     points
+}
+
+/// The shares at which a profile of heights bends by more than the tolerance between its ends.
+fn inner_bends(profile: &[(f64, f64)], tolerance: f64) -> Vec<f64> {
+    match &bends(profile, tolerance)[..] {
+        [_, inner @ .., _] => inner.iter().map(|index| profile[*index].0).collect(),
+        _ => Vec::new(),
+    }
 }
 
 /// The indices of the points at which a profile of heights bends by more than the tolerance, with its ends.

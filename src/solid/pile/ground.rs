@@ -4,7 +4,7 @@ use glam::{DAffine2, DVec2};
 
 use super::cover::flat;
 use super::rim::Rim;
-use super::{BodyHeights, Lay, LayForm};
+use super::{BodyHeights, Growth, Lay, LayForm};
 use crate::geometry::{EdgeRanges, Intervals, LINES, Outline, Scanlines, bounds};
 use crate::solid::Solid;
 use crate::solid::heights::Heights;
@@ -223,8 +223,8 @@ pub(super) struct Target<'a> {
     pub(super) ground: &'a Ground,
     /// Where a line is a hoop around what it lies on.
     pub(super) rim: Option<Rim>,
-    /// How many points of the mesh may be spent on following the ground, however few it has.
-    pub(super) more_points: usize,
+    /// How many points of the mesh may be spent on following the ground.
+    pub(super) growth: Growth,
 }
 
 /// What lies below a point.

@@ -41,6 +41,8 @@ const MORE_POINTS: usize = 1 << 16;
 /// The same for one of a few bodies, and for one of many.
 const MOST_EACH: usize = 1 << 9;
 const LEAST_EACH: usize = 1 << 5;
+/// Each of so many bodies may spend as many points on it as it has by itself; each of more, which are smaller, only a share of these.
+const MANY_BODIES: usize = 1 << 9;
 
 /// How far a mesh may deviate from the surfaces below it before it is refined, as a share of the step.
 const TOLERANCE: f64 = 0.5;
@@ -57,9 +59,34 @@ pub(crate) struct Pile {
     keys: Vec<u128>,
     /// Per body whether others lie on it.
     carries: Vec<bool>,
-    /// How many points the mesh of each may spend on following those below, however few it has.
-    more_points: usize,
+    growth: Growth,
     recent: Arc<RecentHeights>,
+}
+
+/// How many points the mesh of a body may spend on following those below.
+#[derive(Debug, Clone, Copy)]
+struct Growth {
+    /// However few it has by itself.
+    each: usize,
+    /// And one more for each so many of its own.
+    per: usize,
+}
+
+impl Growth {
+    /// That of each of so many bodies.
+    fn of(bodies: usize) -> Self {
+        // Rounded, so that most changes of one body leave those of the others as they are.
+        let bodies = bodies.max(1).next_power_of_two();
+        Self {
+            each: (MORE_POINTS / bodies).clamp(LEAST_EACH, MOST_EACH),
+            per: (bodies / MANY_BODIES).max(1),
+        }
+    }
+
+    /// The most points for a mesh that has so many by itself.
+    fn most(self, own: usize) -> usize {
+        own / self.per + self.each
+    }
 }
 
 /// A solid in a pile.
@@ -262,10 +289,8 @@ impl Pile {
         let hiders = bodies.iter().flat_map(|body| &body.hidden_by);
         hiders.for_each(|hider| carries[*hider] = true);
         let lifted = bodies.iter().filter(|body| body.lay.is_some()).count();
-        // Rounded, so that most changes of one body leave those of the others as they are.
-        let each = MORE_POINTS / lifted.max(1).next_power_of_two();
         let mut pile = Self {
-            more_points: each.clamp(LEAST_EACH, MOST_EACH),
+            growth: Growth::of(lifted),
             solids: Vec::new(),
             bodies,
             keys: Vec::new(),
@@ -331,7 +356,9 @@ impl Pile {
             hasher.write_u64(bulge.to_bits());
             hasher.write_u8(segments.is_some().into());
             hasher.write_u32(segments.unwrap_or_default());
-            hasher.write_usize(self.more_points);
+            let Growth { each, per } = self.growth;
+            hasher.write_usize(each);
+            hasher.write_usize(per);
             hasher.write_u8(*form as u8);
             hasher.write_u8((*clips).into());
             hasher.write_u8((*is_line).into());
@@ -436,7 +463,7 @@ impl Pile {
             rim: (lay.is_line && lay.form == LayForm::Ink)
                 .then(|| Rim::new(&outline, &ground, lay.step))
                 .flatten(),
-            more_points: self.more_points,
+            growth: self.growth,
         };
         Field::new(&outline, &body.solid, &target)
     }
