@@ -10,8 +10,10 @@ use crate::threads::GRAIN;
 
 /// Limit of the bounding boxes that are compared with a shape.
 const MAX_BOXES: usize = 4096;
-/// Limit of the shapes that a shape lies over: of a higher pile, only the topmost ones are looked at.
+/// Limit of the shapes that a shape lies over: of a higher pile, only the topmost ones are looked at, …
 const MAX_BELOW: usize = 64;
+/// … and of those under them only so many that they do not hide from the shape.
+const MAX_UNHIDDEN: usize = 192;
 /// Shapes overlap if they have more in common than this share of the smaller one.
 const LEAST: f64 = 1e-4;
 /// Points along a line of samples.
@@ -31,10 +33,12 @@ pub(super) struct Overlap {
 pub(super) struct Scratch {
     own: Intervals,
     other: Intervals,
+    /// What is left of a shape where nothing looked at so far hides what is under it.
+    left: Intervals,
 }
 
-/// Per shape those that it lies over, back-most first. If all together are over the budget, those on top of many have only the topmost
-/// of these, which hide most of the others.
+/// Per shape those that it lies over, back-most first. If all together are over the budget, those on top of many have only those of them
+/// that others do not hide, and if need be only the topmost of these.
 pub(super) fn overlaps(shapes: &[Shape], budget: Budget) -> Vec<Vec<Overlap>> {
     let boxes = OrderedBoxes::new(shapes.iter().map(|shape| shape.bounds).collect());
     let shapes_below = (0..shapes.len()).into_par_iter().with_min_len(GRAIN);
@@ -43,10 +47,25 @@ pub(super) fn overlaps(shapes: &[Shape], budget: Budget) -> Vec<Vec<Overlap>> {
             below(shapes, shape, &boxes, scratch)
         })
         .collect();
-    let counts = overlaps.iter().map(|below| below.len() as u64);
-    if let Some(share) = budget.share(Work::Overlaps, counts.collect()) {
+    let share = |overlaps: &[Vec<Overlap>]| {
+        let counts = overlaps.iter().map(|below| below.len() as u64);
+        let share = budget.share(Work::Overlaps, counts.collect());
+        share.map(|share| share as usize)
+    };
+    if let Some(share) = share(&overlaps) {
+        let many = overlaps.par_iter_mut().enumerate().with_min_len(GRAIN);
+        let many = many.filter(|(_, below)| below.len() > share);
+        many.for_each_init(Scratch::default, |scratch, (above, below)| {
+            let own = &shapes[above];
+            let lines = scratch.begin(own);
+            below.reverse();
+            below.retain(|overlap| scratch.hide(&lines, own, &shapes[overlap.below]));
+            below.reverse();
+        });
+    }
+    if let Some(share) = share(&overlaps) {
         for below in &mut overlaps {
-            below.drain(..below.len().saturating_sub(share as usize));
+            below.drain(..below.len().saturating_sub(share));
         }
     }
     overlaps
@@ -59,14 +78,30 @@ fn below(
     scratch: &mut Scratch,
 ) -> Vec<Overlap> {
     let own = &shapes[above];
-    let mut found = Vec::new();
+    let mut found: Vec<Overlap> = Vec::new();
+    let mut many = None;
     boxes.before(above, MAX_BOXES, |below| {
         let other = &shapes[below];
+        if found.len() >= MAX_BELOW {
+            let lines = many.get_or_insert_with(|| {
+                let lines = scratch.begin(own);
+                for overlap in &found {
+                    scratch.hide(&lines, own, &shapes[overlap.below]);
+                }
+                lines
+            });
+            if scratch.left.is_empty() {
+                return false;
+            }
+            if !scratch.hide(lines, own, other) {
+                return true;
+            }
+        }
         let area = scratch.common(own, other);
         if area > LEAST * own.area.min(other.area) {
             found.push(Overlap { below, area });
         }
-        found.len() < MAX_BELOW
+        found.len() < MAX_BELOW + MAX_UNHIDDEN
     });
     found.reverse();
     found
@@ -83,6 +118,24 @@ impl Scratch {
         lines.cut(&a.outline, &a.ranges, &mut self.own);
         lines.cut(&b.outline, &b.ranges, &mut self.other);
         Some(lines)
+    }
+
+    /// Begins to look for what is hidden under a shape, on these lines.
+    fn begin(&mut self, own: &Shape) -> Scanlines {
+        let lines = Scanlines::across(own.bounds);
+        lines.cut(&own.outline, &own.ranges, &mut self.left);
+        lines
+    }
+
+    /// Whether something of another shape is under a shape where none looked at before hides it. It hides what comes next. What no line
+    /// meets counts as not hidden.
+    fn hide(&mut self, lines: &Scanlines, own: &Shape, other: &Shape) -> bool {
+        lines.cut(&other.outline, &other.ranges, &mut self.other);
+        if self.other.is_empty() {
+            return true;
+        }
+        let unhidden = self.left.remove(&self.other) * lines.weight();
+        unhidden > LEAST * own.area.min(other.area)
     }
 
     /// The area that two shapes have in common.
