@@ -49,13 +49,6 @@ impl Cells {
         self.size[0] * self.size[1]
     }
 
-    /// The lower and the upper corner of a cell.
-    pub(super) fn bounds(&self, cell: usize) -> [DVec2; 2] {
-        let [column, row] = [cell % self.size[0], cell / self.size[0]];
-        let low = DVec2::new(column as f64, row as f64);
-        [low, low + 1.0].map(|corner| self.low + corner / self.scale)
-    }
-
     /// The column and the row of a point, or of the nearest cell.
     fn place(&self, point: DVec2) -> [usize; 2] {
         let place = (point - self.low) * self.scale;

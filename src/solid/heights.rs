@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock, OnceLock};
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 
 use super::Solid;
 use super::cells::Cells;
@@ -20,12 +20,6 @@ const SLACK: f64 = 1e-7;
 const CELLS: f64 = 1.0;
 /// The most cells that a triangle reaches into on average; with more, the cells are larger. It is about four unless the triangles are needles.
 const MOST_REACHED: usize = 16;
-/// The same within a crowded cell, of which most triangles over it reach out.
-const MOST_REACHED_WITHIN: usize = 4;
-/// Cells with more triangles are crowded.
-const CROWDED: usize = 12;
-/// How many grids are within one another at most.
-const DEEPEST: u32 = 2;
 
 /// The side of a surface that faces the viewer.
 #[derive(Debug)]
@@ -307,8 +301,6 @@ struct Grid {
     /// Per cell where its triangles begin in the list.
     starts: Vec<u32>,
     list: Vec<u32>,
-    /// Grids within cells with many triangles, as where a mesh is much finer than elsewhere.
-    finer: FxHashMap<usize, Self>,
 }
 
 impl Grid {
@@ -319,32 +311,28 @@ impl Grid {
             points().reduce(Vec3::max).unwrap_or_default(),
         ];
         let bounds = [low, high].map(|corner| corner.truncate().as_dvec2());
-        let all: Vec<u32> = (0..facets.len() as u32).collect();
-        let count = CELLS * facets.len() as f64;
+        let mut count = CELLS * facets.len() as f64;
         let square = Cells::over(bounds, count);
-        if let Some(entries) = Self::entries(facets, &all, &square, MOST_REACHED) {
-            return Self::new(square, &entries).refined(facets, DEEPEST);
-        }
-        // Needles that lie side by side are alike in shape.
-        let extents = facets.iter().map(|facet| {
-            let [a, b, c] = facet.flat();
-            a.max(b).max(c) - a.min(b).min(c)
-        });
-        let proportions = extents.sum::<DVec2>();
-        let mut count = count;
-        loop {
-            let cells = Cells::alike(bounds, count, proportions);
-            if let Some(entries) = Self::entries(facets, &all, &cells, MOST_REACHED) {
-                break Self::new(cells, &entries);
+        let (cells, entries) = match Self::entries(facets, &square) {
+            Some(entries) => (square, entries),
+            // Needles that lie side by side are alike in shape.
+            None => {
+                let extents = facets.iter().map(|facet| {
+                    let [a, b, c] = facet.flat();
+                    a.max(b).max(c) - a.min(b).min(c)
+                });
+                let proportions = extents.sum::<DVec2>();
+                loop {
+                    let cells = Cells::alike(bounds, count, proportions);
+                    if let Some(entries) = Self::entries(facets, &cells) {
+                        break (cells, entries);
+                    }
+                    count /= 4.0;
+                }
             }
-            count /= 4.0;
-        }
-    }
-
-    /// Sorts the triangles over cells by these.
-    fn new(cells: Cells, entries: &[(u32, u32)]) -> Self {
+        };
         let mut ends = vec![0_u32; cells.count() + 1];
-        for (cell, _) in entries {
+        for (cell, _) in &entries {
             ends[*cell as usize + 1] += 1;
         }
         for cell in 1..ends.len() {
@@ -353,47 +341,24 @@ impl Grid {
         let starts = ends.clone();
         let mut list = vec![0; entries.len()];
         for (cell, facet) in entries {
-            let place = &mut ends[*cell as usize];
-            list[*place as usize] = *facet;
+            let place = &mut ends[cell as usize];
+            list[*place as usize] = facet;
             *place += 1;
         }
         Self {
             cells,
             starts,
             list,
-            finer: FxHashMap::default(),
         }
     }
 
-    /// The same with grids within crowded cells, so many levels of them at most.
-    fn refined(mut self, facets: &[Facet], levels: u32) -> Self {
-        for cell in (0..self.cells.count()).filter(|_| levels > 0) {
-            let over = self.of_cell(cell);
-            if over.len() <= CROWDED {
-                continue;
-            }
-            let cells = Cells::over(self.cells.bounds(cell), CELLS * over.len() as f64);
-            if let Some(entries) = Self::entries(facets, over, &cells, MOST_REACHED_WITHIN) {
-                let finer = Self::new(cells, &entries).refined(facets, levels - 1);
-                self.finer.insert(cell, finer);
-            }
-        }
-        self
-    }
-
-    /// Cells with those of some triangles that are over them; `None` if a triangle is over more than so many on average, and there is
-    /// more than one cell.
-    fn entries(
-        facets: &[Facet],
-        some: &[u32],
-        cells: &Cells,
-        most: usize,
-    ) -> Option<Vec<(u32, u32)>> {
-        let most = most * some.len();
-        let mut entries: Vec<(u32, u32)> = Vec::with_capacity(4 * some.len());
-        for index in some {
-            cells.of_triangle(facets[*index as usize].flat(), |cell| {
-                entries.push((cell as u32, *index))
+    /// Cells with the triangles over them; `None` if these are too many, and there is more than one cell.
+    fn entries(facets: &[Facet], cells: &Cells) -> Option<Vec<(u32, u32)>> {
+        let most = MOST_REACHED * facets.len();
+        let mut entries: Vec<(u32, u32)> = Vec::with_capacity(4 * facets.len());
+        for (index, facet) in facets.iter().enumerate() {
+            cells.of_triangle(facet.flat(), |cell| {
+                entries.push((cell as u32, index as u32))
             });
             if entries.len() > most && cells.count() > 1 {
                 return None;
@@ -405,25 +370,11 @@ impl Grid {
 
     /// The triangles over the cell of a point.
     fn at(&self, point: DVec2) -> &[u32] {
-        self.cells.at(point).map_or(&[], |cell| {
-            let mut over = (self, cell);
-            while let Some(finer) = over.0.finer(over.1) {
-                over = (finer, finer.cells.nearest(point));
-            }
-            over.0.of_cell(over.1)
-        })
+        self.cells.at(point).map_or(&[], |cell| self.of_cell(cell))
     }
 
     fn of_cell(&self, cell: usize) -> &[u32] {
         &self.list[self.starts[cell] as usize..self.starts[cell + 1] as usize]
-    }
-
-    /// The grid within a cell, if that is crowded.
-    fn finer(&self, cell: usize) -> Option<&Self> {
-        if self.of_cell(cell).len() <= CROWDED {
-            return None;
-        }
-        self.finer.get(&cell)
     }
 
     /// The triangles over the cells that a box reaches into, some of them several times.
@@ -515,14 +466,9 @@ mod tests {
     #[test]
     fn triangles_are_found_in_clusters() {
         let mut random = fastrand::Rng::with_seed(7);
-        let (mut found, mut is_refined) = (0, false);
+        let mut found = 0;
         for _ in 0..20 {
             let heights = Heights::over(clustered(&mut random, 600), false);
-            is_refined |= heights
-                .grid
-                .finer
-                .values()
-                .any(|grid| !grid.finer.is_empty());
             for facet in &heights.facets {
                 let [a, b, c] = facet.flat();
                 let place = a.lerp(b, random.f64()).lerp(c, random.f64());
@@ -532,6 +478,6 @@ mod tests {
                 found += 1;
             }
         }
-        assert!(found > 10_000 && is_refined, "{found}");
+        assert!(found > 10_000, "{found}");
     }
 }

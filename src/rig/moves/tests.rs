@@ -124,9 +124,10 @@ fn waves_run_along_what_bends() {
         let bones = bones.filter(|(_, (part, bone))| *part == whole && *bone > 0);
         let turns = bones.map(|(bone, _)| {
             let turns = clip.retargeted.rotations[bone].as_ref();
-            turns.unwrap_or_else(|| panic!("{motion}: a bone of {name} stays"))
+            let turns = turns.unwrap_or_else(|| panic!("{motion}: a bone of {name} stays"));
+            turns.as_slice()
         });
-        let turns: Vec<&Vec<DQuat>> = turns.collect();
+        let turns: Vec<&[DQuat]> = turns.collect();
         assert!(turns.len() >= 3, "{name} has {} bones", turns.len());
         let off = |turns: &[DQuat], frame: usize| turns[frame] * turns[0].inverse();
         let widest = (0..turns[0].len()).max_by(|a, b| {

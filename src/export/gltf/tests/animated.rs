@@ -95,7 +95,7 @@ fn assert_keys(scene: &Scene, file: &[u8]) {
                 (ReadOutputs::Rotations(turns), Values::Rotations(wanted)) => {
                     let turns: Vec<_> = turns.into_f32().map(glam::Quat::from_array).collect();
                     assert_eq!(turns.len(), wanted.len());
-                    for (turn, wanted) in turns.iter().zip(wanted) {
+                    for (turn, wanted) in turns.iter().zip(wanted.iter()) {
                         assert!((turn.length() - 1.0).abs() < 1e-6);
                         assert!(turn.abs_diff_eq(wanted.as_quat(), 1e-6), "{turn} {wanted}");
                     }
