@@ -173,6 +173,25 @@ fn a_part_behind_another_is_reported() {
 }
 
 #[test]
+fn what_peeks_out_under_a_high_pile_is_not_in_front() {
+    // Of 160 discs, all but the topmost show a narrow edge, as in a shaded cylinder. A bar is drawn over all of them.
+    let disc = |i: u32| {
+        let (y, red) = (300 - i, 0x20 + i);
+        format!(r##"<ellipse cx="200" cy="{y}" rx="120" ry="60" fill="#{red:02x}4080"/>"##)
+    };
+    let discs: String = (0..160).map(disc).collect();
+    let (compiled, look) = looked_at(&format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">{discs}
+        <rect x="180" y="100" width="40" height="220" fill="#f0c000"/></svg>"##
+    ));
+    assert!(look.right > 0.98, "{}", look.right);
+    let bar = look.parts.iter().max_by_key(|look| look.part);
+    let bar = bar.expect("parts that are looked at");
+    assert_eq!(compiled.bindings.parts.len(), 161);
+    assert!(bar.share() > 0.95, "{}", bar.share());
+}
+
+#[test]
 fn landscapes_look_as_drawn_at_their_places() {
     let (_, look) = looked_at(&page(
         r##"<g><text x="-20" y="5" font-size="5">Land$Tiles 10</text>

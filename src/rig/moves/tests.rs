@@ -135,7 +135,7 @@ fn waves_run_along_what_bends() {
             b.total_cmp(&a)
         });
         let axis = off(turns[0], widest.expect("frames")).xyz().normalize();
-        let phase = |turns: &Vec<DQuat>| {
+        let phase = |turns: &[DQuat]| {
             let frames = turns.len() - 1;
             let angles = (0..frames).map(|frame| angle(off(turns, frame), axis));
             let angles: Vec<f64> = angles.collect();
