@@ -122,19 +122,19 @@ impl Volume {
         })
     }
 
-    /// How far a point of the drawing is inside, and the nearest way out, if that is farther than `least`. `separating` is the plane that
-    /// was nearer for the point before, which most often is for this one too.
+    /// How far a point of the drawing is inside, and the nearest way out, if it is deeper than `least`. `separating` is a plane behind
+    /// which the point before was not so deep; most often this one is not, either.
     fn deeper_than(
         &self,
         least: f64,
         point: DVec3,
         separating: &mut usize,
     ) -> Option<(f64, DVec3)> {
-        let is_near = |(way, reach): &(DVec3, f64)| reach - point.dot(*way) <= least;
-        if is_near(&self.planes[*separating]) {
+        let is_shallow = |(way, reach): &(DVec3, f64)| reach - point.dot(*way) <= least;
+        if is_shallow(&self.planes[*separating]) {
             return None;
         }
-        match self.planes.iter().position(is_near) {
+        match self.planes.iter().position(is_shallow) {
             Some(plane) => {
                 *separating = plane;
                 None
@@ -220,7 +220,8 @@ impl Arm {
     }
 
     /// The shortest way out of the trunk for the deepest point of an arm that is opened: a rotation vector in the axes of what the arm is
-    /// attached to. Zero if it is outside. `separating` has a plane of each volume that points before were beyond.
+    /// attached to. Zero if it is outside. `separating` has a plane of each volume, see
+    /// [`Volume::deeper_than`].
     fn way_out(
         &self,
         rig: &Rig,

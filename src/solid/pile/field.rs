@@ -24,7 +24,7 @@ use crate::solid::{Options, Placement, Solid};
 /// Points of the border are no closer than this, in tolerances.
 const NEAR: f64 = 0.2;
 /// Crossings of a border with edges below that are looked at, about.
-const MAX_CROSSINGS: usize = 1 << 14;
+const MAX_CROSSINGS: usize = 1 << 16;
 /// The least thickness, relative to depths, that `f32` can distinguish from none.
 const MIN_THICKNESS: f64 = 1e-6;
 /// Edges of rounded solids that are sharper than this are seen as edges, degrees: it is between the steps of a rounding and
