@@ -14,9 +14,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
 use super::query::{bounds, bounds_of, shoelace};
-use super::tangled::{
-    Crossings, MAX_CROSSINGS, MAX_PICTURED, crossings, pictured, sweeps_better_along_y,
-};
+use super::tangled::{Crossings, MAX_CROSSINGS, MAX_PICTURED, crossings, pictured};
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
 use crate::budget::{self, Step};
@@ -82,11 +80,15 @@ fn resolve(
     };
     let mut crossed = 0;
     if !simple {
-        let Crossings { count, is_dense } = crossings(&rings);
+        let Crossings {
+            count,
+            is_dense,
+            is_better_along_y,
+        } = crossings(&rings);
         if count > MAX_CROSSINGS || (is_dense && !is_pictured) {
             return Err(rings);
         }
-        grid.is_turned = sweeps_better_along_y(rings.iter().map(Vec::as_slice));
+        grid.is_turned = is_better_along_y;
         if count == 0 {
             simple = is_simple(&rings, &grid);
         }

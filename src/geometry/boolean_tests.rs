@@ -1,4 +1,5 @@
 use super::super::query::{area, contains, distance_squared};
+use super::super::tangled::sweeps_better_along_y;
 use super::*;
 use proptest::prelude::*;
 use std::f64::consts::TAU;

@@ -32,6 +32,8 @@ pub(super) struct Crossings {
     pub(super) count: usize,
     /// Whether many rings lie in one another densely.
     pub(super) is_dense: bool,
+    /// See [`sweeps_better_along_y`].
+    pub(super) is_better_along_y: bool,
 }
 
 /// About how many edges of rings are above each other along each axis: those of a row of dashes are few along the row only.
@@ -47,7 +49,10 @@ fn edges_above<'a>(rings: impl Iterator<Item = &'a [DVec2]> + Clone) -> DVec2 {
 
 /// Whether a sweep along x meets very many edges at a time, and one along y fewer: then it is worth turning the rings.
 pub(crate) fn sweeps_better_along_y<'a>(rings: impl Iterator<Item = &'a [DVec2]> + Clone) -> bool {
-    let above = edges_above(rings);
+    is_better_along_y(edges_above(rings))
+}
+
+fn is_better_along_y(above: DVec2) -> bool {
     above.x > MANY_ABOVE && above.y < above.x
 }
 
@@ -86,6 +91,7 @@ pub(super) fn crossings(rings: &[Ring]) -> Crossings {
     Crossings {
         count: crossings,
         is_dense: rings.len() >= MANY_RINGS && pairs > MAX_PAIRS_OF_RINGS,
+        is_better_along_y: is_better_along_y(above),
     }
 }
 

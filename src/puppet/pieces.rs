@@ -245,9 +245,11 @@ fn contact(one: &Outline, other: &Outline) -> DVec2 {
     let border = edges(other).map(|ends| Line::new(ends[0].to_array(), ends[1].to_array()));
     let border = RTree::bulk_load(border.collect());
     let gap = |point: &DVec2| {
-        let border = || border.nearest_neighbor_with_distance_2(point.to_array());
-        let border = (!inside.contains(*point)).then(border).flatten();
-        border.map_or(0.0, |(_, gap)| gap)
+        if inside.contains(*point) {
+            return 0.0;
+        }
+        let nearest = border.nearest_neighbor_with_distance_2(point.to_array());
+        nearest.map_or(0.0, |(_, gap)| gap)
     };
     let nearest = one.rings().flatten().copied();
     let nearest = nearest.min_by(|a, b| gap(a).total_cmp(&gap(b)));

@@ -164,18 +164,16 @@ impl Scratch {
         shape: &Shape,
         below: impl Iterator<Item = &'a Shape>,
     ) -> f64 {
-        let lines = Scanlines::across(shape.bounds);
-        lines.cut(&shape.outline, &shape.ranges, &mut self.own);
-        let whole = self.own.length();
+        let lines = self.begin(shape);
+        let whole = self.left.length();
         for other in below {
-            if self.own.is_empty() {
+            if self.left.is_empty() {
                 break;
             }
-            lines.cut(&other.outline, &other.ranges, &mut self.other);
-            self.own.remove(&self.other);
+            self.hide(&lines, shape, other);
         }
         if whole > 0.0 {
-            1.0 - self.own.length() / whole
+            1.0 - self.left.length() / whole
         } else {
             0.0
         }

@@ -3,8 +3,9 @@
 use glam::{DAffine2, DVec2};
 
 use super::cover::flat;
+use super::growth::Growth;
 use super::rim::Rim;
-use super::{BodyHeights, Growth, Lay, LayForm};
+use super::{BodyHeights, Lay, LayForm};
 use crate::geometry::{EdgeRanges, Intervals, LINES, Outline, Scanlines, bounds};
 use crate::solid::Solid;
 use crate::solid::heights::Heights;

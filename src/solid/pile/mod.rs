@@ -22,6 +22,7 @@ use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 use field::Field;
 use ground::{BodyInFrame, Ground, Own, Target};
+use growth::Growth;
 use rim::Rim;
 
 pub(crate) use girth::{Girth, Section};
@@ -31,18 +32,11 @@ mod cover;
 mod field;
 mod girth;
 mod ground;
+mod growth;
 mod hidden;
 mod recent;
 mod region;
 mod rim;
-
-/// Points that all bodies together may spend on following those below, beside what each may by its own size.
-const MORE_POINTS: usize = 1 << 16;
-/// The same for one of a few bodies, and for one of many.
-const MOST_EACH: usize = 1 << 9;
-const LEAST_EACH: usize = 1 << 5;
-/// Each of so many bodies may spend as many points on it as it has by itself; each of more, which are smaller, only a share of these.
-const MANY_BODIES: usize = 1 << 9;
 
 /// How far a mesh may deviate from the surfaces below it before it is refined, as a share of the step.
 const TOLERANCE: f64 = 0.5;
@@ -61,32 +55,6 @@ pub(crate) struct Pile {
     carries: Vec<bool>,
     growth: Growth,
     recent: Arc<RecentHeights>,
-}
-
-/// How many points the mesh of a body may spend on following those below.
-#[derive(Debug, Clone, Copy)]
-struct Growth {
-    /// However few it has by itself.
-    each: usize,
-    /// And one more for each so many of its own.
-    per: usize,
-}
-
-impl Growth {
-    /// That of each of so many bodies.
-    fn of(bodies: usize) -> Self {
-        // Rounded, so that most changes of one body leave those of the others as they are.
-        let bodies = bodies.max(1).next_power_of_two();
-        Self {
-            each: (MORE_POINTS / bodies).clamp(LEAST_EACH, MOST_EACH),
-            per: (bodies / MANY_BODIES).max(1),
-        }
-    }
-
-    /// The most points for a mesh that has so many by itself.
-    fn most(self, own: usize) -> usize {
-        own / self.per + self.each
-    }
 }
 
 /// A solid in a pile.
