@@ -54,20 +54,20 @@ closing() { # LOG
   ' "$1"
 }
 
-# Runs a step. Its output goes to its log too, and what became of it into a file beside that.
+# Runs a step. Its output goes to its log too, and what became of it, with its time and that of all its processors, into a file beside that.
 run() { # NAME FUNCTION
-  local began=$SECONDS log=$logs/$1.log showing status
+  local began=$SECONDS log=$logs/$1.log showing status TIMEFORMAT='%U %S'
   exec 3> >(tee "$log")
   showing=$!
   # Not in a condition: there `set -e` would not hold.
   set +e
-  (set -e; exec 3>&-; "$2") >&3 2>&1
+  { time (set -e; exec 3>&-; "$2") >&3 2>&1; } 2> "$logs/$1.time"
   status=$?
   set -e
   exec 3>&-
   # All output is shown; what a step may have left running is not waited for.
   timeout 10 tail -s 0.1 -f --pid="$showing" /dev/null || true
-  echo "$status $((SECONDS - began))" > "$logs/$1.result"
+  echo "$status $((SECONDS - began)) $(awk '{ printf "%d", $1 + $2 }' "$logs/$1.time")" > "$logs/$1.result"
 }
 
 summary=()
@@ -75,8 +75,8 @@ failed=0
 skipped=0
 # Says what became of a step.
 conclude() { # NAME
-  local log=$logs/$1.log status seconds verdict left_out line
-  read -r status seconds < "$logs/$1.result"
+  local log=$logs/$1.log status seconds processor verdict left_out line
+  read -r status seconds processor < "$logs/$1.result"
   left_out=$(skips "$log" | sort | uniq -c | sed -E 's/^ *1 /skipped: /; s/^ *([0-9]+) /skipped \1 times: /')
   case $status in
     0) verdict=ok ;;
@@ -85,7 +85,7 @@ conclude() { # NAME
   esac
   skipped=$((skipped + $(skips "$log" | wc -l)))
   printf -- '---- %s: %s, %d s\n' "$1" "$verdict" "$seconds"
-  summary+=("$(printf '%-12s %4d s  %s' "$1" "$seconds" "$verdict")")
+  summary+=("$(printf '%-12s %4d s, CPU %4d s  %s' "$1" "$seconds" "$processor" "$verdict")")
   while IFS= read -r line; do
     [ -z "$line" ] || summary+=("                       $line")
   done < <(closing "$log"; echo "$left_out")
@@ -119,7 +119,7 @@ end_aside() {
     name=${each%:*}
     printf '\n==== %s\n' "$name"
     # A row that was ended leaves steps out.
-    [ -e "$logs/$name.result" ] || { echo "did not end" > "$logs/$name.log"; echo 1 0 > "$logs/$name.result"; }
+    [ -e "$logs/$name.result" ] || { echo "did not end" > "$logs/$name.log"; echo 1 0 0 > "$logs/$name.result"; }
     cat "$logs/$name.log"
     conclude "$name"
   done
@@ -401,11 +401,11 @@ inkscape_extension() {
 
 step format formatting
 step clippy lints
-step test tests
-# Each of the two rows takes about one core: what needs cargo, and what needs the program, which is built by now.
+# Each of the two rows takes about one core: what needs cargo, and what needs the program.
 if program; then is_built=yes; fi
 begin_aside examples:examples validator:validator schemas:schemas extension:extension page:page editors:editors inkscape:inkscape_extension \
   blender:blender_import
+step test tests
 step package package
 step clip-art clip_art
 step doc manual
