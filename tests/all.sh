@@ -54,6 +54,8 @@ closing() { # LOG
   ' "$1"
 }
 
+isolated() { (set -e; exec >&3 2>&1 3>&-; "$1"); }
+
 # Runs a step. Its output goes to its log too, and what became of it, with its time and that of all its processors, into a file beside that.
 run() { # NAME FUNCTION
   local began=$SECONDS log=$logs/$1.log showing status TIMEFORMAT='%U %S'
@@ -61,7 +63,7 @@ run() { # NAME FUNCTION
   showing=$!
   # Not in a condition: there `set -e` would not hold.
   set +e
-  { time (set -e; exec 3>&-; "$2") >&3 2>&1; } 2> "$logs/$1.time"
+  { time isolated "$2"; } 2> "$logs/$1.time"
   status=$?
   set -e
   exec 3>&-
