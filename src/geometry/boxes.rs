@@ -29,18 +29,21 @@ const FEW: usize = 256;
 /// A box whose third coordinate is its place in an order.
 type OrderedBox = GeomWithData<Rectangle<[f64; 3]>, usize>;
 
-/// Bounding boxes in an order, to find those before another one.
+/// Bounding boxes in an order, to find those that are before a place in it.
+#[derive(Debug)]
 pub(crate) struct OrderedBoxes {
-    boxes: Vec<(DVec2, DVec2)>,
+    boxes: Vec<(usize, (DVec2, DVec2))>,
     tree: BoxTree<usize>,
     /// Needed only where many boxes meet.
     ordered: OnceLock<RTree<OrderedBox>>,
 }
 
 impl OrderedBoxes {
-    pub(crate) fn new(boxes: Vec<(DVec2, DVec2)>) -> Self {
-        let indexed = boxes.iter().enumerate();
-        let indexed = indexed.map(|(index, corners)| indexed_box(*corners, index));
+    /// Boxes from their lower to their higher corners, each with its place in the order.
+    pub(crate) fn new(boxes: impl Iterator<Item = (usize, (DVec2, DVec2))>) -> Self {
+        let boxes: Vec<_> = boxes.collect();
+        let indexed = boxes.iter();
+        let indexed = indexed.map(|(place, corners)| indexed_box(*corners, *place));
         Self {
             tree: BoxTree::bulk_load(indexed.collect()),
             boxes,
@@ -48,12 +51,24 @@ impl OrderedBoxes {
         }
     }
 
-    /// Calls `each` with those that meet a box and are before it, the last first, until it returns `false` or has been called `most`
-    /// times. The time grows with the number of calls and little with that of the boxes that meet there.
-    pub(crate) fn before(&self, index: usize, most: usize, mut each: impl FnMut(usize) -> bool) {
-        let area = area_around(self.boxes[index], 0.0);
-        let near = self.tree.locate_in_envelope_intersecting(area);
-        let near: Vec<usize> = near.take(FEW + 1).map(|near| near.data).collect();
+    /// The places of those that meet an area, in any order.
+    pub(crate) fn meeting(&self, area: (DVec2, DVec2)) -> impl Iterator<Item = usize> {
+        let found = self
+            .tree
+            .locate_in_envelope_intersecting(area_around(area, 0.0));
+        found.map(|found| found.data)
+    }
+
+    /// Calls `each` with the places before `place` of those that meet an area, the last first, until it returns `false` or has been
+    /// called `most` times. The time grows with the number of calls and little with that of the boxes that meet there.
+    pub(crate) fn before(
+        &self,
+        place: usize,
+        area: (DVec2, DVec2),
+        most: usize,
+        mut each: impl FnMut(usize) -> bool,
+    ) {
+        let near: Vec<usize> = self.meeting(area).take(FEW + 1).collect();
         let mut left = most;
         let mut visit = |mut near: Vec<usize>| {
             near.sort_unstable_by(|a, b| b.cmp(a));
@@ -62,14 +77,14 @@ impl OrderedBoxes {
             near.into_iter().all(&mut each) && left > 0
         };
         if near.len() <= FEW {
-            visit(near.into_iter().filter(|near| *near < index).collect());
+            visit(near.into_iter().filter(|near| *near < place).collect());
             return;
         }
         // The pieces of the order grow, as of many boxes enough are usually in the first one.
-        let (mut end, mut length) = (index, FEW);
+        let (mut end, mut length) = (place, FEW);
         while end > 0 {
             let start = end.saturating_sub(length);
-            let [low, high] = in_order(self.boxes[index], [start, end - 1]);
+            let [low, high] = in_order(area, [start, end - 1]);
             let area = AABB::from_corners(low, high);
             let near = self.ordered().locate_in_envelope_intersecting(area);
             if !visit(near.map(|near| near.data).collect()) {
@@ -81,9 +96,9 @@ impl OrderedBoxes {
 
     fn ordered(&self) -> &RTree<OrderedBox> {
         self.ordered.get_or_init(|| {
-            let boxes = self.boxes.iter().enumerate().map(|(index, corners)| {
-                let [low, high] = in_order(*corners, [index; 2]);
-                GeomWithData::new(Rectangle::from_corners(low, high), index)
+            let boxes = self.boxes.iter().map(|(place, corners)| {
+                let [low, high] = in_order(*corners, [*place; 2]);
+                GeomWithData::new(Rectangle::from_corners(low, high), *place)
             });
             RTree::bulk_load(boxes.collect())
         })
@@ -114,7 +129,7 @@ mod tests {
                 (low, low + *size)
             };
             let boxes: Vec<(DVec2, DVec2)> = places.iter().map(corners).collect();
-            let ordered = OrderedBoxes::new(boxes.clone());
+            let ordered = OrderedBoxes::new(boxes.iter().copied().enumerate());
             for index in (0..boxes.len()).rev().step_by(97) {
                 let (low, high) = boxes[index];
                 let meets = |other: &usize| {
@@ -123,10 +138,10 @@ mod tests {
                 };
                 let expected: Vec<usize> = (0..index).rev().filter(meets).take(most).collect();
                 let mut found = Vec::new();
-                ordered.before(index, most, |other| { found.push(other); true });
+                ordered.before(index, boxes[index], most, |other| { found.push(other); true });
                 prop_assert_eq!(&found, &expected);
                 found.clear();
-                ordered.before(index, most, |other| { found.push(other); found.len() < 3 });
+                ordered.before(index, boxes[index], most, |other| { found.push(other); found.len() < 3 });
                 prop_assert_eq!(&found[..], &expected[..expected.len().min(3)]);
             }
         }

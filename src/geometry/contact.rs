@@ -10,8 +10,8 @@ use super::{BoxTree, Outline, area_around, contains, edges, indexed_box};
 /// How many edges are looked at to find areas that touch, once for each other edge near them. After that, bounding boxes decide.
 const MAX_STEPS: usize = 1 << 26;
 
-/// With how many others an area is found to touch at most; a heap of shapes is not a figure.
-const MAX_TOUCHED: usize = 256;
+/// How many others are looked for that an area touches. It has more where others with fewer touch it; a heap of shapes is not a figure.
+const MAX_TOUCHED: usize = 64;
 
 /// An area of one or more outlines.
 pub(crate) struct Body<'a> {

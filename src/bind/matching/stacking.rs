@@ -8,9 +8,7 @@ use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::parts::MatchedPart;
 use crate::bind::bindings::PartId;
-use crate::geometry::{
-    BoxTree, EdgeRanges, Intervals, Outline, Scanlines, area, area_around, contains, indexed_box,
-};
+use crate::geometry::{EdgeRanges, Intervals, OrderedBoxes, Outline, Scanlines, area, contains};
 use crate::index::par_keys;
 use crate::memo::{Bits, Long, Memo, Same};
 use crate::threads::GRAIN;
@@ -23,8 +21,6 @@ const GROUND_CORNERS: usize = 2;
 const LIES_ON: f64 = 0.9;
 /// How many parts are compared with a part at most: in a higher pile, the rest would hardly be seen.
 const MAX_NEIGHBORS: usize = 512;
-/// How many parts under a point are sorted at a time, at least.
-const SORTED: usize = 64;
 /// As soon as it is known what is seen directly under a part, no more than this many of the parts that it lies on are recorded.
 const MAX_HOSTS: usize = 8;
 
@@ -32,7 +28,7 @@ const MAX_HOSTS: usize = 8;
 #[derive(Debug)]
 pub(in crate::bind) struct Stacking {
     parts: TiVec<PartId, StackedPart>,
-    tree: BoxTree<PartId>,
+    boxes: OrderedBoxes,
     facts: TiVec<PartId, Facts>,
     /// The first part that is no ground.
     ground: PartId,
@@ -117,8 +113,7 @@ impl Stacking {
             .collect();
         let parts: TiVec<PartId, StackedPart> = parts.into();
         let boxes = parts.iter_enumerated().filter(|(_, part)| part.takes_part);
-        let boxes = boxes.map(|(index, part)| indexed_box(part.bounds, index));
-        let tree = BoxTree::bulk_load(boxes.collect());
+        let boxes = OrderedBoxes::new(boxes.map(|(index, part)| (index.into(), part.bounds)));
         let nothing = Outline::default();
         let outlines = parts.iter().map(|part| {
             if part.takes_part {
@@ -130,7 +125,7 @@ impl Stacking {
         let ground = ground_count(outlines, page);
         let mut stacking = Self {
             parts,
-            tree,
+            boxes,
             facts: ti_vec![],
             ground: ground.into(),
         };
@@ -180,24 +175,15 @@ impl Stacking {
 
     /// The parts at a point, the topmost first, and at most so many.
     pub(super) fn topmost(&self, point: DVec2, count: usize) -> Vec<PartId> {
-        let boxes = self.tree.locate_all_at_point([point.x, point.y]);
-        let mut near: Vec<PartId> = boxes.map(|found| found.data).collect();
-        let later_first = |a: &PartId, b: &PartId| b.cmp(a);
         let mut found = Vec::new();
-        // In pieces, as thousands may lie in one place of which few are wanted.
-        let mut rest = near.as_mut_slice();
-        while !rest.is_empty() && found.len() < count {
-            let some = (2 * count).max(SORTED).min(rest.len());
-            if some < rest.len() {
-                rest.select_nth_unstable_by(some - 1, later_first);
+        let all = self.parts.len();
+        self.boxes.before(all, (point, point), usize::MAX, |part| {
+            let part = PartId::from(part);
+            if contains(&self.parts[part].outline, point) {
+                found.push(part);
             }
-            let (first, others) = rest.split_at_mut(some);
-            first.sort_unstable_by(later_first);
-            let on = first.iter().copied();
-            let on = on.filter(|part| contains(&self.parts[*part].outline, point));
-            found.extend(on.take(count - found.len()));
-            rest = others;
-        }
+            found.len() < count
+        });
         found
     }
 
@@ -221,9 +207,8 @@ impl Stacking {
             return Facts::default();
         };
         near.clear();
-        let around = area_around((low, high), 0.0);
-        let boxes = self.tree.locate_in_envelope_intersecting(around);
-        near.extend(boxes.take(MAX_NEIGHBORS).map(|found| found.data));
+        let found = self.boxes.meeting((low, high)).take(MAX_NEIGHBORS);
+        near.extend(found.map(PartId::from));
         if near.len() == MAX_NEIGHBORS {
             near.extend(members);
         }

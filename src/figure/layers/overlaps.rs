@@ -40,7 +40,7 @@ pub(super) struct Scratch {
 /// Per shape those that it lies over, back-most first. If all together are over the budget, those on top of many have only those of them
 /// that others do not hide, and if need be only the topmost of these.
 pub(super) fn overlaps(shapes: &[Shape], budget: Budget) -> Vec<Vec<Overlap>> {
-    let boxes = OrderedBoxes::new(shapes.iter().map(|shape| shape.bounds).collect());
+    let boxes = OrderedBoxes::new(shapes.iter().map(|shape| shape.bounds).enumerate());
     let shapes_below = (0..shapes.len()).into_par_iter().with_min_len(GRAIN);
     let mut overlaps: Vec<Vec<Overlap>> = shapes_below
         .map_init(Scratch::default, |scratch, shape| {
@@ -80,7 +80,7 @@ fn below(
     let own = &shapes[above];
     let mut found: Vec<Overlap> = Vec::new();
     let mut many = None;
-    boxes.before(above, MAX_BOXES, |below| {
+    boxes.before(above, own.bounds, MAX_BOXES, |below| {
         let other = &shapes[below];
         if found.len() >= MAX_BELOW {
             let lines = many.get_or_insert_with(|| {
