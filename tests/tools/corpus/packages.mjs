@@ -10,9 +10,13 @@ import { drawing } from '../iconify.mjs'
 
 /** Debian packages with drawings. */
 const DEBIAN = [
-  'adwaita-icon-theme', 'breeze-icon-theme', 'elementary-icon-theme', 'elementary-xfce-icon-theme', 'faenza-icon-theme',
-  'gnome-cards-data', 'iso-flags-svg', 'kdegames-card-data-kf5', 'mate-icon-theme', 'openclipart-svg',
-  'sugar-icon-theme', 'suru-icon-theme', 'tango-icon-theme', 'tuxpaint-stamps-default',
+  'adwaita-icon-theme', 'breeze-icon-theme', 'dia-common', 'elementary-icon-theme', 'elementary-xfce-icon-theme',
+  'faenza-icon-theme', 'freecad-common', 'fritzing-parts', 'gnome-cards-data', 'gnome-chess', 'gnome-mahjongg',
+  'granatier', 'inkscape-open-symbols', 'inkscape-tutorials', 'iso-flags-svg', 'kapman', 'kbounce', 'kbreakout',
+  'kdegames-card-data-kf5', 'kdegames-mahjongg-data-kf5', 'kdiamond', 'kgoldrunner', 'khangman', 'kigo', 'killbots',
+  'kmines', 'kolf', 'ksirk', 'ktuberling-data', 'mate-icon-theme', 'numix-icon-theme-circle', 'openboard-common',
+  'openclipart-svg', 'sugar-icon-theme', 'suru-icon-theme', 'tango-icon-theme', 'tuxmath-data',
+  'tuxpaint-stamps-default',
 ]
 
 const FOLDER = import.meta.dirname
