@@ -106,6 +106,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::LongerDashes, "limit-dashes"),
     (Code::TooFine, "limit-corners"),
     (Code::TooMuchRound, "limit-round"),
+    (Code::SoftShades, "view-soft-shades"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),
     (Code::AxisGuess, "shape-axis-guess"),

@@ -11,7 +11,7 @@ use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::Keyword;
 use crate::scene::ViewId;
 use crate::source::Span;
-use crate::svg::Drawing;
+use crate::svg::{Drawing, ShapeId};
 
 /// The string of a view's layer.
 fn span(bindings: &Bindings, layer: LayerId) -> Span {
@@ -42,6 +42,15 @@ pub(super) fn too_many(bindings: &Bindings, layer: LayerId, count: usize) -> Dia
     );
     Diagnostic::new(Code::UnusableView, span(bindings, layer), message)
         .help("draw the character with fewer shapes, or join those of one colour (in Inkscape, Path → Union)")
+}
+
+/// A picture with soft shades, which became so many regions.
+pub(super) fn shaded(drawing: &Drawing, picture: ShapeId, regions: usize) -> Diagnostic {
+    let what = drawing.describe(picture);
+    let message =
+        format!("{what} has soft shades, and each step of them became a region: {regions} in all");
+    Diagnostic::new(Code::SoftShades, drawing.shapes[picture].element.span, message)
+        .help("paint each area in one colour (in Krita or GIMP: Posterize), or trace the picture with few colours (in Inkscape: Path → Trace Bitmap) and write the names beside the shapes")
 }
 
 /// A view in the direction of another one.
@@ -94,6 +103,10 @@ pub(super) fn report(
             }
         }
         diagnostics.push(finding);
+    }
+    // That is said of the picture, once.
+    if views.iter().any(|view| view.is_shaded) {
+        return;
     }
     let describe = |region: RegionInView| describe(drawing, views, region);
     let finding = |unmatched: &Unmatched| {

@@ -8,7 +8,7 @@ use image::DynamicImage;
 use rayon::prelude::*;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
-use super::diagnostics::too_many;
+use super::diagnostics::{shaded, too_many};
 use super::features::{self, FeaturePoint};
 use super::keys;
 use super::matching::RegionInView;
@@ -42,6 +42,8 @@ pub(super) struct DrawnView {
     pub(super) drawn: TiVec<RegionId, Drawn>,
     /// Its feature points.
     pub(super) features: Vec<FeaturePoint>,
+    /// Whether a picture in it has soft shades, so that most of its regions are only steps of them.
+    pub(super) is_shaded: bool,
 }
 
 /// What the drawing says of a region, besides its outline.
@@ -114,13 +116,20 @@ pub(super) fn read(
     }
     // What the view does not show lies behind all that it shows.
     let (mut hidden, mut regions) = (Vec::new(), Vec::new());
+    let mut is_shaded = false;
     for (index, shape) in drawing.shapes.iter_enumerated() {
         if bindings.view_of_group(shape.group) != Some(layer) || bindings.is_leader(index) {
             continue;
         }
         if shape.picture.is_some() {
             match of_picture(drawing, index, regions.len(), memo) {
-                Ok(found) => regions.extend(found),
+                Ok((found, is_picture_shaded)) => {
+                    if is_picture_shaded {
+                        diagnostics.push(shaded(drawing, index, found.len()));
+                        is_shaded = true;
+                    }
+                    regions.extend(found);
+                }
                 Err((code, message)) => {
                     let finding = Diagnostic::new(code, shape.element.span, message);
                     diagnostics.push(finding.help(LARGE));
@@ -158,6 +167,7 @@ pub(super) fn read(
         },
         drawn,
         features: features::of_view(drawing, bindings, layer, diagnostics),
+        is_shaded,
     })
 }
 
@@ -235,15 +245,15 @@ pub(super) fn segmented(pixels: Result<DynamicImage, (Code, String)>) -> Segment
     Ok((size, raster::regions(&pixels)))
 }
 
-/// The regions of a picture; the first one will have this number among those of its view.
+/// The regions of a picture, and whether it has soft shades. The first region will have this number among those of its view.
 fn of_picture(
     drawing: &Drawing,
     index: ShapeId,
     first: usize,
     memo: &Memo,
-) -> Result<Vec<(Region, Drawn)>, (Code, String)> {
+) -> Result<(Vec<(Region, Drawn)>, bool), (Code, String)> {
     let Some(picture) = &drawing.shapes[index].picture else {
-        return Ok(Vec::new());
+        return Ok((Vec::new(), false));
     };
     let found = keys::segmented(picture, memo);
     let (size, found) = (*found).as_ref().map_err(Clone::clone)?;
@@ -277,10 +287,9 @@ fn of_picture(
         label: None,
         is_hidden: false,
     };
-    Ok(regions
-        .chain(inner)
-        .map(|(region, line)| (region, drawn(line)))
-        .collect())
+    let regions = regions.chain(inner);
+    let regions = regions.map(|(region, line)| (region, drawn(line)));
+    Ok((regions.collect(), found.is_shaded))
 }
 
 /// The container of each region; of those that have none yet, the smallest one drawn before it that covers nearly all of it.

@@ -631,6 +631,17 @@ codes! {
     ///
     /// Draw fewer shapes or simpler ones, in Inkscape with *Path → Simplify*, or write `Shape default` for those that may be flat.
     TooMuchRound = "W336", "too much that is round";
+    /// A picture of a character has soft shades instead of areas in one colour each: it was painted with a soft brush, or it is a
+    /// photograph. Each step of the shades became a region of the character, so that there are more regions than anybody would
+    /// draw, and they hardly match those of another view. Noise, and what JPEG files add to edges, are cleaned away without a word.
+    ///
+    /// ```text
+    /// a layer with the string Bird$View 0 0 and a photograph of a bird
+    /// ```
+    ///
+    /// Paint each area in one colour, in Krita or GIMP with *Posterize*, or trace the picture with few colours, in Inkscape with
+    /// *Path → Trace Bitmap*.
+    SoftShades = "W337", "picture with soft shades";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

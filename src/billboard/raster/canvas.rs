@@ -19,33 +19,82 @@ pub(super) struct Canvas {
     pub(super) pixels: Vec<[u8; 4]>,
     /// The colour of the padding: nothing if the picture has transparent pixels, else the commonest colour of its border.
     pub(super) background: [u8; 4],
+    /// The least area of a region, as a share of the picture.
+    pub(super) least_share: f64,
+    /// The colours of its flat areas, if it was cleaned.
+    pub(super) flat_colors: Option<Vec<[u8; 4]>>,
 }
 
+/// The least area of a region in a picture that was drawn cleanly, as a share of it.
+const LEAST_SHARE: f64 = 3e-5;
+
 impl Canvas {
-    pub(super) fn new(picture: &RgbaImage) -> Self {
-        let (inner_width, inner_height) = (picture.width() as usize, picture.height() as usize);
+    /// The canvas of a picture in which each square of so many pixels along each side is one.
+    pub(super) fn new(picture: &RgbaImage, square: usize) -> Self {
+        let [inner_width, inner_height] =
+            [picture.width(), picture.height()].map(|side| (side as usize).div_ceil(square));
         let (width, height) = (inner_width + 2 * PAD, inner_height + 2 * PAD);
-        let (colors, _) = picture.as_raw().as_chunks::<4>();
-        let background = if colors.iter().any(|color| color[3] <= TRANSPARENT) {
-            [0; 4]
-        } else {
-            commonest_on_border(colors, inner_width, inner_height)
-        };
-        let mut pixels = vec![background; width * height];
-        if inner_width > 0 {
+        let mut pixels = vec![[0; 4]; width * height];
+        if square == 1 && inner_width > 0 {
+            let (colors, _) = picture.as_raw().as_chunks::<4>();
             for (row, line) in colors.chunks_exact(inner_width).enumerate() {
                 let start = (row + PAD) * width + PAD;
                 for (pixel, color) in pixels[start..].iter_mut().zip(line) {
                     *pixel = premultiplied(*color);
                 }
             }
+        } else {
+            for row in 0..inner_height {
+                let means = (0..inner_width).map(|column| mean(picture, [column, row], square));
+                let start = (row + PAD) * width + PAD;
+                for (pixel, mean) in pixels[start..].iter_mut().zip(means) {
+                    *pixel = mean;
+                }
+            }
         }
-        Self {
+        let mut canvas = Self {
             width,
             height,
             pixels,
-            background,
+            background: [0; 4],
+            least_share: LEAST_SHARE,
+            flat_colors: None,
+        };
+        canvas.find_background();
+        canvas
+    }
+
+    /// Finds the background of the picture, and pads the picture with it.
+    pub(super) fn find_background(&mut self) {
+        let is_clear = |at: usize| self.pixels[at][3] <= TRANSPARENT;
+        self.background = if self.rows().flatten().any(is_clear) {
+            [0; 4]
+        } else {
+            self.commonest_on_border()
+        };
+        let width = self.width;
+        for (at, pixel) in self.pixels.iter_mut().enumerate() {
+            let (x, y) = (at % width, at / width);
+            let is_inner = |along: usize, side: usize| (PAD..side - PAD).contains(&along);
+            if !is_inner(x, width) || !is_inner(y, self.height) {
+                *pixel = self.background;
+            }
         }
+    }
+
+    fn commonest_on_border(&self) -> [u8; 4] {
+        let mut counts: FxHashMap<[u8; 4], usize> = FxHashMap::default();
+        let (right, bottom) = (self.width - PAD - 1, self.height - PAD - 1);
+        for at in self.rows().flatten() {
+            let (x, y) = (at % self.width, at / self.width);
+            if x == PAD || y == PAD || x == right || y == bottom {
+                *counts.entry(self.pixels[at]).or_default() += 1;
+            }
+        }
+        let commonest = counts
+            .into_iter()
+            .max_by_key(|(color, count)| (*count, *color));
+        commonest.map_or([0; 4], |(color, _)| color)
     }
 
     /// Whether transparent pixels are the background.
@@ -98,6 +147,24 @@ impl Canvas {
     }
 }
 
+/// The mean of the premultiplied colours in a square of pixels, the one in this column and row of squares, as far as it is in the picture.
+fn mean(picture: &RgbaImage, [column, row]: [usize; 2], square: usize) -> [u8; 4] {
+    let (width, height) = (picture.width() as usize, picture.height() as usize);
+    let (colors, _) = picture.as_raw().as_chunks::<4>();
+    let (left, right) = (column * square, ((column + 1) * square).min(width));
+    let (mut sums, mut count) = ([0_u32; 4], 0);
+    for y in row * square..((row + 1) * square).min(height) {
+        for color in &colors[y * width..][left..right] {
+            let color = premultiplied(*color);
+            for (sum, channel) in sums.iter_mut().zip(color) {
+                *sum += u32::from(channel);
+            }
+            count += 1;
+        }
+    }
+    sums.map(|sum| ((sum + count / 2) / count.max(1)) as u8)
+}
+
 fn premultiplied([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     let by = |c: u8| ((u32::from(c) * u32::from(a) + 127) / 255) as u8;
     match a {
@@ -106,21 +173,8 @@ fn premultiplied([r, g, b, a]: [u8; 4]) -> [u8; 4] {
     }
 }
 
-fn commonest_on_border(colors: &[[u8; 4]], width: usize, height: usize) -> [u8; 4] {
-    let mut counts: FxHashMap<[u8; 4], usize> = FxHashMap::default();
-    for (index, color) in colors.iter().enumerate() {
-        let (x, y) = (index % width.max(1), index / width.max(1));
-        if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
-            *counts.entry(premultiplied(*color)).or_default() += 1;
-        }
-    }
-    let commonest = counts
-        .into_iter()
-        .max_by_key(|(color, count)| (*count, *color));
-    commonest.map_or([0; 4], |(color, _)| color)
-}
-
 /// The square of the distance of two colours.
+#[inline]
 pub(super) fn distance_squared(a: [u8; 4], b: [u8; 4]) -> i32 {
     let square = |i: usize| (i32::from(a[i]) - i32::from(b[i])).pow(2);
     square(0) + square(1) + square(2) + square(3)

@@ -3,6 +3,7 @@
 use super::canvas::{Canvas, Color, mixture, mixture_of_three};
 use super::fill::Seeds;
 use super::ink::{Ink, is_line};
+use super::luma::LumaChroma;
 use super::seeds::{MAX_REGIONS, min_area};
 use crate::regions::groups;
 
@@ -37,12 +38,52 @@ pub(super) fn add_details(canvas: &Canvas, seeds: &mut Seeds, ink: Option<&Ink>)
     }
     let is_strange = |at: usize| strangeness[at] > 0.0;
     let mut groups = groups(strangeness.len(), &strange, &canvas.around(), is_strange);
-    groups.retain(|group| group.len() >= min_area(canvas));
+    let is_dirty = canvas.flat_colors.is_some();
+    groups.retain(|group| {
+        group.len() >= min_area(canvas) && !(is_dirty && is_fringe(canvas, seeds, group))
+    });
     groups.sort_by_key(|group| usize::MAX - group.len());
     groups.truncate((MAX_REGIONS + 1).saturating_sub(seeds.colors.len()));
     for group in groups {
         add_group(canvas, seeds, &group, &strangeness);
     }
+}
+
+/// Whether a group is what a JPEG file makes of the edge between two of the regions around it.
+fn is_fringe(canvas: &Canvas, seeds: &Seeds, group: &[usize]) -> bool {
+    let near = labels_around(canvas, seeds, group);
+    let color = |label: u16| LumaChroma::of(seeds.colors[usize::from(label)]);
+    let own = LumaChroma::of(mean(canvas, group));
+    near.iter().enumerate().any(|(index, a)| {
+        let mut others = near[index + 1..].iter();
+        others.any(|b| own.is_fringe(color(*a), color(*b)))
+    })
+}
+
+/// The labels of a group's pixels and beside them, in ascending order.
+fn labels_around(canvas: &Canvas, seeds: &Seeds, group: &[usize]) -> Vec<u16> {
+    let mut near: Vec<u16> = Vec::new();
+    for &at in group {
+        for offset in canvas.around() {
+            let label = seeds.labels[at.wrapping_add_signed(offset)];
+            if !near.contains(&label) {
+                near.push(label);
+            }
+        }
+    }
+    near.sort_unstable();
+    near
+}
+
+/// The mean colour of some pixels, at least one.
+fn mean(canvas: &Canvas, pixels: &[usize]) -> Color {
+    let mut color: Color = [0.0; 4];
+    for &at in pixels {
+        for (sum, channel) in color.iter_mut().zip(canvas.pixels[at]) {
+            *sum += f32::from(channel) / pixels.len() as f32;
+        }
+    }
+    color
 }
 
 /// The square of the distance of a pixel's colour from the nearest mixture of its region's with another around it.
@@ -99,12 +140,7 @@ fn add_group(canvas: &Canvas, seeds: &mut Seeds, group: &[usize], strangeness: &
     let mut stranger = group.to_vec();
     stranger.sort_by(|a, b| strangeness[*b].total_cmp(&strangeness[*a]).then(a.cmp(b)));
     stranger.truncate(group.len().div_ceil(2));
-    let mut color: Color = [0.0; 4];
-    for &at in &stranger {
-        for (sum, channel) in color.iter_mut().zip(canvas.pixels[at]) {
-            *sum += f32::from(channel) / stranger.len() as f32;
-        }
-    }
+    let color = mean(canvas, &stranger);
     let joined = thin_neighbor(canvas, seeds, group, color);
     let is_mostly = |at: &usize| match joined {
         Some([own, label]) => {
@@ -140,16 +176,7 @@ fn thin_neighbor(
     group: &[usize],
     color: Color,
 ) -> Option<[u16; 2]> {
-    let mut near: Vec<u16> = Vec::new();
-    for &at in group {
-        for offset in canvas.around() {
-            let label = seeds.labels[at.wrapping_add_signed(offset)];
-            if !near.contains(&label) {
-                near.push(label);
-            }
-        }
-    }
-    near.sort_unstable();
+    let near = labels_around(canvas, seeds, group);
     let is_thin = |label: &u16| seeds.is_thin.get(usize::from(*label)) == Some(&true);
     let color_of = |label: u16| seeds.colors[usize::from(label)];
     let own = near.iter().copied().find(|label| !is_thin(label))?;

@@ -29,13 +29,15 @@ pub(super) struct Palette {
 
 /// Finds the flat colours of a picture and classifies its pixels.
 pub(super) fn palette(canvas: &Canvas) -> Palette {
-    let colors = merged(canvas, flat_colors(canvas));
+    let known = canvas.flat_colors.as_ref();
+    let known = known.map(|colors| colors.iter().map(|color| (*color, 1)).collect());
+    let colors = merged(canvas, known.unwrap_or_else(|| flat_colors(canvas)));
     let mut classes = Vec::with_capacity(canvas.pixels.len());
-    let mut known: FxHashMap<[u8; 4], u16> = FxHashMap::default();
+    let mut class_of: FxHashMap<[u8; 4], u16> = FxHashMap::default();
     let mut last = (canvas.background, nearest(&colors, canvas.background));
     for &pixel in &canvas.pixels {
         if pixel != last.0 {
-            let class = known
+            let class = class_of
                 .entry(pixel)
                 .or_insert_with(|| nearest(&colors, pixel));
             last = (pixel, *class);

@@ -7,8 +7,6 @@ use super::palette::{CLEAR, NONE};
 
 /// At most so many regions are kept, the largest: matching takes time with the cube of their number.
 pub(super) const MAX_REGIONS: usize = 400;
-/// The least area of a region as a share of the picture.
-const MIN_SHARE: f64 = 3e-5;
 /// The least area of a region, pixels.
 const MIN_AREA: f64 = 4.0;
 /// The area that makes a region of a component without a square of 2 × 2 pixels.
@@ -31,7 +29,7 @@ pub(super) enum Kind {
 
 /// The least area of a region in this picture, pixels.
 pub(super) fn min_area(canvas: &Canvas) -> usize {
-    (canvas.pixels.len() as f64 * MIN_SHARE).max(MIN_AREA) as usize
+    (canvas.pixels.len() as f64 * canvas.least_share).max(MIN_AREA) as usize
 }
 
 /// Whether a component is large enough to be a region.

@@ -75,6 +75,101 @@ fn shapes_with_outlines_are_found_and_keep_their_lines() {
     }
 }
 
+/// A picture with normally distributed noise of this standard deviation, in steps of 1/255.
+fn noisy(picture: &RgbaImage, deviation: f64) -> RgbaImage {
+    let mut random = fastrand::Rng::with_seed(1);
+    let mut picture = picture.clone();
+    for channel in picture.pixels_mut().flat_map(|pixel| &mut pixel.0[..3]) {
+        // Of twelve uniform numbers the sum has a variance of 1.
+        let normal: f64 = (0..12).map(|_| random.f64() - 0.5).sum();
+        *channel = (f64::from(*channel) + deviation * normal)
+            .round()
+            .clamp(0.0, 255.0) as u8;
+    }
+    picture
+}
+
+/// A picture as a JPEG file of this quality has it.
+fn as_jpeg(picture: &RgbaImage, quality: u8) -> RgbaImage {
+    let picture = image::DynamicImage::from(picture.clone()).into_rgb8();
+    let mut file = Vec::new();
+    image::codecs::jpeg::JpegEncoder::new_with_quality(&mut file, quality)
+        .encode_image(&picture)
+        .unwrap();
+    image::load_from_memory(&file).unwrap().into_rgba8()
+}
+
+#[test]
+fn noise_and_what_jpeg_files_add_are_no_regions() {
+    for background in [WHITE, BACKGROUNDS[2]] {
+        for line in [None, Some(4.5)] {
+            let drawing = figure(background, line);
+            let picture = drawing.picture();
+            let mut dirty: Vec<(String, RgbaImage)> = Vec::new();
+            for deviation in [1.0, 2.0, 4.0, 8.0] {
+                dirty.push((format!("noise of {deviation}"), noisy(&picture, deviation)));
+            }
+            for quality in [30, 75, 95] {
+                dirty.push((format!("quality {quality}"), as_jpeg(&picture, quality)));
+            }
+            for (what, picture) in dirty {
+                let view = regions(&picture);
+                let what = format!("{what}, line {line:?} on {background:?}");
+                let count = view.regions.len();
+                assert!((6..=9).contains(&count), "{what}: {count} regions");
+                assert!(!view.is_shaded, "{what}");
+                let whole: f64 = view
+                    .regions
+                    .iter()
+                    .map(|region| area(&region.outline))
+                    .sum();
+                let clean: f64 = regions(&drawing.picture())
+                    .regions
+                    .iter()
+                    .map(|region| area(&region.outline))
+                    .sum();
+                assert!(
+                    (whole / clean - 1.0).abs() < 0.02,
+                    "{what}: {whole} for {clean}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn soft_shades_are_known() {
+    let picture = figure(WHITE, None).picture();
+    let mut shaded = picture.clone();
+    for (x, y, pixel) in shaded.enumerate_pixels_mut() {
+        let light = 1.0 - 0.5 * f64::from(x * x + y * y) / f64::from(220 * 220 + 260 * 260);
+        for channel in &mut pixel.0[..3] {
+            *channel = (f64::from(*channel) * light).round() as u8;
+        }
+    }
+    assert!(regions(&shaded).is_shaded);
+    assert!(!regions(&picture).is_shaded);
+}
+
+#[test]
+fn large_pictures_are_looked_at_in_squares() {
+    let mut drawing = Drawing::new(4100, 300, WHITE);
+    drawing.fill(rectangle(100.0, 50.0, 3000.0, 250.0), RED);
+    drawing.fill(disc(3600.0, 150.0, 90.0), BLUE);
+    let view = regions(&drawing.picture());
+    assert_eq!(view.regions.len(), 2);
+    for (region, drawn) in view
+        .regions
+        .iter()
+        .zip([[100.0, 50.0, 3000.0, 250.0], [3510.0, 60.0, 3690.0, 240.0]])
+    {
+        let (low, high) = bounds(&region.outline).unwrap();
+        for (found, drawn) in [low.x, low.y, high.x, high.y].into_iter().zip(drawn) {
+            assert!((found - drawn).abs() < 1.5, "{found} for {drawn}");
+        }
+    }
+}
+
 #[test]
 fn what_lies_inside_has_a_container_and_comes_later() {
     let mut drawing = Drawing::new(200, 200, NOTHING);
