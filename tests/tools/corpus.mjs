@@ -1,4 +1,4 @@
-// Builds all drawings of some twenty packages, and measures that: OKOSHI=PROGRAM SCRATCH=FOLDER node corpus.mjs [PACKAGE…]
+// Builds all drawings of some forty packages, and measures that: OKOSHI=PROGRAM SCRATCH=FOLDER node corpus.mjs [PACKAGE…]
 //
 // The packages are fetched by name into the folder SCRATCH, and not installed: Debian packages with apt-get, npm packages with npm.
 // Every drawing is built, measured by GNU time, and every model validated; then silhouettes of 400 models are compared with resvg's
