@@ -15,10 +15,9 @@ const HARDLY: u8 = 12;
 /// In flat art most pairs of neighbouring pixels that differ at all are at edges, and differ much: of 41 such pictures at most 39 % hardly
 /// differ, and of the same with little noise or as JPEG files at least 65 %.
 const DIRTY: f64 = 0.53;
-/// Lines and strong compression make more pairs that differ much; then many of all pairs hardly differ: at least 5 %, and in 83 flat pictures
-/// at most 3.6 %.
-const DIRTY_WITH_LINES: f64 = 0.3;
-const DIRTY_OF_ALL: f64 = 0.045;
+/// Lines and strong compression make more pairs that differ much; then many of all pairs hardly differ, in flat pictures at most 5.6 %.
+const DIRTY_WITH_LINES: f64 = 0.35;
+const DIRTY_OF_ALL: f64 = 0.065;
 /// Where so many of all pairs differ, there is strong noise: in 42 flat pictures it was at most 4 %.
 const NOISY: f64 = 0.4;
 /// The least area of a region of such a picture, as a share of the picture, and in pixels.
