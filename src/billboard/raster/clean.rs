@@ -114,8 +114,8 @@ fn noise(canvas: &Canvas) -> f64 {
         for (row, weights) in WEIGHTS.iter().enumerate() {
             let first = at + row * canvas.width - canvas.width - 1;
             for (pixel, weight) in canvas.pixels[first..first + 3].iter().zip(weights) {
-                for channel in 0..3 {
-                    sums[channel] += weight * i32::from(pixel[channel]);
+                for (sum, channel) in sums.iter_mut().zip(pixel) {
+                    *sum += weight * i32::from(*channel);
                 }
             }
         }
@@ -341,8 +341,8 @@ fn snap(canvas: &mut Canvas, colors: &[[u8; 4]], same: f64, least: usize) -> boo
     let flat = labels.clone();
     spread(canvas, &mut labels);
     let is_shaded = are_soft(canvas, &labels);
-    for at in 0..labels.len() {
-        let Some(color) = colors.get(usize::from(labels[at])) else {
+    for (at, label) in labels.into_iter().enumerate() {
+        let Some(color) = colors.get(usize::from(label)) else {
             continue;
         };
         let pixel = &mut canvas.pixels[at];
