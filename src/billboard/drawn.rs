@@ -123,12 +123,12 @@ pub(super) fn read(
         }
         if shape.picture.is_some() {
             match of_picture(drawing, index, regions.len(), memo) {
-                Ok((found, is_picture_shaded)) => {
-                    if is_picture_shaded {
-                        diagnostics.push(shaded(drawing, index, found.len()));
+                Ok(found) => {
+                    if found.is_shaded {
+                        diagnostics.push(shaded(drawing, index, found.regions.len()));
                         is_shaded = true;
                     }
-                    regions.extend(found);
+                    regions.extend(found.regions);
                 }
                 Err((code, message)) => {
                     let finding = Diagnostic::new(code, shape.element.span, message);
@@ -245,15 +245,23 @@ pub(super) fn segmented(pixels: Result<DynamicImage, (Code, String)>) -> Segment
     Ok((size, raster::regions(&pixels)))
 }
 
-/// The regions of a picture, and whether it has soft shades. The first region will have this number among those of its view.
+/// What a picture gives its view.
+#[derive(Default)]
+struct OfPicture {
+    regions: Vec<(Region, Drawn)>,
+    /// Whether it has soft shades.
+    is_shaded: bool,
+}
+
+/// The regions of a picture. The first one will have this number among those of its view.
 fn of_picture(
     drawing: &Drawing,
     index: ShapeId,
     first: usize,
     memo: &Memo,
-) -> Result<(Vec<(Region, Drawn)>, bool), (Code, String)> {
+) -> Result<OfPicture, (Code, String)> {
     let Some(picture) = &drawing.shapes[index].picture else {
-        return Ok((Vec::new(), false));
+        return Ok(OfPicture::default());
     };
     let found = keys::segmented(picture, memo);
     let (size, found) = (*found).as_ref().map_err(Clone::clone)?;
@@ -289,7 +297,10 @@ fn of_picture(
     };
     let regions = regions.chain(inner);
     let regions = regions.map(|(region, line)| (region, drawn(line)));
-    Ok((regions.collect(), found.is_shaded))
+    Ok(OfPicture {
+        regions: regions.collect(),
+        is_shaded: found.is_shaded,
+    })
 }
 
 /// The container of each region; of those that have none yet, the smallest one drawn before it that covers nearly all of it.
