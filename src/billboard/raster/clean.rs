@@ -70,7 +70,7 @@ pub(super) fn clean(canvas: &mut Canvas) -> bool {
     is_shaded
 }
 
-/// Whether a picture was not drawn cleanly: most neighbouring pixels that differ hardly do.
+/// Whether a picture was not drawn cleanly: many neighbouring pixels that differ hardly do, or nearly all differ.
 pub(super) fn is_dirty(canvas: &Canvas) -> bool {
     let (mut all, mut differ, mut hardly) = (0_u64, 0_u64, 0_u64);
     for at in canvas.rows().flatten() {
@@ -293,7 +293,7 @@ fn around(cell: usize) -> impl Iterator<Item = usize> {
     cells.filter(move |other| *other != cell)
 }
 
-/// Counts by cell, smoothed over the cells beside it, four times as many on each of the axes.
+/// Counts by cell with those of the cells beside it, which have half the weight along each of the three axes.
 fn densities(counts: &[u32]) -> Vec<u64> {
     let mut densities: Vec<u64> = counts.iter().map(|count| u64::from(*count)).collect();
     for step in [1, CELLS, CELLS * CELLS] {
@@ -312,7 +312,7 @@ fn densities(counts: &[u32]) -> Vec<u64> {
     densities
 }
 
-/// Gives the pixels of flat areas the colours of their clusters. Tells whether most of the borders between clusters are no edges.
+/// Gives the pixels of flat areas the colours of their clusters. Tells whether the picture has shades.
 fn snap(canvas: &mut Canvas, colors: &[[u8; 4]], same: f64, least: usize) -> bool {
     let nearest = |pixel: &[u8; 4]| {
         if pixel[3] <= TRANSPARENT {
@@ -354,7 +354,7 @@ fn snap(canvas: &mut Canvas, colors: &[[u8; 4]], same: f64, least: usize) -> boo
     is_shaded
 }
 
-/// Whether colours hardly change at most of the borders between labels.
+/// Whether colours hardly change at many of the borders between labels.
 fn are_soft(canvas: &Canvas, labels: &[u16]) -> bool {
     let (mut all, mut soft) = (0_u64, 0_u64);
     for at in canvas.rows().flatten() {

@@ -94,8 +94,8 @@ struct Seen<'a> {
 /// Finds the regions of a drawing in flat colours, with or without dark outlines. The background is no region: transparent
 /// pixels or, in an opaque picture, what joins the picture's border in its commonest colour.
 ///
-/// A picture with noise, or as a JPEG file has it, is cleaned before; one of more than 2,048 pixels along a side, or
-/// of such a picture 1,024, is looked at in squares of several pixels. At most 400 regions are found, so that a photograph ends as quickly as a drawing.
+/// A picture with noise, or as a JPEG file has it, is cleaned before. One of more than 2,048 pixels along a side, or of more than 1,024 if it
+/// is cleaned, is looked at in squares of several pixels. At most 400 regions are found, so that a photograph ends as quickly as a drawing.
 pub(super) fn regions(picture: &RgbaImage) -> RasterView {
     let longer = picture.width().max(picture.height());
     let mut square = longer.div_ceil(MAX_SIDE).max(1);
