@@ -72,12 +72,13 @@ impl Canvas {
         } else {
             self.commonest_on_border()
         };
-        let width = self.width;
-        for (at, pixel) in self.pixels.iter_mut().enumerate() {
-            let (x, y) = (at % width, at / width);
-            let is_inner = |along: usize, side: usize| (PAD..side - PAD).contains(&along);
-            if !is_inner(x, width) || !is_inner(y, self.height) {
-                *pixel = self.background;
+        let (width, height) = (self.width, self.height);
+        for (y, row) in self.pixels.chunks_exact_mut(width).enumerate() {
+            if (PAD..height - PAD).contains(&y) {
+                row[..PAD].fill(self.background);
+                row[width - PAD..].fill(self.background);
+            } else {
+                row.fill(self.background);
             }
         }
     }
