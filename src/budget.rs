@@ -14,6 +14,8 @@ pub(crate) enum Work {
     Triangles,
     /// Triangles of what is rounded or pointed, with the fewest layers that it may have.
     LeastTriangles,
+    /// Triangles of plates, and of what is rounded although no string says so with the fewest layers.
+    UnaskedTriangles,
     /// Points of clips, once for each shape that is clipped.
     ClipPoints,
     /// Pairs of corners of outlines with many, in kinds of solids that compare them, in units of 512.
@@ -30,6 +32,7 @@ impl Work {
             // A plate takes four of each point.
             Self::Triangles => (1_000_000, 16),
             Self::LeastTriangles => (600_000, 16),
+            Self::UnaskedTriangles => (1_200_000, 0),
             Self::ClipPoints => (4_000_000, 32),
             // One outline of 4,096.
             Self::ComparedCorners => (1 << 15, 1),

@@ -205,7 +205,7 @@ pub struct Part {
     /// For cloth by its name, how far it reaches to either side of its plane at most if it is inflated without a `Shape` that says so,
     /// drawing units.
     pub(super) sheet: Option<f64>,
-    /// Whether it has too many corners for its `Shape`, and is a plate instead.
+    /// Whether it has too many corners for its `Shape`, or is one of very many small shapes, and is a plate instead.
     pub is_too_fine: bool,
     /// The axis, centre and ends of its shape. `Axis` replaces the measured axis.
     pub measure: Measure,

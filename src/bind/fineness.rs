@@ -11,10 +11,16 @@ use crate::svg::Drawing;
 
 /// Shapes with so many corners are never too fine.
 const FEW: u64 = 512;
+/// Triangles of a plate for each of its points.
+const OF_PLATES: u64 = 4;
 
 /// Makes plates of the shapes that would cause the most work if all of them together would go over the budgets of the drawing, and says
 /// so.
 pub(super) fn limit(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    if bindings.is_first_look {
+        let small = small(drawing, bindings);
+        make_plates(bindings, &small);
+    }
     let corners = |index| compared_corners(drawing, bindings, index);
     if let Some((parts, share)) = parts_over(drawing, bindings, Work::ComparedCorners, corners) {
         let kind = bindings.attributes(bindings.form(parts[0])).shape().kind;
@@ -51,6 +57,49 @@ pub(super) fn limit(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mu
     }
 }
 
+/// The smallest of the parts that are rounded although no string says so, if the drawing has too many triangles with all of them: in
+/// such a drawing nobody sees that they are round, and all that lies on them would have to follow them.
+fn small(drawing: &Drawing, bindings: &Bindings) -> Vec<PartId> {
+    let most = drawing.budget.most(Work::UnaskedTriangles);
+    let rounded =
+        built(bindings).filter_map(|part| Some((part, least_triangles(drawing, bindings, part)?)));
+    let mut rounded: Vec<(PartId, u64)> = rounded.collect();
+    let width = |part: PartId| {
+        let Part {
+            measure,
+            is_stroke,
+            shape,
+            ..
+        } = &bindings.parts[part];
+        let stroke = drawing.shapes[*shape].stroke.as_ref();
+        let line = stroke
+            .filter(|_| *is_stroke)
+            .map(|stroke| stroke.width() / 2.0);
+        line.unwrap_or_else(|| measure.half_across.min(measure.half_along))
+    };
+    rounded.sort_by(|a, b| width(b.0).total_cmp(&width(a.0)));
+    let points = bindings
+        .parts
+        .iter()
+        .map(|part| part.outline.point_count() as u64);
+    let mut used = OF_PLATES * points.sum::<u64>();
+    let mut rounded = rounded.into_iter();
+    // The largest, which may be all there is, has limits of its own.
+    used += rounded.next().map_or(0, |(_, triangles)| triangles);
+    let small = rounded.filter(|(_, triangles)| {
+        used += triangles;
+        used > most
+    });
+    small.map(|(part, _)| part).collect()
+}
+
+/// The parts that become solids.
+fn built(bindings: &Bindings) -> impl Iterator<Item = PartId> + '_ {
+    let parts = bindings.parts.iter_enumerated();
+    let built = parts.filter(|(_, part)| matches!(part.kind, PartKind::Main | PartKind::Sub));
+    built.map(|(index, _)| index)
+}
+
 /// The parts for which more of a kind of work is wanted than each of them may have at most, if there are any, and how much that is.
 fn parts_over(
     drawing: &Drawing,
@@ -58,9 +107,7 @@ fn parts_over(
     work: Work,
     wanted: impl Fn(PartId) -> Option<u64>,
 ) -> Option<(Vec<PartId>, u64)> {
-    let parts = bindings.parts.iter_enumerated();
-    let built = parts.filter(|(_, part)| matches!(part.kind, PartKind::Main | PartKind::Sub));
-    let wanted = built.filter_map(|(index, _)| Some((index, wanted(index)?)));
+    let wanted = built(bindings).filter_map(|index| Some((index, wanted(index)?)));
     let wanted: Vec<(PartId, u64)> = wanted.collect();
     let amounts = wanted.iter().map(|(_, amount)| *amount);
     let share = drawing.budget.share(work, amounts.collect())?;

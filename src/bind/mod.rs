@@ -83,6 +83,7 @@ fn bind_as(
     diagnostics.extend(reports::all(drawing, texts, &matched, &attributes, &tree));
     let mut bindings = assembled(matched, attributes, tree);
     fineness::limit(drawing, &mut bindings, diagnostics);
+    reports::first_look(drawing, &bindings, diagnostics);
     bindings
 }
 

@@ -480,3 +480,40 @@ fn wheels_are_discs_unless_a_string_says_shape() {
     let chosen = drawing(&(wheels + &text(100, 190, "%Shape inflate")));
     assert!(!depths(&chosen, "Wheel").0);
 }
+
+/// Of very many rounded shapes the smallest are plates: all that are inflated are larger.
+#[test]
+fn small_shapes_of_a_crowd_are_plates() {
+    let circles = |count: usize| {
+        let circle = |index: usize| {
+            let (x, y) = (index % 100 * 2, index / 100 * 2);
+            let radius = 0.2 + 0.001 * (index * 7919 % 500) as f64;
+            format!(r##"<circle cx="{x}" cy="{y}" r="{radius}" fill="#888888"/>"##)
+        };
+        drawing(&(0..count).map(circle).collect::<String>())
+    };
+    let said = |compiled: &Compiled| {
+        let found = compiled.diagnostics.iter();
+        let mut found = found.filter(|found| found.code == Code::FirstLook);
+        found.next().unwrap().message.clone()
+    };
+    assert!(said(&circles(500)).ends_with("500 rounded shapes are inflated"));
+    let crowd = circles(3000);
+    let (small, large): (Vec<&Part>, Vec<&Part>) = crowd
+        .bindings
+        .parts
+        .iter()
+        .partition(|part| part.is_too_fine);
+    let width = |part: &&Part| part.measure.half_across;
+    let largest = small.iter().map(width).fold(0.0, f64::max);
+    let smallest = large.iter().map(width).fold(f64::INFINITY, f64::min);
+    // Of 36 to 60 points each.
+    assert!((1_000..2_500).contains(&large.len()), "{}", large.len());
+    assert!(largest <= smallest, "{largest} {smallest}");
+    let counts = [large.len(), small.len()];
+    let message = format!(
+        "{} rounded shapes are inflated, and {} small shapes are plates so that the model stays small",
+        counts[0], counts[1]
+    );
+    assert!(said(&crowd).ends_with(&message), "{}", said(&crowd));
+}

@@ -769,8 +769,8 @@ codes! {
     /// Write `%Strokes lines` to build them, or `%Strokes none` to do without all lines.
     LinesLeftOut = "H416", "lines left out";
     /// No string says `Shape`, so the drawing is built as a toy at first: shapes whose outline is more than half curves are
-    /// inflated, lines become tubes, the others are plates, and outlines are built. As soon as any string says `Shape`, all
-    /// shapes that say nothing are plates, and outlines are left out.
+    /// inflated, lines become tubes, the others are plates, and outlines are built. Of thousands of shapes only the largest are
+    /// rounded. As soon as any string says `Shape`, all shapes that say nothing are plates, and outlines are left out.
     ///
     /// ```text
     /// a round head on a square body, with the names Head and Body

@@ -196,17 +196,15 @@ fn combine(subjects: &[&Outline], clips: &[&Outline], rule: OverlayRule) -> Outl
     let Some(grid) = finer else {
         return Outline::default();
     };
-    let mut overlay = Overlay::<i64>::new_custom(64, options(), Default::default());
-    for (outlines, kind) in [(subjects, ShapeType::Subject), (clips, ShapeType::Clip)] {
-        for ring in outlines
-            .iter()
-            .flat_map(|o| &o.polygons)
-            .flat_map(|p| &p.rings)
-        {
-            overlay.add_path_iter(ring.iter().map(|p| grid.far_point(*p)), kind);
+    let shapes = FAR_OVERLAY.with_borrow_mut(|overlay| {
+        overlay.clear();
+        for (outlines, kind) in [(subjects, ShapeType::Subject), (clips, ShapeType::Clip)] {
+            for ring in outlines.iter().flat_map(|outline| outline.rings()) {
+                overlay.add_path_iter(ring.iter().map(|p| grid.far_point(*p)), kind);
+            }
         }
-    }
-    let shapes = overlay.overlay(rule, GridRule::NonZero);
+        overlay.overlay(rule, GridRule::NonZero)
+    });
     let shapes = shapes.into_iter().map(|shape| {
         let rings = shape
             .into_iter()
@@ -236,6 +234,8 @@ fn is_box_around(outline: &Outline, low: DVec2, high: DVec2) -> bool {
 
 thread_local! {
     static OVERLAY: RefCell<Overlay<i32>> =
+        RefCell::new(Overlay::new_custom(64, options(), Default::default()));
+    static FAR_OVERLAY: RefCell<Overlay<i64>> =
         RefCell::new(Overlay::new_custom(64, options(), Default::default()));
 }
 

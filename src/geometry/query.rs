@@ -94,7 +94,7 @@ pub(crate) fn centroid(outline: &Outline) -> Option<DVec2> {
 
 /// The signed area of a ring (shoelace formula), positive where it runs from x to y. Computed relative to the first
 /// point, so that small rings far from the origin keep their precision.
-pub(crate) fn shoelace(ring: &Ring) -> f64 {
+pub(crate) fn shoelace(ring: &[DVec2]) -> f64 {
     let Some(&origin) = ring.first() else {
         return 0.0;
     };

@@ -4,6 +4,85 @@ use glam::DVec2;
 
 /// Limit of the cells along each side, if they are about as long as wide.
 const MAX_CELLS: f64 = 512.0;
+/// Cells along the radius within which points are looked for, and the most cells a point.
+const CELLS_PER_RADIUS: f64 = 2.0;
+const CELLS_PER_POINT: f64 = 4.0;
+
+/// Values that are in the cells of a grid.
+#[derive(Debug)]
+pub(super) struct Lists<T> {
+    /// Per cell where its values begin in the list.
+    starts: Vec<u32>,
+    list: Vec<T>,
+}
+
+impl<T: Copy> Lists<T> {
+    /// The values of so many cells, each with its cell. Those of a cell keep their order.
+    pub(super) fn new(cells: usize, entries: &[(u32, T)]) -> Self {
+        let mut ends = vec![0_u32; cells + 1];
+        for (cell, _) in entries {
+            ends[*cell as usize + 1] += 1;
+        }
+        for cell in 1..ends.len() {
+            ends[cell] += ends[cell - 1];
+        }
+        let starts = ends.clone();
+        let mut list: Vec<T> = entries.iter().map(|(_, value)| *value).collect();
+        for (cell, value) in entries {
+            let place = &mut ends[*cell as usize];
+            list[*place as usize] = *value;
+            *place += 1;
+        }
+        Self { starts, list }
+    }
+
+    pub(super) fn of_cell(&self, cell: usize) -> &[T] {
+        &self.list[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+    }
+}
+
+/// Points of the plane with values, of which those near a place are found.
+#[derive(Debug)]
+pub(super) struct Scattered<T> {
+    cells: Cells,
+    lists: Lists<(DVec2, T)>,
+    radius: f64,
+}
+
+impl<T: Copy> Scattered<T> {
+    /// Points of which those within a radius will be looked for.
+    pub(super) fn new(points: &[(DVec2, T)], radius: f64) -> Self {
+        let places = || points.iter().map(|(point, _)| *point);
+        let bounds = [
+            places().reduce(DVec2::min).unwrap_or_default(),
+            places().reduce(DVec2::max).unwrap_or_default(),
+        ];
+        let extent = (bounds[1] - bounds[0]) / (radius / CELLS_PER_RADIUS) + 1.0;
+        // Not many more cells than points.
+        let count = (extent.x * extent.y).min(CELLS_PER_POINT * points.len() as f64);
+        let cells = Cells::over(bounds, count);
+        let entries = points
+            .iter()
+            .map(|entry| (cells.nearest(entry.0) as u32, *entry));
+        let entries: Vec<_> = entries.collect();
+        Self {
+            lists: Lists::new(cells.count(), &entries),
+            cells,
+            radius,
+        }
+    }
+
+    /// The points nearer to a place than the radius, with the squares of their distances, in an order that depends on all of them.
+    pub(super) fn near(&self, place: DVec2) -> impl Iterator<Item = (f64, T)> + '_ {
+        let within = self.radius * self.radius;
+        let cells = self.cells.in_box(place - self.radius, place + self.radius);
+        let points = cells.flat_map(|cell| self.lists.of_cell(cell));
+        points.filter_map(move |(point, value)| {
+            let apart = point.distance_squared(place);
+            (apart <= within).then_some((apart, *value))
+        })
+    }
+}
 
 /// The cells of a grid, numbered row by row.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashSet;
 
 use super::Solid;
-use super::cells::Cells;
+use super::cells::{Cells, Lists};
 use super::inflate::{Field, Mesh};
 use crate::budget::{self, Step};
 use crate::scene::{Surface, SurfaceSource};
@@ -29,6 +29,7 @@ pub(super) struct Heights {
     /// Whether no point lies in several triangles.
     is_field: bool,
     slack: f64,
+    highest: f64,
     border: OnceLock<Border>,
     corners: OnceLock<Vec<Vec2>>,
 }
@@ -75,9 +76,11 @@ impl Heights {
     }
 
     fn over(facets: Vec<Facet>, is_field: bool) -> Self {
-        let corners = facets.iter().flat_map(|facet| facet.corners);
-        let largest = corners.fold(0.0_f32, |most, corner| most.max(corner.abs().max_element()));
+        let corners = || facets.iter().flat_map(|facet| facet.corners);
+        let largest = corners().fold(0.0_f32, |most, corner| most.max(corner.abs().max_element()));
+        let highest = corners().map(|corner| corner.z).reduce(f32::max);
         Self {
+            highest: highest.unwrap_or(0.0).into(),
             grid: Grid::of(&facets),
             facets,
             is_field,
@@ -108,9 +111,7 @@ impl Heights {
 
     /// The greatest height; 0 for nothing.
     pub(super) fn highest(&self) -> f64 {
-        let corners = self.facets.iter().flat_map(|facet| facet.corners);
-        let highest = corners.map(|corner| corner.z).reduce(f32::max);
-        highest.unwrap_or(0.0).into()
+        self.highest
     }
 
     /// The height at the point of the surface's border that is nearest to a point of the drawing plane; `None` for a surface of walls
@@ -298,9 +299,7 @@ impl PointDistance for Edge {
 #[derive(Debug)]
 struct Grid {
     cells: Cells,
-    /// Per cell where its triangles begin in the list.
-    starts: Vec<u32>,
-    list: Vec<u32>,
+    lists: Lists<u32>,
 }
 
 impl Grid {
@@ -331,24 +330,9 @@ impl Grid {
                 }
             }
         };
-        let mut ends = vec![0_u32; cells.count() + 1];
-        for (cell, _) in &entries {
-            ends[*cell as usize + 1] += 1;
-        }
-        for cell in 1..ends.len() {
-            ends[cell] += ends[cell - 1];
-        }
-        let starts = ends.clone();
-        let mut list = vec![0; entries.len()];
-        for (cell, facet) in entries {
-            let place = &mut ends[cell as usize];
-            list[*place as usize] = facet;
-            *place += 1;
-        }
         Self {
+            lists: Lists::new(cells.count(), &entries),
             cells,
-            starts,
-            list,
         }
     }
 
@@ -370,17 +354,14 @@ impl Grid {
 
     /// The triangles over the cell of a point.
     fn at(&self, point: DVec2) -> &[u32] {
-        self.cells.at(point).map_or(&[], |cell| self.of_cell(cell))
-    }
-
-    fn of_cell(&self, cell: usize) -> &[u32] {
-        &self.list[self.starts[cell] as usize..self.starts[cell + 1] as usize]
+        let cell = self.cells.at(point);
+        cell.map_or(&[], |cell| self.lists.of_cell(cell))
     }
 
     /// The triangles over the cells that a box reaches into, some of them several times.
     fn in_box(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = u32> + '_ {
         let cells = self.cells.in_box(low, high);
-        cells.flat_map(|cell| self.of_cell(cell).iter().copied())
+        cells.flat_map(|cell| self.lists.of_cell(cell).iter().copied())
     }
 }
 

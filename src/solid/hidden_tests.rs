@@ -140,3 +140,37 @@ fn what_is_left_is_closed_and_empty() {
         }
     }
 }
+
+/// Many small solids on a plate, some of which overlap: its front is cut by all of them at once.
+#[test]
+fn a_front_under_many_is_seen_beside_them() {
+    let mut bodies = vec![body(solid(
+        rectangle(24.0, 24.0),
+        profile("default", &[-1.0, 1.0]),
+    ))];
+    for index in 0..64 {
+        let [column, row] = [index % 8, index / 8].map(f64::from);
+        let at = DVec2::new(column, row) * 2.8 - 9.8;
+        let lay = Lay {
+            step: 0.04,
+            ..lay(LayForm::Skin, bodies.len())
+        };
+        // Every fourth reaches over its neighbour.
+        let radius = if index % 4 == 0 { 1.9 } else { 1.1 };
+        let outline = moved(circle(radius, 5 + index as usize % 20), at);
+        bodies.push(Body {
+            is_detail: true,
+            lay: Some(lay),
+            ..body(solid(outline, profile("default", &[-1.0, 1.0])))
+        });
+    }
+    let surfaces = surfaces(bodies, true);
+    let mut beside = 0;
+    for point in grid(11.0, 20) {
+        let [front, _] = passed(&surfaces, DMat3::IDENTITY, point);
+        assert_eq!(front, 1, "at {point}");
+        let [of_plate, _] = passed(&surfaces[..1], DMat3::IDENTITY, point);
+        beside += of_plate;
+    }
+    assert!(beside > 300, "{beside} points are on the plate");
+}

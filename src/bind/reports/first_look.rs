@@ -1,42 +1,39 @@
 //! Says what becomes of a drawing whose strings never say `Shape`.
 
-use crate::bind::bindings::{PartId, PartKind};
-use crate::bind::hierarchy::Tree;
-use crate::bind::matching::{Matched, Strokes};
+use crate::bind::bindings::{Bindings, PartKind};
+use crate::bind::matching::Strokes;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::svg::Drawing;
 
 /// One hint about a drawing of which shapes are inflated or outlines are built because no string says `Shape`.
-pub(super) fn report(
+pub(in crate::bind) fn first_look(
     drawing: &Drawing,
-    matched: &Matched,
-    tree: &Tree,
+    bindings: &Bindings,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    if !matched.is_first_look {
+    if !bindings.is_first_look {
         return;
     }
-    let kinds = matched.parts.iter_enumerated().zip(&tree.nodes.kind);
-    let built: Vec<PartId> = kinds
-        .filter(|(_, kind)| matches!(kind, PartKind::Main | PartKind::Sub))
-        .map(|((part, _), _)| part)
-        .collect();
-    let (mut balloons, mut tubes, mut plates, mut outlines) = (0, 0, 0, 0);
-    for part in &built {
-        let part = &matched.parts[*part];
+    let built = || {
+        let parts = bindings.parts.iter();
+        parts.filter(|part| matches!(part.kind, PartKind::Main | PartKind::Sub))
+    };
+    let (mut balloons, mut tubes, mut small, mut plates, mut outlines) = (0, 0, 0, 0, 0);
+    for part in built() {
         let is_outline = part.is_stroke && !drawing.shapes[part.shape].outline.polygons.is_empty();
         match part.host {
             Some(_) if is_outline => outlines += 1,
             Some(_) => {}
+            None if part.is_too_fine => small += 1,
             None if part.is_stroke => tubes += 1,
             None if part.is_balloon => balloons += 1,
             None => plates += 1,
         }
     }
-    if !matches!(matched.settings.strokes, Strokes::Visible | Strokes::All) {
+    if !matches!(bindings.settings.strokes, Strokes::Visible | Strokes::All) {
         outlines = 0;
     }
-    let Some(first) = built.first().filter(|_| balloons + tubes + outlines > 0) else {
+    let Some(first) = built().next().filter(|_| balloons + tubes + outlines > 0) else {
         return;
     };
     let counted = |count: usize, one: &str, several: &str| match count {
@@ -51,6 +48,11 @@ pub(super) fn report(
             "rounded shapes are inflated",
         ),
         counted(tubes, "one line is a tube", "lines are tubes"),
+        counted(
+            small,
+            "one small shape is a plate so that the model stays small",
+            "small shapes are plates so that the model stays small",
+        ),
         counted(
             plates,
             "one other shape is a plate",
@@ -72,7 +74,7 @@ pub(super) fn report(
         help += ", `%Strokes lines` leaves their outlines out";
     }
     help += "; or give one shape its own, as in `Head$Shape round`";
-    let span = drawing.shapes[matched.parts[*first].shape].element.span;
+    let span = drawing.shapes[first.shape].element.span;
     diagnostics.push(
         Diagnostic::new(
             Code::FirstLook,

@@ -14,6 +14,7 @@ mod unbound;
 mod uncertain;
 mod unseen;
 
+pub(in crate::bind) use first_look::first_look;
 pub(in crate::bind) use lettering::lettering;
 pub(crate) use located::locate;
 
@@ -23,7 +24,7 @@ use super::matching::{Matched, Texts};
 use crate::diagnostic::Diagnostic;
 use crate::svg::Drawing;
 
-/// All reports.
+/// All reports but [`first_look`], which needs to know what is too fine to be round.
 pub(in crate::bind) fn all(
     drawing: &Drawing,
     texts: Texts,
@@ -42,7 +43,6 @@ pub(in crate::bind) fn all(
     off_page::report(drawing, matched, tree, &mut found);
     outlines::report(drawing, matched, tree, &mut found);
     outlines::lines(drawing, matched, &mut found);
-    first_look::report(drawing, matched, tree, &mut found);
     size::report(drawing, matched, tree, &mut found);
     off_page::far_away(drawing, matched, attributes, tree, &mut found);
     unseen::hidden(drawing, matched, &mut found);

@@ -34,7 +34,7 @@ pub(super) fn chords(shape: &Shape) -> Vec<Chord> {
     let around = perimeter(outline);
     let apart = around / CHORDS as f64;
     let rings = outline.rings();
-    let area: f64 = rings.map(shoelace).sum();
+    let area: f64 = rings.map(|ring| shoelace(ring)).sum();
     let filled_side = if area < 0.0 { -1.0 } else { 1.0 };
     let mut chords = Vec::with_capacity(CHORDS);
     along(edges(outline), apart, |_, foot, direction| {

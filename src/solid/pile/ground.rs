@@ -41,6 +41,13 @@ impl BodyInFrame {
         self.body.back(self.to.transform_point2(point))
     }
 
+    /// The depths of the back at the farthest and of the front at the nearest.
+    pub(super) fn depths(&self) -> [f64; 2] {
+        let [front, back] = self.body.sides().map(Heights::highest);
+        let BodyHeights { depth, factor, .. } = self.body;
+        [depth - factor * back, depth + factor * front]
+    }
+
     pub(super) fn front_heights(&self) -> &Heights {
         self.body.sides()[0]
     }

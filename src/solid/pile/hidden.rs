@@ -4,7 +4,11 @@
 //! it. So of such a solid only that is left which could be seen if all of them were opaque: its front beside what is drawn on it,
 //! and of its back and its walls what is not inside others. What is left of all of them together is closed.
 
+use std::cell::OnceCell;
+
 use glam::{DVec2, DVec3, Vec3};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 use rustc_hash::FxHashMap;
 
 use super::Pile;
@@ -23,11 +27,22 @@ const MAX_DEPTH: u32 = 4;
 /// triangles with sides that are as short.
 const LINEAR: f64 = 1e-3;
 const SMALL: f64 = 0.06;
+/// A front that more later solids than this lie over is cut by all of them at once.
+const MANY: usize = 16;
+
+/// The solids that hide parts of another one.
+pub(super) struct Hiders {
+    all: Vec<Hider>,
+    /// The boxes around them in the plane, with their indices.
+    boxes: RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+}
 
 /// A solid that hides parts of another one.
-pub(super) struct Hider {
+struct Hider {
     body: BodyInFrame,
     region: Region,
+    /// The depth of its back at the farthest, and of its front at the nearest.
+    depths: OnceCell<[f64; 2]>,
     /// Whether it is drawn later.
     is_later: bool,
     /// Its larger extent.
@@ -89,7 +104,7 @@ impl Level {
 
 impl Pile {
     /// The bodies that hide parts of another one.
-    pub(super) fn hiders(&self, index: usize) -> Vec<Hider> {
+    pub(super) fn hiders(&self, index: usize) -> Hiders {
         let body = &self.bodies[index];
         let mut known = FxHashMap::default();
         let hider = |other: &usize| {
@@ -98,16 +113,24 @@ impl Pile {
             let hider = self.in_frame(*other, heights, body);
             let back = hider.to.inverse();
             let outline = self.outline(&self.bodies[*other]);
-            let outline =
-                outline.map_rings(|ring| ring.iter().map(|p| back.transform_point2(*p)).collect());
+            let is_mirrored = back.matrix2.determinant() < 0.0;
+            let outline = outline.map_rings(|ring| {
+                let ring = ring.iter().map(|p| back.transform_point2(*p));
+                // All of them go around their borders the same way.
+                if is_mirrored {
+                    ring.rev().collect()
+                } else {
+                    ring.collect()
+                }
+            });
             Hider::new(hider, outline, *other > index)
         };
-        body.hidden_by.iter().filter_map(hider).collect()
+        Hiders::new(body.hidden_by.iter().filter_map(hider).collect())
     }
 }
 
 /// A surface in the frame of a node at this depth without what others hide of it.
-pub(super) fn cut(surface: &Surface, node_depth: f64, hiders: &[Hider]) -> Surface {
+pub(super) fn cut(surface: &Surface, node_depth: f64, hiders: &Hiders) -> Surface {
     let corner = |index: u32| {
         let [at, normal] = [&surface.positions, &surface.normals].map(|list| list[index as usize]);
         let at = Vec3::from(at).as_dvec3() + DVec3::Z * node_depth;
@@ -120,7 +143,7 @@ pub(super) fn cut(surface: &Surface, node_depth: f64, hiders: &[Hider]) -> Surfa
     let mut places: Vec<Option<u32>> = vec![None; surface.positions.len()];
     for indices in &surface.triangles {
         let whole = indices.map(corner);
-        match seen(whole, hiders) {
+        match hiders.seen(whole) {
             None => {
                 let triangle = indices.map(|index| {
                     *places[index as usize].get_or_insert_with(|| {
@@ -153,55 +176,113 @@ fn push(out: &mut Surface, triangle: Triangle, node_depth: f64) {
     out.triangles.push([first, first + 1, first + 2]);
 }
 
-/// The parts of a triangle that none of these hides; `None` for all of it.
-fn seen(whole: Triangle, hiders: &[Hider]) -> Option<Vec<Triangle>> {
-    let mut parts: Option<Vec<Triangle>> = None;
-    for hider in hiders {
-        let before = parts.as_deref().unwrap_or(std::slice::from_ref(&whole));
-        let mut after = Vec::with_capacity(before.len());
-        let mut is_cut = false;
-        for part in before {
-            match hider.seen(*part) {
-                None => after.push(*part),
-                Some(seen) => {
-                    is_cut = true;
-                    after.extend(seen);
-                }
-            }
-        }
-        if is_cut {
-            parts = Some(after);
+impl Hiders {
+    fn new(all: Vec<Hider>) -> Self {
+        let boxes = all.iter().enumerate().map(|(index, hider)| {
+            let [low, high] = hider.region.bounds.map(|corner| corner.to_array());
+            GeomWithData::new(Rectangle::from_corners(low, high), index)
+        });
+        Self {
+            boxes: RTree::bulk_load(boxes.collect()),
+            all,
         }
     }
-    parts
+
+    /// Those that a triangle may reach into, in their order.
+    fn near(&self, triangle: Triangle) -> Vec<&Hider> {
+        let [a, b, c] = triangle.map(|corner| corner.at.truncate());
+        let corners = [a.min(b).min(c), a.max(b).max(c)].map(|corner| corner.to_array());
+        let near = AABB::from_corners(corners[0], corners[1]);
+        let near = self.boxes.locate_in_envelope_intersecting(near);
+        let mut near: Vec<usize> = near.map(|hider| hider.data).collect();
+        near.sort_unstable();
+        near.into_iter().map(|index| &self.all[index]).collect()
+    }
+
+    /// The parts of a triangle that none of them hides; `None` for all of it.
+    fn seen(&self, whole: Triangle) -> Option<Vec<Triangle>> {
+        let mut near = self.near(whole);
+        if slope(whole) > WALL {
+            near.retain(|hider| hider.is_later);
+            if near.len() > MANY {
+                let regions: Vec<&Region> = near.iter().map(|hider| &hider.region).collect();
+                let flat = whole.map(|corner| corner.at.truncate());
+                let parts = Region::outside_all(&regions, flat)?.into_iter();
+                let parts = parts.map(|part| part.map(|point| Corner::of(whole, point)));
+                return Some(parts.collect());
+            }
+        }
+        let mut parts: Option<Vec<Triangle>> = None;
+        for hider in near {
+            let before = parts.as_deref().unwrap_or(std::slice::from_ref(&whole));
+            let mut after = Vec::with_capacity(before.len());
+            let mut is_cut = false;
+            for part in before {
+                match hider.seen(*part) {
+                    None => after.push(*part),
+                    Some(seen) => {
+                        is_cut = true;
+                        after.extend(seen);
+                    }
+                }
+            }
+            if is_cut {
+                parts = Some(after);
+            }
+        }
+        parts
+    }
+}
+
+/// The cosine of a triangle's slope, negative for one that faces away from the viewer.
+fn slope(triangle: Triangle) -> f64 {
+    let [a, b, c] = triangle.map(|corner| corner.at);
+    let normal = (b - a).cross(c - a);
+    normal.z / normal.length()
 }
 
 impl Hider {
     /// A solid with this outline, in the frame of the one of which it hides parts.
-    pub(super) fn new(body: BodyInFrame, outline: Outline, is_later: bool) -> Option<Self> {
+    fn new(body: BodyInFrame, outline: Outline, is_later: bool) -> Option<Self> {
         let region = Region::new(outline)?;
         let [low, high] = region.bounds;
         Some(Self {
             body,
             extent: (high - low).max_element(),
             region,
+            depths: OnceCell::new(),
             is_later,
         })
     }
 
+    /// Whether all of a triangle is behind its back or in front of its front.
+    fn is_apart(&self, triangle: Triangle) -> bool {
+        let [back, front] = *self.depths.get_or_init(|| self.body.depths());
+        let depths = triangle.map(|corner| corner.at.z);
+        let nearest = depths.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let farthest = depths.into_iter().fold(f64::INFINITY, f64::min);
+        nearest < back - SAME * self.extent || farthest > front
+    }
+
     /// The parts of a triangle that it does not hide; `None` for all of it.
     fn seen(&self, triangle: Triangle) -> Option<Vec<Triangle>> {
-        let [a, b, c] = triangle.map(|corner| corner.at);
-        let normal = (b - a).cross(c - a);
-        let slope = normal.z / normal.length();
-        if slope.abs() <= WALL {
-            return self.seen_of_wall(triangle, normal.truncate());
-        }
-        let is_front = slope > 0.0;
-        if is_front && !self.is_later || slope.is_nan() {
+        let slope = slope(triangle);
+        if slope.is_nan() {
             return None;
         }
-        let flat = [a, b, c].map(DVec3::truncate);
+        let is_front = slope > WALL;
+        let is_hiding = if is_front {
+            self.is_later
+        } else {
+            !self.is_apart(triangle)
+        };
+        if !is_hiding {
+            return None;
+        }
+        if slope.abs() <= WALL {
+            return self.seen_of_wall(triangle);
+        }
+        let flat = triangle.map(|corner| corner.at.truncate());
         let (mut seen, inside) = match self.region.divide(flat) {
             Division::Outside => return None,
             Division::Inside => (Vec::new(), vec![triangle]),
@@ -275,9 +356,10 @@ impl Hider {
     }
 
     /// The parts of a wall that are not inside it; `None` for all of it.
-    fn seen_of_wall(&self, triangle: Triangle, normal: DVec2) -> Option<Vec<Triangle>> {
+    fn seen_of_wall(&self, triangle: Triangle) -> Option<Vec<Triangle>> {
         let flat = |corner: Corner| corner.at.truncate();
         let [a, b, c] = triangle;
+        let normal = (b.at - a.at).cross(c.at - a.at).truncate();
         let sides = [(a, b), (b, c), (c, a)].map(|(from, to)| (flat(from), flat(to)));
         let (from, to) = sides
             .into_iter()

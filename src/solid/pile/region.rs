@@ -2,7 +2,9 @@
 
 use glam::DVec2;
 
-use crate::geometry::{Outline, Polygon, bounds, contains, intersect, shoelace, subtract};
+use crate::geometry::{
+    Outline, Polygon, Ring, bounds, contains, intersect, is_convex, shoelace, subtract,
+};
 use crate::solid::cap;
 use crate::solid::cells::Cells;
 use crate::solid::rings::Rings;
@@ -13,6 +15,8 @@ const CELLS: f64 = 4.0;
 const AROUND: f64 = 0.1;
 /// Triangles that are lower than this, as a share of their longest side, are not divided.
 const NEEDLE: f64 = 1e-6;
+/// Convex outlines of at most so many points cut edge by edge. Others would leave too many narrow parts beside them.
+const MAX_CONVEX: usize = 8;
 
 /// A region of the plane.
 #[derive(Debug)]
@@ -22,6 +26,8 @@ pub(super) struct Region {
     cells: Cells,
     /// Per cell whether the border passes through it.
     is_border: Vec<bool>,
+    /// The outline, counter-clockwise, if it is convex and has few points.
+    convex: Option<Ring>,
 }
 
 /// How a triangle lies in a region.
@@ -48,6 +54,7 @@ impl Region {
             }
         }
         Some(Self {
+            convex: convex(&outline),
             outline,
             bounds,
             cells,
@@ -59,7 +66,9 @@ impl Region {
     pub(super) fn divide(&self, triangle: [DVec2; 3]) -> Division {
         let [a, b, c] = triangle;
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        if low.cmpgt(self.bounds[1]).any() || high.cmplt(self.bounds[0]).any() {
+        // What only touches it is not cut.
+        let slack = NEEDLE * (high - low).max_element();
+        if (low + slack).cmpgt(self.bounds[1]).any() || (high - slack).cmplt(self.bounds[0]).any() {
             return Division::Outside;
         }
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
@@ -71,6 +80,9 @@ impl Region {
             } else {
                 Division::Outside
             };
+        }
+        if let Some(convex) = &self.convex {
+            return divide_by_convex(triangle, convex, NEEDLE * longest * longest);
         }
         let more = AROUND * (high - low).max_element();
         let near = self.near([low - more, high + more]);
@@ -88,6 +100,35 @@ impl Region {
             return Division::Inside;
         }
         Division::Both([triangles(&outside), triangles(&inside)])
+    }
+
+    /// The triangles that make up the part of a triangle outside of all of some regions, counter-clockwise; `None` for all of it.
+    /// The borders of the regions all go around them the same way.
+    pub(super) fn outside_all(regions: &[&Self], triangle: [DVec2; 3]) -> Option<Vec<[DVec2; 3]>> {
+        let [a, b, c] = triangle;
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        if (b - a).perp_dot(c - a).abs() <= NEEDLE * longest * longest {
+            let middle = (a + b + c) / 3.0;
+            let is_over = |region: &&Self| contains(&region.outline, middle);
+            return regions.iter().any(is_over).then(Vec::new);
+        }
+        let more = AROUND * (high - low).max_element();
+        let near = regions
+            .iter()
+            .map(|region| region.near([low - more, high + more]));
+        let near = Outline {
+            polygons: near.flat_map(|near| near.polygons).collect(),
+        };
+        let whole = Outline {
+            polygons: vec![Polygon {
+                rings: vec![vec![a, b, c]],
+            }],
+        };
+        if intersect(&whole, &near).polygons.is_empty() {
+            return None;
+        }
+        Some(triangles(&subtract(&whole, &near)))
     }
 
     /// The part of the outline in a box, with sides of the box where it goes out of that.
@@ -110,6 +151,54 @@ impl Region {
         near.polygons.retain(|polygon| !polygon.rings.is_empty());
         near
     }
+}
+
+/// The only ring of an outline, counter-clockwise, if it is convex and has few points.
+fn convex(outline: &Outline) -> Option<Ring> {
+    let mut rings = outline.rings();
+    let (Some(ring), None) = (rings.next(), rings.next()) else {
+        return None;
+    };
+    if ring.len() > MAX_CONVEX || !is_convex(ring) {
+        return None;
+    }
+    let mut ring = ring.clone();
+    if shoelace(&ring) < 0.0 {
+        ring.reverse();
+    }
+    Some(ring)
+}
+
+/// How a triangle lies in a convex polygon that is counter-clockwise. Parts with a smaller area than `least` are left out.
+fn divide_by_convex(triangle: [DVec2; 3], convex: &[DVec2], least: f64) -> Division {
+    let mut rest = triangle.to_vec();
+    if shoelace(&rest) < 0.0 {
+        rest.reverse();
+    }
+    let is_left_out = |ring: &[DVec2]| ring.len() < 3 || shoelace(ring) <= least;
+    let mut outside = Vec::new();
+    for (index, from) in convex.iter().enumerate() {
+        let edge = convex[(index + 1) % convex.len()] - from;
+        let inward = |point: DVec2| edge.perp_dot(point - from);
+        let beside = half(&rest, |point| -inward(point));
+        if !is_left_out(&beside) {
+            outside.extend(fan(&beside));
+            rest = half(&rest, inward);
+            if is_left_out(&rest) {
+                return Division::Outside;
+            }
+        }
+    }
+    if outside.is_empty() {
+        return Division::Inside;
+    }
+    Division::Both([outside, fan(&rest).collect()])
+}
+
+/// The triangles of a convex polygon.
+fn fan(polygon: &[DVec2]) -> impl Iterator<Item = [DVec2; 3]> + '_ {
+    let pairs = polygon.windows(2).skip(1);
+    pairs.map(|pair| [polygon[0], pair[0], pair[1]])
 }
 
 /// The part of a ring where a linear function is not negative.

@@ -5,11 +5,10 @@
 //! inner edge, smoothed along the line.
 
 use glam::DVec2;
-use rstar::RTree;
-use rstar::primitives::GeomWithData;
 
 use super::ground::Ground;
 use crate::geometry::{Outline, area, edges, perimeter};
+use crate::solid::cells::Scattered;
 
 /// Samples per width of the line.
 const SAMPLES: f64 = 3.0;
@@ -18,15 +17,11 @@ const SMOOTH: f64 = 1.5;
 /// Limit of the samples; on longer lines they are farther apart.
 const MAX_SAMPLES: f64 = 8192.0;
 
-/// A front, depth in the drawing.
-type Sample = GeomWithData<[f64; 2], f64>;
-/// The index of the volume that a point lies on.
-type VolumeSample = GeomWithData<[f64; 2], Option<usize>>;
-
 /// The front of a hoop, where a line is one.
 #[derive(Debug)]
 pub(super) struct Rim {
-    samples: RTree<Sample>,
+    /// Depths in the drawing.
+    samples: Scattered<f64>,
     /// The distance over which they are smoothed.
     reach: f64,
 }
@@ -43,41 +38,35 @@ impl Rim {
         if !(apart > 0.0 && reach.is_finite()) {
             return None;
         }
-        let mut on = Vec::new();
-        let mut volume_samples = Vec::new();
+        let mut on: Vec<(DVec2, f64)> = Vec::new();
+        // Points of the border with the indices of the volumes that they lie on.
+        let mut places: Vec<(DVec2, Option<usize>)> = Vec::new();
         for [from, to] in edges(outline) {
             let count = (from.distance(to) / apart).ceil().max(1.0);
             for index in 0..count as usize {
                 let point = from.lerp(to, index as f64 / count);
-                volume_samples.push(VolumeSample::new(point.to_array(), ground.top(point)));
+                places.push((point, ground.top(point)));
                 if let Some(front) = ground.front(point) {
-                    on.push(Sample::new(point.to_array(), front + step));
+                    on.push((point, front + step));
                 }
             }
         }
-        let first = volume_samples.first()?.data;
-        if volume_samples
-            .iter()
-            .all(|volume_sample| volume_sample.data == first)
-        {
+        let (_, first) = *places.first()?;
+        if places.iter().all(|(_, volume)| *volume == first) {
             return None;
         }
-        let on = RTree::bulk_load(on);
-        let volume_samples = RTree::bulk_load(volume_samples);
-        let within = reach * reach;
-        let sample = |volume_sample: &VolumeSample| {
-            let mut near =
-                volume_samples.locate_within_distance(*volume_sample.geom(), width * width);
-            if near.all(|other| other.data == volume_sample.data) {
+        let on = Scattered::new(&on, reach);
+        let volumes = Scattered::new(&places, width);
+        let sample = |(point, volume): &(DVec2, Option<usize>)| {
+            if volumes.near(*point).all(|(_, other)| other == *volume) {
                 return None;
             }
-            let near = on.locate_within_distance(*volume_sample.geom(), within);
-            let highest = near.map(|sample| sample.data).reduce(f64::max)?;
-            Some(Sample::new(*volume_sample.geom(), highest))
+            let highest = on.near(*point).map(|(_, front)| front).reduce(f64::max)?;
+            Some((*point, highest))
         };
-        let samples: Vec<Sample> = volume_samples.iter().filter_map(sample).collect();
+        let samples: Vec<(DVec2, f64)> = places.iter().filter_map(sample).collect();
         (!samples.is_empty()).then(|| Self {
-            samples: RTree::bulk_load(samples),
+            samples: Scattered::new(&samples, reach),
             reach,
         })
     }
@@ -85,14 +74,10 @@ impl Rim {
     /// The front of the hoop at a point of the line; `None` where it is none.
     pub(super) fn front(&self, point: DVec2) -> Option<f64> {
         let within = self.reach * self.reach;
-        let near = self
-            .samples
-            .locate_within_distance(point.to_array(), within);
         let (mut sum, mut weights) = (0.0, 0.0);
-        for sample in near {
-            let apart = point.distance_squared(DVec2::from(*sample.geom())) / within;
-            let weight = (1.0 - apart).powi(2);
-            sum += weight * sample.data;
+        for (apart, front) in self.samples.near(point) {
+            let weight = (1.0 - apart / within).powi(2);
+            sum += weight * front;
             weights += weight;
         }
         (weights > 0.0).then(|| sum / weights)
