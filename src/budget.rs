@@ -32,7 +32,7 @@ impl Work {
             // A plate takes four of each point.
             Self::Triangles => (1_000_000, 16),
             Self::LeastTriangles => (600_000, 16),
-            Self::UnaskedTriangles => (1_200_000, 0),
+            Self::UnaskedTriangles => (800_000, 0),
             Self::ClipPoints => (4_000_000, 32),
             // One outline of 4,096.
             Self::ComparedCorners => (1 << 15, 1),

@@ -83,10 +83,7 @@ fn small(drawing: &Drawing, bindings: &Bindings) -> Vec<PartId> {
         .iter()
         .map(|part| part.outline.point_count() as u64);
     let mut used = OF_PLATES * points.sum::<u64>();
-    let mut rounded = rounded.into_iter();
-    // The largest, which may be all there is, has limits of its own.
-    used += rounded.next().map_or(0, |(_, triangles)| triangles);
-    let small = rounded.filter(|(_, triangles)| {
+    let small = rounded.into_iter().filter(|(_, triangles)| {
         used += triangles;
         used > most
     });

@@ -83,21 +83,24 @@ impl Scanlines {
             lines, crossings, ..
         } = out;
         let last = self.first + self.step * (LINES - 1) as f64;
+        let per_unit = self.step.recip();
         let mut edge = |a: DVec2, b: DVec2| {
             let (low, high) = if a.y < b.y { (a, b) } else { (b, a) };
             if high.y <= self.first || low.y > last || low.y == high.y {
                 return;
             }
-            let from = ((low.y - self.first) / self.step).ceil().max(0.0) as usize;
-            let slope = (high.x - low.x) / (high.y - low.y);
+            // The last line below the edge, or the first one.
+            let from = ((low.y - self.first) * per_unit) as usize;
+            let mut slope = None;
             for (line, crossings) in crossings.iter_mut().enumerate().skip(from) {
-                let y = self.first + self.step * line as f64;
+                let y = self.place(line);
                 if y >= high.y {
                     break;
                 }
-                // Rounding of `from` must not count a line below the edge.
                 if y >= low.y {
-                    crossings.push(low.x + (y - low.y) * slope);
+                    // Most edges are short, and cross no line.
+                    let slope = slope.get_or_insert_with(|| (high.x - low.x) / (high.y - low.y));
+                    crossings.push(low.x + (y - low.y) * *slope);
                 }
             }
         };
@@ -122,9 +125,16 @@ impl Scanlines {
             }
         }
         for (crossings, intervals) in crossings.iter_mut().zip(lines) {
-            crossings.sort_unstable_by(f64::total_cmp);
             intervals.clear();
-            intervals.extend(crossings.chunks_exact(2).map(|pair| [pair[0], pair[1]]));
+            match crossings[..] {
+                [] => continue,
+                [a, b] => intervals.push([a.min(b), a.max(b)]),
+                _ => {
+                    crossings.sort_unstable_by(f64::total_cmp);
+                    let pairs = crossings.chunks_exact(2);
+                    intervals.extend(pairs.map(|pair| [pair[0], pair[1]]));
+                }
+            }
             crossings.clear();
         }
     }

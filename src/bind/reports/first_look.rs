@@ -33,7 +33,10 @@ pub(in crate::bind) fn first_look(
     if !matches!(bindings.settings.strokes, Strokes::Visible | Strokes::All) {
         outlines = 0;
     }
-    let Some(first) = built().next().filter(|_| balloons + tubes + outlines > 0) else {
+    let Some(first) = built()
+        .next()
+        .filter(|_| balloons + tubes + small + outlines > 0)
+    else {
         return;
     };
     let counted = |count: usize, one: &str, several: &str| match count {
