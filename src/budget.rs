@@ -30,7 +30,7 @@ impl Work {
         match self {
             Self::Dashes => (5_000, 1),
             // A plate takes four of each point.
-            Self::Triangles => (1_000_000, 16),
+            Self::Triangles => (500_000, 8),
             Self::LeastTriangles => (600_000, 16),
             Self::UnaskedTriangles => (800_000, 0),
             Self::ClipPoints => (4_000_000, 32),

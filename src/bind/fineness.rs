@@ -64,19 +64,7 @@ fn small(drawing: &Drawing, bindings: &Bindings) -> Vec<PartId> {
     let rounded =
         built(bindings).filter_map(|part| Some((part, least_triangles(drawing, bindings, part)?)));
     let mut rounded: Vec<(PartId, u64)> = rounded.collect();
-    let width = |part: PartId| {
-        let Part {
-            measure,
-            is_stroke,
-            shape,
-            ..
-        } = &bindings.parts[part];
-        let stroke = drawing.shapes[*shape].stroke.as_ref();
-        let line = stroke
-            .filter(|_| *is_stroke)
-            .map(|stroke| stroke.width() / 2.0);
-        line.unwrap_or_else(|| measure.half_across.min(measure.half_along))
-    };
+    let width = |part: PartId| bindings.half_width(drawing, part);
     rounded.sort_by(|a, b| width(b.0).total_cmp(&width(a.0)));
     let points = bindings
         .parts

@@ -90,8 +90,9 @@ pub(crate) struct Figures<'a> {
 /// A deviation that nobody sees, as a share of the larger extent of all parts: a twentieth of a pixel in a picture a thousand
 /// pixels wide.
 const INVISIBLE: f64 = 5e-5;
-/// The most layers per half turn of roundings in drawings with very many triangles.
-const MOST_SEGMENTS: u32 = 512;
+/// Deviations of roundings in drawings with very many triangles, in deviations that nobody sees: each has half as many layers as the one
+/// before.
+const COARSER: [f64; 7] = [1.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0];
 /// How far ink comes out at most, as a share of its stroke's width.
 const MAX_INK_STEP: f64 = 0.5;
 
@@ -321,8 +322,8 @@ struct FigureContext<'a> {
     reaches: TiVec<PartId, Option<f64>>,
     /// Per part what it is of a vehicle.
     of_vehicle: TiVec<PartId, Option<VehiclePart>>,
-    /// The most layers per half turn of a rounding.
-    most_segments: u32,
+    /// How far the roundings may deviate, in deviations that nobody sees, if all together would have too many triangles.
+    coarser: Option<f64>,
     /// How far the surface of a solid may be from a rounding without anybody seeing it, drawing units.
     invisible: f64,
 }
@@ -345,36 +346,39 @@ impl<'a> FigureContext<'a> {
             seen,
             bends,
             invisible: INVISIBLE * extent,
-            most_segments: u32::MAX,
+            coarser: None,
         };
-        context.most_segments = context.affordable_segments();
+        context.coarser = context.affordable();
         context
     }
 
-    /// How many layers per half turn the roundings may have so that all solids together keep within the drawing's budget of triangles:
-    /// as many as they want, or a power of two.
-    fn affordable_segments(&self) -> u32 {
-        let triangles = |most_segments: u32| -> u64 {
+    /// How far the roundings may deviate so that all solids together keep within the drawing's budget of triangles, as far as that can
+    /// be; `None` if each may have as many layers as it wants. What is small has fewer layers then than what is large.
+    fn affordable(&self) -> Option<f64> {
+        let triangles = |coarser: Option<f64>| -> u64 {
             let parts = par_keys(&self.bindings.parts).with_min_len(GRAIN);
             let parts = parts.map(|part| {
                 let Some(profile) = self.profile(part) else {
                     return 0;
                 };
-                let mut options = self.options(part, &profile);
-                options.segments = options.segments.min(most_segments);
+                let options = solid::Options {
+                    segments: self.segments(part, &profile, coarser),
+                    ..self.options(part, &profile)
+                };
                 let outline = &self.bindings.parts[part].outline;
                 profile.triangles(outline, self.half(part), &options)
             });
             parts.sum()
         };
         let most = self.drawing.budget.most(Work::Triangles);
-        if triangles(u32::MAX) <= most {
-            return u32::MAX;
+        if triangles(None) <= most {
+            return None;
         }
-        let coarser = (LEAST_SEGMENTS.ilog2()..=MOST_SEGMENTS.ilog2()).rev();
-        let mut coarser = coarser.map(|exponent| 1 << exponent);
-        let affordable = coarser.find(|segments| triangles(*segments) <= most);
-        affordable.unwrap_or(LEAST_SEGMENTS)
+        let [inner @ .., coarsest] = COARSER;
+        let affordable = inner
+            .into_iter()
+            .find(|times| triangles(Some(*times)) <= most);
+        Some(affordable.unwrap_or(coarsest))
     }
 
     /// The parts that bend although no string says so.
@@ -463,17 +467,25 @@ impl<'a> FigureContext<'a> {
     }
 
     fn options(&self, part: PartId, profile: &Profile) -> solid::Options {
-        let attributes = self.bindings.attributes(self.bindings.form(part));
-        let half = self.half(part);
-        let crease = attributes.crease();
-        let segments = attributes.segments();
         solid::Options {
-            segments: segments
-                .unwrap_or_else(|| profile.segments(half, crease, self.invisible))
-                .min(self.most_segments),
-            crease,
+            segments: self.segments(part, profile, self.coarser),
+            crease: self.bindings.attributes(self.bindings.form(part)).crease(),
             placement: Placement::default(),
         }
+    }
+
+    /// The layers per half turn of a part whose rounding may deviate so much, in deviations that nobody sees.
+    fn segments(&self, part: PartId, profile: &Profile, coarser: Option<f64>) -> u32 {
+        let attributes = self.bindings.attributes(self.bindings.form(part));
+        let wanted = attributes.segments().unwrap_or_else(|| {
+            profile.segments(self.half(part), attributes.crease(), self.invisible)
+        });
+        let Some(times) = coarser else {
+            return wanted;
+        };
+        let half_width = self.bindings.half_width(self.drawing, part);
+        let enough = solid::segments_within(times * self.invisible, half_width) as u32;
+        wanted.min(enough.next_power_of_two().max(LEAST_SEGMENTS))
     }
 
     /// The layers per half turn of a part that comes out by a share of its own heights only, unless the drawing says how many.

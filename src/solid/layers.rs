@@ -1,5 +1,7 @@
 //! Layers: the scaled copies of an outline that most kinds of solids join.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::DVec2;
 
 use super::Options;
@@ -20,6 +22,12 @@ pub(super) const DEFAULT_SEGMENTS: u32 = 16;
 /// The number of steps per half turn, clamped.
 pub(super) fn steps_per_half_turn(options: &Options) -> u32 {
     options.segments.clamp(*SEGMENTS.start(), *SEGMENTS.end())
+}
+
+/// The steps per half turn with which the chords of a circle of this radius are off by this much.
+pub(crate) fn segments_within(deviation: f64, radius: f64) -> f64 {
+    // With n steps they are off by r(π / 2n)² / 2.
+    FRAC_PI_2 * (radius / (2.0 * deviation)).sqrt()
 }
 
 /// A copy of the outline.

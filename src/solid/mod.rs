@@ -35,6 +35,7 @@ use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
 pub(crate) use kinds::Profile;
+pub(crate) use layers::segments_within;
 pub(crate) use pile::{
     Body, Girth, LaidSolid, Lay, LayForm, Pile, RecentHeights, Section, SolidHeights, Toes,
 };

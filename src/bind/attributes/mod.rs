@@ -331,6 +331,22 @@ impl Bindings {
         Some(profile).filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
     }
 
+    /// Half of the width of a part where it is narrower, drawing units: that of its line, or of its outline.
+    pub(crate) fn half_width(&self, drawing: &Drawing, part: PartId) -> f64 {
+        let Part {
+            measure,
+            is_stroke,
+            shape,
+            ..
+        } = &self.parts[part];
+        let stroke = drawing.shapes[*shape].stroke.as_ref();
+        let line = stroke.filter(|_| *is_stroke);
+        line.map_or_else(
+            || measure.half_across.min(measure.half_along),
+            |line| line.width() / 2.0,
+        )
+    }
+
     /// `Side` of a part: its own, or that of its main part's string.
     pub fn side(&self, part: PartId) -> Option<Side> {
         let form = self.form(part);

@@ -1,7 +1,5 @@
 //! `inflate`: blown up like a balloon.
 
-use std::f64::consts::FRAC_PI_2;
-
 use glam::DVec2;
 
 use super::{HeightField, Kind};
@@ -9,7 +7,7 @@ use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::Options;
 use crate::solid::inflate::{Balloon, Field, Mesh, Points, surface};
-use crate::solid::layers::{DEFAULT_SEGMENTS, steps_per_half_turn};
+use crate::solid::layers::{DEFAULT_SEGMENTS, segments_within, steps_per_half_turn};
 
 /// Layers per half turn of the smallest outlines: seen from near by they are still round.
 const LEAST_SEGMENTS: u32 = 8;
@@ -102,10 +100,9 @@ impl Kind for Inflate {
     }
 
     fn segments(&self, half: DVec2, crease: f64, invisible: f64) -> u32 {
-        // Chords of a circle of radius r with n steps per half turn are off by r(π / 2n)² / 2.
         let widest = self.0.line.map_or(half.min_element(), |width| width / 2.0);
         let radius = self.0.most(half).max(widest);
-        let enough = FRAC_PI_2 * (radius / (2.0 * invisible)).sqrt();
+        let enough = segments_within(invisible, radius);
         // In coarse steps: when the drawing grows, most solids stay as they are.
         let enough = (STEP * (enough / STEP).round()) as u32;
         // With more degrees between the layers than the crease has, their edges would show.
