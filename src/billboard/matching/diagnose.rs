@@ -14,6 +14,8 @@ use crate::billboard::region::View;
 const SMALL_ANGLE: f64 = 15.0;
 /// Differences in depth below this say nothing, heights.
 const LEAST_DEPTH: f64 = 0.01;
+/// A wrong sign is suspected from so many details that have a depth, if two thirds of them are behind what they are drawn on.
+const LEAST_DETAILS: usize = 3;
 /// Candidates named for a region without a partner.
 const CANDIDATES: usize = 3;
 
@@ -58,7 +60,7 @@ pub(super) fn step(
             behind += usize::from(inner < outer);
         }
     }
-    if 2 * behind > of {
+    if of >= LEAST_DETAILS && 3 * behind >= 2 * of {
         matching.warnings.push(Warning::BehindContainers {
             views: pair,
             behind,
