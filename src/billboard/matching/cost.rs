@@ -20,6 +20,11 @@ const COLOR: f64 = 3.0;
 /// What it costs if the containers differ in colour, or if only one region has one.
 const OTHER_CONTAINER: f64 = 1.0;
 const ONE_CONTAINER: f64 = 0.5;
+/// What it costs per height that a region is behind the middle of the character in the other view: of two arms that look alike from the
+/// side, the near one is seen.
+const FAR_SIDE: f64 = 2.0;
+/// The most that it costs: of wide things both sides are seen, and keep their partners.
+const MOST_FAR_SIDE: f64 = 0.5;
 /// The fewest pairs that tell how far two drawings' centres are apart.
 const LEAST_PAIRS: usize = 5;
 /// Costs do not exceed this, so that no input overflows.
@@ -185,7 +190,22 @@ impl Turn {
             _ => 0.0,
         };
         let color = COLOR * a.color.distance(b.color);
-        (place + relative(a.area, b.area) + color + container).min(MOST)
+        let far = self.far_side(a, b);
+        (place + relative(a.area, b.area) + color + container + far).min(MOST)
+    }
+
+    /// What it costs if a region is on the side of the character that is turned away in the other one's view.
+    fn far_side(&self, a: &Features, b: &Features) -> f64 {
+        let depth = |region: &Features, [right, up, toward]: [DVec3; 3], towards: DVec3| {
+            let place = right * region.at.x + up * region.at.y + toward * region.depth;
+            place.dot(towards)
+        };
+        let depths = [
+            depth(a, self.from, self.to[2]),
+            depth(b, self.to, self.from[2]),
+        ];
+        let behind: f64 = depths.iter().map(|depth| (-depth).max(0.0)).sum();
+        (FAR_SIDE * behind).min(MOST_FAR_SIDE)
     }
 }
 
