@@ -187,6 +187,7 @@ fn why_not(candidate: &Candidate, describe: &dyn Fn(RegionInView) -> String) -> 
     let other = describe(candidate.region);
     match candidate.reason {
         Reason::Color => format!("the colour of {other}, the nearest, differs"),
+        Reason::Line => format!("of it and {other}, the nearest, only one is a line"),
         Reason::Names => format!("{other}, the nearest, has another name"),
         Reason::Cost => format!("{other}, the nearest, is too far away or too different in size"),
         Reason::Taken(by) => format!("{other}, the nearest, belongs to {}", describe(by)),

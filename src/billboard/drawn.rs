@@ -213,6 +213,7 @@ fn of_shape(
         outline,
         color: color.unwrap_or_else(|| srgb(shape.paint.color, shape.opacity)),
         container: None,
+        is_line: !is_filled,
     };
     let drawn = Drawn {
         shape: index,
@@ -276,6 +277,7 @@ fn of_picture(
         outline: Arc::new(moved(outline)),
         color,
         container: container.map(|outer| RegionId::from(first + outer)),
+        is_line: false,
     };
     let regions = found.regions.iter().map(|found| {
         let line = found.line.map(|line| DrawnLine {

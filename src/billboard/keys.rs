@@ -21,7 +21,7 @@ exact!(RegionId);
 exact! {
     View { direction, regions }
     Direction { theta, phi }
-    Region { name, outline, color, container }
+    Region { name, outline, color, container, is_line }
     Outline { polygons }
     Polygon { rings }
 }
@@ -93,6 +93,7 @@ mod tests {
             }),
             color: [0.5, 0.5, 0.5, 1.0],
             container: None,
+            is_line: false,
         }
     }
 

@@ -48,6 +48,8 @@ pub struct Region {
     pub color: [f64; 4],
     /// The smallest region of the view in which it lies.
     pub container: Option<RegionId>,
+    /// Whether it is a line: the area of a stroke without a fill.
+    pub is_line: bool,
 }
 
 /// A drawing of the character from one direction.

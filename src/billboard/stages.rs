@@ -33,6 +33,7 @@ pub fn segment(pictures: &[RgbaImage; 2]) -> Segmented {
             outline: region.outline.into(),
             color: region.color,
             container: region.container.map(RegionId::from),
+            is_line: false,
         };
         View {
             direction: Direction { theta, phi: 0.0 },

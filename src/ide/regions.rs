@@ -153,6 +153,7 @@ impl Analysis {
         match candidate.reason {
             Reason::Color => "its colour differs too much".to_owned(),
             Reason::Names => "it has another name".to_owned(),
+            Reason::Line => "only one of the two is a line".to_owned(),
             Reason::Cost => "it is too far away, or too different in size".to_owned(),
             Reason::Taken(at) => {
                 let by = self.describe_region(Region { at, ..region });

@@ -43,6 +43,7 @@ pub(super) struct Features {
     area: f64,
     color: DVec3,
     pub(super) container: Option<RegionId>,
+    pub(super) is_line: bool,
     container_color: Option<DVec3>,
     /// Towards the viewer, guessed from its place in its container.
     pub(super) depth: f64,
@@ -84,6 +85,7 @@ fn own(region: &Region, frame: &Frame) -> Features {
             DVec3::ZERO
         },
         container: region.container,
+        is_line: region.is_line,
         container_color: None,
         depth: 0.0,
     }

@@ -133,6 +133,7 @@ pub(super) fn unmatched(
 fn reason(compared: &Comparison, taken: Option<RegionInView>) -> Reason {
     match (compared.names, compared.gain(), taken) {
         (Names::Different, ..) => Reason::Names,
+        (Names::Nothing, None, _) if compared.colors_fit => Reason::Line,
         (Names::Nothing, None, _) => Reason::Color,
         (_, Some(gain), Some(by)) if gain > 0.0 => Reason::Taken(by),
         _ => Reason::Cost,

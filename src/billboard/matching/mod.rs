@@ -99,6 +99,8 @@ pub struct Candidate {
 pub enum Reason {
     /// Their colours differ by more than 0.3.
     Color,
+    /// Only one of them is a line.
+    Line,
     /// They have different names.
     Names,
     /// They are less alike than two regions may be.
@@ -306,6 +308,8 @@ struct Comparison {
     names: Names,
     /// J of equation 4.2.
     colors_fit: bool,
+    /// Whether both are lines, or neither is.
+    kinds_fit: bool,
 }
 
 /// What the names of two regions say.
@@ -322,7 +326,7 @@ impl Comparison {
         match self.names {
             Names::Same => Some(Gains::of_named(self.cost)),
             Names::Different => None,
-            Names::Nothing => self.colors_fit.then(|| Gains::of(self.cost)),
+            Names::Nothing => (self.colors_fit && self.kinds_fit).then(|| Gains::of(self.cost)),
         }
     }
 }
@@ -343,5 +347,6 @@ fn compare(
             _ => Names::Nothing,
         },
         colors_fit: may_match(a, b),
+        kinds_fit: a.is_line == b.is_line,
     }
 }

@@ -205,6 +205,7 @@ fn square(at: [f64; 2], half: f64, color: [f64; 3]) -> Region {
         }),
         color: [color[0], color[1], color[2], 1.0],
         container: None,
+        is_line: false,
     }
 }
 
@@ -266,6 +267,26 @@ fn far_apart_is_a_reason_of_its_own() {
         .map(|u| u.candidates[0].reason)
         .collect();
     assert_eq!(reasons, [Reason::Cost, Reason::Cost]);
+}
+
+#[test]
+fn lines_pair_with_lines_only() {
+    let body = || square([0.0, 0.0], 50.0, BLUE);
+    let detail = |is_line| Region {
+        is_line,
+        ..square([0.0, -20.0], 4.0, RED)
+    };
+    for (first, second) in [(false, false), (false, true), (true, false), (true, true)] {
+        let views = TiVec::from(vec![
+            view(0.0, vec![body(), detail(first)]),
+            view(30.0, vec![body(), detail(second)]),
+        ]);
+        let matching = match_regions(&views, &frames(&views));
+        assert_eq!(matching.pairs.len(), 1 + usize::from(first == second));
+        for unmatched in &matching.unmatched {
+            assert_eq!(unmatched.candidates[0].reason, Reason::Line);
+        }
+    }
 }
 
 #[test]

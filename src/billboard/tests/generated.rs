@@ -148,6 +148,7 @@ impl Character {
                     outline: outline.into(),
                     color: self.items[*item].color,
                     container: None,
+                    is_line: false,
                 });
                 drawn.items.push(*item);
                 drawn.hidden.push(1.0 - box_overlap(visible, whole));

@@ -19,6 +19,7 @@ fn square(at: [f64; 2], half: f64, container: Option<usize>) -> Region {
         }),
         color: [0.5, 0.5, 0.5, 1.0],
         container: container.map(RegionId::from),
+        is_line: false,
     }
 }
 
