@@ -226,3 +226,34 @@ impl Cells {
         [column(left - more), column(right + more)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// What is found near a place is what a look at all points finds, however they are spread.
+        #[test]
+        fn all_points_within_the_radius_are_found(
+            points in prop::collection::vec((-10.0..10.0, -10.0..10.0), 0..80),
+            flat in any::<bool>(),
+            radius in 0.01..8.0_f64,
+            place in (-14.0..14.0, -14.0..14.0),
+        ) {
+            let squeezed = |(x, y): (f64, f64)| DVec2::new(x, if flat { 1.0 } else { y });
+            let points: Vec<(DVec2, usize)> =
+                points.into_iter().map(squeezed).zip(0..).collect();
+            let place = DVec2::from(place);
+            let near = |(point, _): &&(DVec2, usize)| {
+                point.distance_squared(place) <= radius * radius
+            };
+            let expected: Vec<usize> = points.iter().filter(near).map(|(_, index)| *index).collect();
+            let scattered = Scattered::new(&points, radius);
+            let mut found: Vec<usize> = scattered.near(place).map(|(_, index)| index).collect();
+            found.sort_unstable();
+            prop_assert_eq!(found, expected);
+        }
+    }
+}
