@@ -25,6 +25,12 @@ const ONE_CONTAINER: f64 = 0.5;
 const FAR_SIDE: f64 = 2.0;
 /// The most that it costs: of wide things both sides are seen, and keep their partners.
 const MOST_FAR_SIDE: f64 = 0.5;
+/// What it costs per height that a region is nearer than the middle of the character in the other view, although its partner lies under
+/// one that looks alike, or farther, although its partner lies over one: of two legs, the near one is painted over the far one.
+const PAINT_ORDER: f64 = 4.0;
+/// Regions look alike if their colours are no farther apart, and their areas differ by no more than this share of their mean.
+const ALIKE_COLOR: f64 = 0.05;
+const ALIKE_AREA: f64 = 0.7;
 /// The fewest pairs that tell how far two drawings' centres are apart.
 const LEAST_PAIRS: usize = 5;
 /// Costs do not exceed this, so that no input overflows.
@@ -47,6 +53,8 @@ pub(super) struct Features {
     container_color: Option<DVec3>,
     /// Towards the viewer, guessed from its place in its container.
     pub(super) depth: f64,
+    /// 1 if it is painted over one that looks alike, -1 if such a one is painted over it, 0 without one.
+    order: f64,
 }
 
 /// The features of all regions of a view.
@@ -60,7 +68,30 @@ pub(super) fn features(view: &View, frame: &Frame) -> TiVec<RegionId, Features> 
     for i in all.keys() {
         all[i].depth = guessed_depth(&all, i);
     }
+    for upper in all.keys() {
+        for lower in all.keys().take_while(|lower| *lower < upper) {
+            if all[upper].is_alike(&all[lower]) {
+                all[upper].order = 1.0;
+                all[lower].order = -1.0;
+            }
+        }
+    }
     all
+}
+
+impl Features {
+    /// Whether another region of the same view looks alike and lies in the same place, and both are limbs rather than details.
+    fn is_alike(&self, other: &Self) -> bool {
+        let meets = (self.at - other.at)
+            .abs()
+            .cmplt(self.half + other.half)
+            .all();
+        meets
+            && self.container.is_none()
+            && other.container.is_none()
+            && self.color.distance(other.color) <= ALIKE_COLOR
+            && relative(self.area, other.area) <= ALIKE_AREA
+    }
 }
 
 fn own(region: &Region, frame: &Frame) -> Features {
@@ -88,6 +119,7 @@ fn own(region: &Region, frame: &Frame) -> Features {
         is_line: region.is_line,
         container_color: None,
         depth: 0.0,
+        order: 0.0,
     }
 }
 
@@ -196,7 +228,8 @@ impl Turn {
         (place + relative(a.area, b.area) + color + container + far).min(MOST)
     }
 
-    /// What it costs if a region is on the side of the character that is turned away in the other one's view.
+    /// What it costs if a region is on the side of the character that is turned away in the other one's view, or the order of painting
+    /// says that it is on the other side.
     fn far_side(&self, a: &Features, b: &Features) -> f64 {
         let depth = |region: &Features, [right, up, toward]: [DVec3; 3], towards: DVec3| {
             let place = right * region.at.x + up * region.at.y + toward * region.depth;
@@ -207,7 +240,9 @@ impl Turn {
             depth(b, self.to, self.from[2]),
         ];
         let behind: f64 = depths.iter().map(|depth| (-depth).max(0.0)).sum();
-        (FAR_SIDE * behind).min(MOST_FAR_SIDE)
+        let orders = [depths[0] * b.order, depths[1] * a.order];
+        let disorder: f64 = orders.iter().map(|order| (-order).max(0.0)).sum();
+        (FAR_SIDE * behind + PAINT_ORDER * disorder).min(MOST_FAR_SIDE)
     }
 }
 
