@@ -55,7 +55,8 @@ export async function build({ file }, { okoshi, own, validator }) {
     processor: user + system,
     memory: memory / 1024,
     codes: counted(stderr),
-    ...(status !== 0 && { said: stderr.slice(0, 2000) }),
+    // From the first error on: there may be many hints before it.
+    ...(status !== 0 && { said: stderr.slice(Math.max(0, stderr.search(/error\[/))).slice(0, 2000) }),
   }
   if (!fs.existsSync(model)) return result
   const { size } = fs.statSync(model)

@@ -104,7 +104,7 @@ function silhouettes(listed, heldBack) {
   const unseen = others.measured.length
     ? `
 
-The worst of these were looked at, and okoshi was improved by what they showed. Of ${count(others.measured.length)} others, which were held back and at which nobody
+The worst of earlier runs were looked at, and okoshi was improved by what they showed. Of ${count(others.measured.length)} others, which were held back and at which nobody
 looked, the median overlap is **${others.median}**, with ${others.low} below 0.9, and the lowest about which okoshi says nothing is ${others.silent?.overlap.toFixed(3) ?? 'none'}.${others.left}`
     : ''
   return `For ${count(measured.length)} of them, evenly spread over the packages, the silhouette of the model as drawn was compared with the picture
