@@ -71,11 +71,16 @@ fn small(drawing: &Drawing, bindings: &Bindings) -> Vec<PartId> {
         .iter()
         .map(|part| part.outline.point_count() as u64);
     let mut used = OF_PLATES * points.sum::<u64>();
-    let small = rounded.into_iter().filter(|(_, triangles)| {
+    let over = rounded.iter().find(|(_, triangles)| {
         used += triangles;
         used > most
     });
-    small.map(|(part, _)| part).collect()
+    let Some(widest) = over.map(|(part, _)| width(*part)) else {
+        return Vec::new();
+    };
+    // Those that are as wide as one another are all alike.
+    let parts = rounded.iter().map(|(part, _)| *part);
+    parts.filter(|part| width(*part) <= widest).collect()
 }
 
 /// The parts that become solids.
