@@ -72,14 +72,15 @@ impl<T: Copy> Scattered<T> {
         }
     }
 
-    /// The points nearer to a place than the radius, with the squares of their distances, in an order that depends on all of them.
+    /// The points that are no farther from a place than the radius, each with the square of its distance in radii, in an order that
+    /// depends on all points.
     pub(super) fn near(&self, place: DVec2) -> impl Iterator<Item = (f64, T)> + '_ {
         let within = self.radius * self.radius;
         let cells = self.cells.in_box(place - self.radius, place + self.radius);
         let points = cells.flat_map(|cell| self.lists.of_cell(cell));
         points.filter_map(move |(point, value)| {
             let apart = point.distance_squared(place);
-            (apart <= within).then_some((apart, *value))
+            (apart <= within).then_some((apart / within, *value))
         })
     }
 }

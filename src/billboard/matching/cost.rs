@@ -80,6 +80,11 @@ pub(super) fn features(view: &View, frame: &Frame) -> TiVec<RegionId, Features> 
 }
 
 impl Features {
+    /// Where it is in a view with these axes, as far as its depth is known.
+    fn place(&self, [right, up, toward]: [DVec3; 3]) -> DVec3 {
+        right * self.at.x + up * self.at.y + toward * self.depth
+    }
+
     /// Whether another region of the same view looks alike and lies in the same place, and both are limbs rather than details.
     fn is_alike(&self, other: &Self) -> bool {
         let meets = (self.at - other.at)
@@ -195,8 +200,7 @@ impl Turn {
 
     /// Where a region should come to lie in the second view.
     pub(super) fn predicted(&self, region: &Features) -> DVec2 {
-        let [right, up, toward] = self.from;
-        let p = right * region.at.x + up * region.at.y + toward * region.depth;
+        let p = region.place(self.from);
         DVec2::new(p.dot(self.to[0]), p.dot(self.to[1]))
     }
 
@@ -231,13 +235,9 @@ impl Turn {
     /// What it costs if a region is on the side of the character that is turned away in the other one's view, or the order of painting
     /// says that it is on the other side.
     fn far_side(&self, a: &Features, b: &Features) -> f64 {
-        let depth = |region: &Features, [right, up, toward]: [DVec3; 3], towards: DVec3| {
-            let place = right * region.at.x + up * region.at.y + toward * region.depth;
-            place.dot(towards)
-        };
         let depths = [
-            depth(a, self.from, self.to[2]),
-            depth(b, self.to, self.from[2]),
+            a.place(self.from).dot(self.to[2]),
+            b.place(self.to).dot(self.from[2]),
         ];
         let behind: f64 = depths.iter().map(|depth| (-depth).max(0.0)).sum();
         let orders = [depths[0] * b.order, depths[1] * a.order];

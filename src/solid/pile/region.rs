@@ -71,10 +71,8 @@ impl Region {
         if (low + slack).cmpgt(self.bounds[1]).any() || (high - slack).cmplt(self.bounds[0]).any() {
             return Division::Outside;
         }
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let is_needle = (b - a).perp_dot(c - a).abs() <= NEEDLE * longest * longest;
         let is_border = |cell: usize| self.is_border[cell];
-        if is_needle || !self.cells.any_of_triangle(triangle, is_border) {
+        if is_needle(triangle) || !self.cells.any_of_triangle(triangle, is_border) {
             return if contains(&self.outline, (a + b + c) / 3.0) {
                 Division::Inside
             } else {
@@ -82,15 +80,11 @@ impl Region {
             };
         }
         if let Some(convex) = &self.convex {
-            return divide_by_convex(triangle, convex, NEEDLE * longest * longest);
+            return divide_by_convex(triangle, convex);
         }
         let more = AROUND * (high - low).max_element();
         let near = self.near([low - more, high + more]);
-        let whole = Outline {
-            polygons: vec![Polygon {
-                rings: vec![vec![a, b, c]],
-            }],
-        };
+        let whole = outline(triangle);
         let inside = intersect(&whole, &near);
         if inside.polygons.is_empty() {
             return Division::Outside;
@@ -107,8 +101,7 @@ impl Region {
     pub(super) fn outside_all(regions: &[&Self], triangle: [DVec2; 3]) -> Option<Vec<[DVec2; 3]>> {
         let [a, b, c] = triangle;
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        if (b - a).perp_dot(c - a).abs() <= NEEDLE * longest * longest {
+        if is_needle(triangle) {
             let middle = (a + b + c) / 3.0;
             let is_over = |region: &&Self| contains(&region.outline, middle);
             return regions.iter().any(is_over).then(Vec::new);
@@ -120,11 +113,7 @@ impl Region {
         let near = Outline {
             polygons: near.flat_map(|near| near.polygons).collect(),
         };
-        let whole = Outline {
-            polygons: vec![Polygon {
-                rings: vec![vec![a, b, c]],
-            }],
-        };
+        let whole = outline(triangle);
         if intersect(&whole, &near).polygons.is_empty() {
             return None;
         }
@@ -153,6 +142,25 @@ impl Region {
     }
 }
 
+/// The smallest area that is told from none in a triangle.
+fn least_area([a, b, c]: [DVec2; 3]) -> f64 {
+    let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+    NEEDLE * longest * longest
+}
+
+fn is_needle(triangle: [DVec2; 3]) -> bool {
+    let [a, b, c] = triangle;
+    (b - a).perp_dot(c - a).abs() <= least_area(triangle)
+}
+
+fn outline(triangle: [DVec2; 3]) -> Outline {
+    Outline {
+        polygons: vec![Polygon {
+            rings: vec![triangle.to_vec()],
+        }],
+    }
+}
+
 /// The only ring of an outline, counter-clockwise, if it is convex and has few points.
 fn convex(outline: &Outline) -> Option<Ring> {
     let mut rings = outline.rings();
@@ -169,8 +177,9 @@ fn convex(outline: &Outline) -> Option<Ring> {
     Some(ring)
 }
 
-/// How a triangle lies in a convex polygon that is counter-clockwise. Parts with a smaller area than `least` are left out.
-fn divide_by_convex(triangle: [DVec2; 3], convex: &[DVec2], least: f64) -> Division {
+/// How a triangle lies in a convex polygon that is counter-clockwise.
+fn divide_by_convex(triangle: [DVec2; 3], convex: &[DVec2]) -> Division {
+    let least = least_area(triangle);
     let mut rest = triangle.to_vec();
     if shoelace(&rest) < 0.0 {
         rest.reverse();

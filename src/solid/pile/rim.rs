@@ -22,8 +22,6 @@ const MAX_SAMPLES: f64 = 8192.0;
 pub(super) struct Rim {
     /// Depths in the drawing.
     samples: Scattered<f64>,
-    /// The distance over which they are smoothed.
-    reach: f64,
 }
 
 impl Rim {
@@ -67,16 +65,14 @@ impl Rim {
         let samples: Vec<(DVec2, f64)> = places.iter().filter_map(sample).collect();
         (!samples.is_empty()).then(|| Self {
             samples: Scattered::new(&samples, reach),
-            reach,
         })
     }
 
     /// The front of the hoop at a point of the line; `None` where it is none.
     pub(super) fn front(&self, point: DVec2) -> Option<f64> {
-        let within = self.reach * self.reach;
         let (mut sum, mut weights) = (0.0, 0.0);
         for (apart, front) in self.samples.near(point) {
-            let weight = (1.0 - apart / within).powi(2);
+            let weight = (1.0 - apart).powi(2);
             sum += weight * front;
             weights += weight;
         }
