@@ -361,10 +361,7 @@ impl<'a> FigureContext<'a> {
                 let Some(profile) = self.profile(part) else {
                     return 0;
                 };
-                let options = solid::Options {
-                    segments: self.segments(part, &profile, coarser),
-                    ..self.options(part, &profile)
-                };
+                let options = self.options_within(part, &profile, coarser);
                 let outline = &self.bindings.parts[part].outline;
                 profile.triangles(outline, self.half(part), &options)
             });
@@ -467,14 +464,24 @@ impl<'a> FigureContext<'a> {
     }
 
     fn options(&self, part: PartId, profile: &Profile) -> solid::Options {
+        self.options_within(part, profile, self.coarser)
+    }
+
+    /// The options of a part whose rounding may deviate so much, in deviations that nobody sees.
+    fn options_within(
+        &self,
+        part: PartId,
+        profile: &Profile,
+        coarser: Option<f64>,
+    ) -> solid::Options {
         solid::Options {
-            segments: self.segments(part, profile, self.coarser),
+            segments: self.segments(part, profile, coarser),
             crease: self.bindings.attributes(self.bindings.form(part)).crease(),
             placement: Placement::default(),
         }
     }
 
-    /// The layers per half turn of a part whose rounding may deviate so much, in deviations that nobody sees.
+    /// Its layers per half turn.
     fn segments(&self, part: PartId, profile: &Profile, coarser: Option<f64>) -> u32 {
         let attributes = self.bindings.attributes(self.bindings.form(part));
         let wanted = attributes.segments().unwrap_or_else(|| {

@@ -201,11 +201,11 @@ impl Hiders {
 
     /// The parts of a triangle that none of them hides; `None` for all of it.
     fn seen(&self, whole: Triangle) -> Option<Vec<Triangle>> {
-        let mut near = self.near(whole);
-        if slope(whole) > WALL {
-            near.retain(|hider| hider.is_later);
-            if near.len() > MANY {
-                let regions: Vec<&Region> = near.iter().map(|hider| &hider.region).collect();
+        let near = self.near(whole);
+        if near.len() > MANY && slope(whole) > WALL {
+            let later = near.iter().filter(|hider| hider.is_later);
+            let regions: Vec<&Region> = later.map(|hider| &hider.region).collect();
+            if regions.len() > MANY {
                 let flat = whole.map(|corner| corner.at.truncate());
                 let parts = Region::outside_all(&regions, flat)?.into_iter();
                 let parts = parts.map(|part| part.map(|point| Corner::of(whole, point)));
