@@ -7,11 +7,9 @@ use crate::budget::{self, Step};
 
 /// How often edges may cross for an area to be found exactly. An area with more crossings is in as many pieces.
 pub(super) const MAX_CROSSINGS: usize = 20_000;
-/// How many pairs of edges are compared. Rings with more edges above each other that hardly cross are let through.
-const MAX_PAIRS: usize = 1 << 26;
-/// Where so many rings have more pairs, they lie in one another so densely that finding their pieces takes long even if they hardly cross.
-const MANY_RINGS: usize = 256;
-const MAX_PAIRS_OF_RINGS: usize = 1 << 24;
+/// How many pairs of edges are compared. Where there are more, edges lie beside each other so densely that finding their pieces takes long
+/// even if they hardly cross.
+const MAX_PAIRS: usize = 1 << 24;
 /// With more edges above each other, a sweep takes long and much memory.
 const MANY_ABOVE: f64 = 1000.0;
 /// Pixels along the longer side of the picture, at most and at least.
@@ -30,7 +28,7 @@ pub(crate) fn count_crossings(rings: &[Ring]) -> usize {
 pub(super) struct Crossings {
     /// How often, or a number above 20,000.
     pub(super) count: usize,
-    /// Whether many rings lie in one another densely.
+    /// Whether very many edges lie beside each other, as in rings in rings or a star of ten thousand tips.
     pub(super) is_dense: bool,
     /// See [`sweeps_better_along_y`].
     pub(super) is_better_along_y: bool,
@@ -90,7 +88,7 @@ pub(super) fn crossings(rings: &[Ring]) -> Crossings {
     budget::count(Step::Pair, pairs);
     Crossings {
         count: crossings,
-        is_dense: rings.len() >= MANY_RINGS && pairs > MAX_PAIRS_OF_RINGS,
+        is_dense: pairs > MAX_PAIRS,
         is_better_along_y: is_better_along_y(above),
     }
 }

@@ -4,6 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::shapes::Shape;
+use crate::bind::PartId;
 use crate::budget::{Budget, Work};
 use crate::geometry::{Intervals, OrderedBoxes, Scanlines};
 use crate::threads::GRAIN;
@@ -12,6 +13,9 @@ use crate::threads::GRAIN;
 const MAX_BOXES: usize = 4096;
 /// Limit of the shapes that a shape lies over: of a higher pile, only the topmost ones are looked at, …
 const MAX_BELOW: usize = 64;
+/// … in a drawing of very many shapes fewer of them, …
+const MANY_SHAPES: usize = 4096;
+const MAX_BELOW_OF_MANY: usize = 16;
 /// … and of those under them only so many that they do not hide from the shape.
 const MAX_UNHIDDEN: usize = 192;
 /// Shapes overlap if they have more in common than this share of the smaller one.
@@ -32,6 +36,8 @@ pub(super) struct Overlap {
 #[derive(Default)]
 pub(super) struct Scratch {
     own: Intervals,
+    /// The shape that `own` is of, and between which heights its lines are.
+    own_of: Option<(PartId, [f64; 2])>,
     other: Intervals,
     /// What is left of a shape where nothing looked at so far hides what is under it.
     left: Intervals,
@@ -78,11 +84,16 @@ fn below(
     scratch: &mut Scratch,
 ) -> Vec<Overlap> {
     let own = &shapes[above];
+    let most = if shapes.len() > MANY_SHAPES {
+        MAX_BELOW_OF_MANY
+    } else {
+        MAX_BELOW
+    };
     let mut found: Vec<Overlap> = Vec::new();
     let mut many = None;
     boxes.before(above, own.bounds, MAX_BOXES, |below| {
         let other = &shapes[below];
-        if found.len() >= MAX_BELOW {
+        if found.len() >= most {
             let lines = many.get_or_insert_with(|| {
                 let lines = scratch.begin(own);
                 for overlap in &found {
@@ -101,7 +112,7 @@ fn below(
         if area > LEAST * own.area.min(other.area) {
             found.push(Overlap { below, area });
         }
-        found.len() < MAX_BELOW + MAX_UNHIDDEN
+        found.len() < most + MAX_UNHIDDEN
     });
     found.reverse();
     found
@@ -115,7 +126,12 @@ impl Scratch {
             return None;
         }
         let lines = Scanlines::across((low, high));
-        lines.cut(&a.outline, &a.ranges, &mut self.own);
+        // One that lies within many others is cut at the same lines for all of them.
+        let own_of = Some((a.part, [low.y, high.y]));
+        if self.own_of != own_of {
+            lines.cut(&a.outline, &a.ranges, &mut self.own);
+            self.own_of = own_of;
+        }
         lines.cut(&b.outline, &b.ranges, &mut self.other);
         Some(lines)
     }
