@@ -35,15 +35,20 @@ pub(crate) fn touching(bodies: &[Body<'_>]) -> Vec<Vec<usize>> {
         let reach = area_around(own.bounds, own.slack);
         let found = boxes.locate_in_envelope_intersecting(reach);
         let others = found.map(|found| found.data);
+        // The larger slack counts for both, so that each pair is compared from that side only.
+        let is_other_side = |other: usize| {
+            let slack = bodies[other].slack;
+            slack > own.slack || (slack == own.slack && other <= index)
+        };
         let others = others.filter(|other| {
-            *other != index && are_near(&sorted[index], &sorted[*other], own.slack, &mut left)
+            !is_other_side(*other)
+                && are_near(&sorted[index], &sorted[*other], own.slack, &mut left)
         });
         let mut others: Vec<usize> = others.take(MAX_TOUCHED).collect();
         others.sort_unstable();
         others
     };
     let mut all: Vec<Vec<usize>> = (0..bodies.len()).map(&mut near).collect();
-    // The larger slack counts for both.
     for index in 0..bodies.len() {
         for other in all[index].clone() {
             if let Err(place) = all[other].binary_search(&index) {

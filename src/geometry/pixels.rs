@@ -8,6 +8,9 @@ use crate::regions::{Side, follow};
 
 /// How far the outline may deviate from the pixels' edges, in pixels: enough to smooth the steps of slanted borders.
 const BORDER_TOLERANCE: f64 = 0.75;
+/// Of a longer line, pieces are simplified each by itself: the time for one that winds grows with the square of its length.
+const MAX_LINE: usize = 8192;
+const PIECE: usize = 1024;
 
 /// The rings of pixel edges between solid and other pixels, with the solid side on the right, simplified. The unit is a pixel, y
 /// is down.
@@ -67,16 +70,33 @@ fn smoothed(ring: &[DVec2]) -> Ring {
                 .total_cmp(&first.distance_squared(ring[*b]))
         })
         .unwrap_or(0);
-    let mut out = halves(&ring[..=far]);
+    let mut out = simplified(&ring[..=far]);
     let mut back = ring[far..].to_vec();
     back.push(*first);
-    out.pop();
-    out.extend(halves(&back));
-    out.pop();
+    out.extend(simplified(&back));
     out
 }
 
-fn halves(line: &[DVec2]) -> Vec<DVec2> {
+/// The points of a line that matter, without its last one.
+fn simplified(line: &[DVec2]) -> Vec<DVec2> {
+    let mut out = Vec::new();
+    let length = if line.len() > MAX_LINE {
+        PIECE
+    } else {
+        line.len().max(2)
+    };
+    // Each piece begins where the one before it ends.
+    for start in (0..line.len() - 1).step_by(length - 1) {
+        let end = (start + length).min(line.len());
+        let mut kept = kept(&line[start..end]);
+        kept.pop();
+        out.append(&mut kept);
+    }
+    out
+}
+
+/// The points of a line that matter, with both ends.
+fn kept(line: &[DVec2]) -> Vec<DVec2> {
     let kept = simplify(line.len(), |from, to| {
         let direction = (line[to] - line[from]).normalize_or_zero();
         let distance = |p: DVec2| {
@@ -91,4 +111,26 @@ fn halves(line: &[DVec2]) -> Vec<DVec2> {
         farthest.filter(|index| distance(line[*index]) > BORDER_TOLERANCE)
     });
     kept.into_iter().map(|index| line[index]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::query::shoelace;
+
+    #[test]
+    fn long_borders_lose_nothing() {
+        let (width, height) = (201, 150);
+        let is_solid = |x: u32, y: u32| x % 2 == 0 || y == height - 1;
+        let borders = pixel_borders(width, height, is_solid);
+        let [border] = &borders[..] else {
+            panic!("a comb has one border");
+        };
+        let steps = border.iter().zip(border.iter().cycle().skip(1));
+        let length: f64 = steps.map(|(from, to)| from.distance(*to)).sum();
+        assert!(length > 2.0 * MAX_LINE as f64, "{length}");
+        let pixels = (0..width).flat_map(|x| (0..height).map(move |y| (x, y)));
+        let solid = pixels.filter(|(x, y)| is_solid(*x, *y)).count();
+        assert_eq!(shoelace(border).abs() / 2.0, solid as f64);
+    }
 }

@@ -8,7 +8,7 @@ use roxmltree::Node;
 use usvg::tiny_skia_path as skia;
 
 use super::{Line, Paint};
-use crate::geometry::{FillRule, Outline, flatten, resolve_overlaps, subtract};
+use crate::geometry::{FillRule, Outline, bounds_of, flatten, resolve_overlaps, subtract};
 
 /// The smallest tolerance of flattening, as a fraction of the path's extent. It limits the number of segments.
 const FINEST: f64 = 1e-5;
@@ -67,6 +67,15 @@ impl StrokeSource {
             // The curves have been flattened.
             kurbo::PathEl::QuadTo(..) | kurbo::PathEl::CurveTo(..) => {}
         });
+    }
+
+    /// The lower and the upper corner of a box around the stroke, drawing units, without the tips of mitred corners; `None` if there is
+    /// no line.
+    pub(crate) fn bounds(&self) -> Option<(DVec2, DVec2)> {
+        let mut ends = Vec::new();
+        self.middle_line(self.tolerance, |from, to| ends.extend([from, to]));
+        let half = self.width() / 2.0;
+        bounds_of(ends.into_iter()).map(|(low, high)| (low - half, high + half))
     }
 
     /// The middle of a single open line with round ends and no dashes, as of [`middle_line`](Self::middle_line).

@@ -48,5 +48,5 @@ pub(crate) fn locate(drawing: &Drawing, diagnostics: &mut [Diagnostic]) {
 }
 
 fn bounds(shape: &Shape) -> Option<(glam::DVec2, glam::DVec2)> {
-    geometry::bounds(&shape.outline).or_else(|| geometry::bounds(&shape.stroke.as_ref()?.outline()))
+    geometry::bounds(&shape.outline).or_else(|| shape.stroke.as_ref()?.bounds())
 }

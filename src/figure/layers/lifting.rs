@@ -26,6 +26,8 @@ const BULGE: f64 = 0.3;
 const NAMED_BULGE: f64 = 0.6;
 /// How far a face of a plate is moved outwards at most, in its own heights.
 const MAX_RAISE: f64 = 2.0;
+/// A plate lies on another one as a whole if this share of it does, as far as lines across both tell.
+const ALL_OF: f64 = 0.999;
 /// How far a face of a piece of a vehicle is moved outwards as a whole at most, in steps.
 const MAX_STEPS: f64 = 8.0;
 /// Layers per half turn of a skin on a back, whose mesh follows that of the volume where it has to.
@@ -168,7 +170,8 @@ impl Lifting<'_> {
             } else {
                 MAX_RAISE * shape.height().max(self.arrangement.steps[index])
             };
-            if by[1] <= most || self.arrangement.shapes[index].profile.is_open() {
+            let rises = by[1].min(self.rise(index, by[1], moved));
+            if rises <= most || shape.profile.is_open() {
                 return Form::Raised(by);
             }
         }
@@ -360,6 +363,19 @@ impl Lifting<'_> {
         } else {
             raised
         }
+    }
+
+    /// How far the front of a shape, moved outwards by so much, is in front of the plates that carry all of it: what they hide of it does
+    /// not show how thick it is.
+    fn rise(&self, index: usize, by: f64, moved: &Moved) -> f64 {
+        let whole = ALL_OF * self.arrangement.shapes[index].area;
+        let below = self.arrangement.overlaps[index].iter();
+        let carriers = below.filter(|overlap| overlap.area >= whole);
+        let carried_at = carriers.filter_map(|overlap| moved.faces[overlap.below][1]);
+        let own = self.faces(index)[1];
+        own.map_or(f64::INFINITY, |own| {
+            own + by - carried_at.fold(f64::NEG_INFINITY, f64::max)
+        })
     }
 
     /// The pile of all shapes that are laid on others, and of those that they are laid on. Per part its place in it, if it has

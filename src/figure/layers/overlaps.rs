@@ -15,7 +15,7 @@ const MAX_BOXES: usize = 4096;
 const MAX_BELOW: usize = 64;
 /// … in a drawing of very many shapes fewer of them, …
 const MANY_SHAPES: usize = 4096;
-const MAX_BELOW_OF_MANY: usize = 16;
+const MAX_BELOW_OF_MANY: usize = 8;
 /// … and of those under them only so many that they do not hide from the shape.
 const MAX_UNHIDDEN: usize = 192;
 /// Shapes overlap if they have more in common than this share of the smaller one.
