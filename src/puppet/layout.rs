@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::marks::PieceMark;
-use super::paper::{LEAST_MARGIN, Marked, Paper, cut_out};
+use super::paper::{LEAST_MARGIN, Marked, Paper, Template, cut_out, rough_box};
 use super::pieces::PaperPiece;
 use crate::geometry::Outline;
 
@@ -18,6 +18,9 @@ pub(super) const NAME_LINE: f64 = 5.0;
 const LEAST_HEIGHT: f64 = 200.0;
 /// How often the range in which the largest scale lies is halved.
 const STEPS: usize = 12;
+/// How often the scale that was found is made smaller by this factor if the pieces do not fit, with all their bridges.
+const TRIES: i32 = 12;
+const SMALLER: f64 = 0.98;
 /// The smallest scale that is tried, as a share of the one at which the drawing would be as large as the page.
 const SMALLEST: f64 = 1e-3;
 
@@ -80,72 +83,54 @@ impl Task<'_> {
         self.largest_from(0.0, upper, pages)
     }
 
-    /// The same; `None` as soon as it is clear that it is smaller than `least`.
+    /// The same; `None` as soon as it is clear that it is smaller than `least`. To cut pieces out takes long: the scale is searched with
+    /// boxes that are right but for where bridges go, and is made smaller if the pieces need it.
     fn largest_from(&self, least: f64, upper: f64, pages: usize) -> Option<Layout> {
         let (mut fits, mut too_large) = (upper * SMALLEST, upper * 4.0);
-        let mut best = None;
         for _ in 0..STEPS {
             // Halved as a ratio, since nothing is known about the size yet.
             let scale = (fits * too_large).sqrt();
-            match self.at(scale, pages) {
-                Some(layout) => (fits, best) = (scale, Some(layout)),
-                None => too_large = scale,
+            if self.may_fit(scale, pages) {
+                fits = scale;
+            } else {
+                too_large = scale;
             }
             if too_large < least {
                 return None;
             }
         }
-        best.or_else(|| self.at(fits, pages))
+        let scales = (0..TRIES).map(|tries| fits * SMALLER.powi(tries));
+        scales.into_iter().find_map(|scale| self.at(scale, pages))
+    }
+
+    /// Whether boxes around the pieces fit at a scale on at most that many pages.
+    fn may_fit(&self, scale: f64, pages: usize) -> bool {
+        if !self.has_area(scale, pages) {
+            return false;
+        }
+        let boxes = (0..self.pieces.len()).into_par_iter();
+        let boxes = boxes.map(|index| rough_box(&self.template(index), scale, self.widest()));
+        self.pack(&boxes.collect::<Vec<_>>(), pages).is_some()
     }
 
     /// The layout at a scale on at most that many pages.
     pub(super) fn at(&self, scale: f64, pages: usize) -> Option<Layout> {
-        let room = self.page - 2.0 * EDGE;
-        let area = pages as f64 * room.x * room.y - self.text * room.x;
-        if self.least_area(scale) > area {
+        if !self.has_area(scale, pages) {
             return None;
         }
-        let papers: Vec<Paper> = (0..self.pieces.len())
-            .into_par_iter()
-            .map(|index| {
-                let marked = match self.marks[index] {
-                    Some(_) => Marked::Yes,
-                    None => Marked::No,
-                };
-                let paper = cut_out(
-                    &self.pieces[index],
-                    &self.silhouettes[index],
-                    &self.holes[index],
-                    marked,
-                    scale,
-                );
-                paper.upright_if_wider(room.x - GAP)
-            })
-            .collect();
-        let mut packer = Packer {
-            room,
-            text: self.text,
-            most: pages,
-            pages: Vec::new(),
-        };
+        let papers = (0..self.pieces.len()).into_par_iter();
+        let papers = papers
+            .map(|index| cut_out(&self.template(index), scale).upright_if_wider(self.widest()));
+        let papers: Vec<Paper> = papers.collect();
         let boxes: Vec<(DVec2, DVec2)> = papers.iter().map(Paper::bounds).collect();
-        let size = |index: usize| {
-            let size = boxes[index].1 - boxes[index].0;
-            DVec2::new(size.x.max(self.names[index]), size.y + NAME_LINE) + GAP
-        };
-        let mut order: Vec<usize> = (0..papers.len()).collect();
-        order.sort_by(|a, b| size(*b).y.total_cmp(&size(*a).y).then(a.cmp(b)));
-        let mut places = vec![(0, DVec2::ZERO); papers.len()];
-        for index in order {
-            places[index] = packer.place(size(index))?;
-        }
+        let sizes: Vec<DVec2> = boxes.iter().map(|(low, high)| *high - *low).collect();
+        let (places, pages) = self.pack(&sizes, pages)?;
         let placed = papers.into_iter().zip(places).enumerate();
         let placed = placed.map(|(index, (paper, (page, corner)))| {
-            let (low, high) = boxes[index];
-            let slack = (self.names[index] - (high.x - low.x)).max(0.0) / 2.0;
+            let slack = (self.names[index] - sizes[index].x).max(0.0) / 2.0;
             let inset = DVec2::new(EDGE + GAP / 2.0 + slack, EDGE + GAP / 2.0);
             PlacedPiece {
-                shift: corner + inset - low,
+                shift: corner + inset - boxes[index].0,
                 paper,
                 page,
             }
@@ -153,11 +138,61 @@ impl Task<'_> {
         Some(Layout {
             scale,
             placed: placed.collect(),
-            pages: packer.pages.len(),
+            pages,
         })
     }
 
-    /// What the boxes of all pieces take at least, however they are turned: a layout that cannot be is not tried.
+    /// What a piece is cut out of.
+    fn template(&self, index: usize) -> Template<'_> {
+        Template {
+            piece: &self.pieces[index],
+            silhouette: &self.silhouettes[index],
+            holes: &self.holes[index],
+            marked: match self.marks[index] {
+                Some(_) => Marked::Yes,
+                None => Marked::No,
+            },
+        }
+    }
+
+    /// Width and height of what can be printed of a page.
+    fn room(&self) -> DVec2 {
+        self.page - 2.0 * EDGE
+    }
+
+    /// The width of the widest piece that need not be turned upright.
+    fn widest(&self) -> f64 {
+        self.room().x - GAP
+    }
+
+    /// The page and the corner of each piece whose box has this size, and how many pages there are; `None` if they do not fit.
+    fn pack(&self, sizes: &[DVec2], pages: usize) -> Option<(Vec<(usize, DVec2)>, usize)> {
+        let mut packer = Packer {
+            room: self.room(),
+            text: self.text,
+            most: pages,
+            pages: Vec::new(),
+        };
+        let size = |index: usize| {
+            let size = sizes[index];
+            DVec2::new(size.x.max(self.names[index]), size.y + NAME_LINE) + GAP
+        };
+        let mut order: Vec<usize> = (0..sizes.len()).collect();
+        order.sort_by(|a, b| size(*b).y.total_cmp(&size(*a).y).then(a.cmp(b)));
+        let mut places = vec![(0, DVec2::ZERO); sizes.len()];
+        for index in order {
+            places[index] = packer.place(size(index))?;
+        }
+        Some((places, packer.pages.len()))
+    }
+
+    /// Whether so many pages have the area of the boxes around all pieces, however these are turned.
+    fn has_area(&self, scale: f64, pages: usize) -> bool {
+        let room = self.room();
+        self.least_area(scale) <= pages as f64 * room.x * room.y - self.text * room.x
+    }
+
+    /// What the boxes of all pieces take at least, however they are turned.
     fn least_area(&self, scale: f64) -> f64 {
         let boxes = self.boxes.iter().map(|sizes| {
             let areas = sizes.iter().map(|size| {

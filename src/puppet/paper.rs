@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::DVec2;
+use glam::{DVec2, Vec2Swizzles as _};
 
 use super::pieces::PaperPiece;
 use crate::geometry::{
@@ -59,19 +59,43 @@ pub(super) enum Marked {
     No,
 }
 
-/// Cuts out a piece at `scale` millimetres a drawing unit. `silhouette` is what is drawn on it without holes, `holes` are those of its
-/// joints; both are in drawing units.
-pub(super) fn cut_out(
-    piece: &PaperPiece,
-    silhouette: &Outline,
-    holes: &[DVec2],
-    marked: Marked,
-    scale: f64,
-) -> Paper {
-    let scaled = |ring: &Ring| -> Ring { ring.iter().map(|p| *p * scale).collect() };
-    let drawn = piece.outline.map_rings(scaled);
-    let holes: Vec<DVec2> = holes.iter().map(|hole| *hole * scale).collect();
-    let around = offset(&coarse(&silhouette.map_rings(scaled)), MARGIN + NOTCH);
+/// What a piece is cut out of. Points are in drawing units.
+#[derive(Clone, Copy)]
+pub(super) struct Template<'a> {
+    pub(super) piece: &'a PaperPiece,
+    /// What is drawn on it without holes.
+    pub(super) silhouette: &'a Outline,
+    /// The holes of joints that it has, its own first.
+    pub(super) holes: &'a [DVec2],
+    pub(super) marked: Marked,
+}
+
+impl Template<'_> {
+    fn holes_at(&self, scale: f64) -> Vec<DVec2> {
+        self.holes.iter().map(|hole| *hole * scale).collect()
+    }
+
+    /// What is drawn on it in millimetres.
+    fn drawn_at(&self, scale: f64) -> Outline {
+        scaled(&self.piece.outline, scale)
+    }
+
+    /// The middle of its mark in millimetres, given what is drawn and the holes.
+    fn mark_at(&self, scale: f64, drawn: &Outline, holes: &[DVec2]) -> DVec2 {
+        let joint = self.piece.joint.map(|joint| joint.at * scale);
+        mark_place(drawn, joint, holes)
+    }
+}
+
+fn scaled(outline: &Outline, scale: f64) -> Outline {
+    outline.map_rings(|ring| ring.iter().map(|p| *p * scale).collect())
+}
+
+/// Cuts out a piece at `scale` millimetres a drawing unit.
+pub(super) fn cut_out(template: &Template<'_>, scale: f64) -> Paper {
+    let drawn = template.drawn_at(scale);
+    let holes = template.holes_at(scale);
+    let around = offset(&coarse(&scaled(template.silhouette, scale)), MARGIN + NOTCH);
     let mut all = vec![offset(&without_holes(&around), -NOTCH)];
     let mut add = |at: DVec2, radius: f64| {
         all.push(disc(at, radius));
@@ -84,11 +108,8 @@ pub(super) fn cut_out(
     for hole in &holes {
         add(*hole, RING);
     }
-    let mark = match marked {
-        Marked::Yes => {
-            let joint = piece.joint.map(|joint| joint.at * scale);
-            Some(mark_place(&drawn, joint, &holes))
-        }
+    let mark = match template.marked {
+        Marked::Yes => Some(template.mark_at(scale, &drawn, &holes)),
         Marked::No => None,
     };
     if let Some(mark) = mark {
@@ -96,11 +117,34 @@ pub(super) fn cut_out(
     }
     let outline = in_one_piece(without_holes(&union(&all)));
     Paper {
-        turn: turn(&outline),
+        turn: turn(|turn| box_of(&outline, turn)),
         outline,
         holes,
         mark,
     }
+}
+
+/// The size of the box on the sheet around a piece at `scale` millimetres a drawing unit, upright if it is wider than `widest`: right but
+/// for bridges that are wider than the paper around what they join.
+pub(super) fn rough_box(template: &Template<'_>, scale: f64, widest: f64) -> DVec2 {
+    let holes = template.holes_at(scale);
+    let mut discs: Vec<(DVec2, f64)> = holes.iter().map(|hole| (*hole, RING)).collect();
+    if template.marked == Marked::Yes {
+        let mark = template.mark_at(scale, &template.drawn_at(scale), &holes);
+        discs.push((mark, MARK + MARK_EDGE));
+    }
+    let size = |turn: f64| {
+        let way = DVec2::from_angle(turn);
+        let (low, high) = bounds_turned(template.silhouette, turn);
+        let drawn = (low * scale - MARGIN, high * scale + MARGIN);
+        let (low, high) = discs.iter().fold(drawn, |(low, high), (at, radius)| {
+            let at = way.rotate(*at);
+            (low.min(at - *radius), high.max(at + *radius))
+        });
+        high - low
+    };
+    let size = size(turn(size));
+    if size.x > widest { size.yx() } else { size }
 }
 
 impl Paper {
@@ -282,13 +326,15 @@ fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
     bounds_of(points).unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY))
 }
 
+/// The size of the box around an outline that is turned by an angle.
+fn box_of(outline: &Outline, turn: f64) -> DVec2 {
+    let (low, high) = bounds_turned(outline, turn);
+    high - low
+}
+
 /// The sizes of the boxes around what is drawn, however it is turned on the sheet.
 pub(super) fn box_sizes(outline: &Outline) -> Vec<DVec2> {
-    let sizes = turns().map(|turn| {
-        let (low, high) = bounds_turned(outline, turn);
-        high - low
-    });
-    sizes.collect()
+    turns().map(|turn| box_of(outline, turn)).collect()
 }
 
 /// How far pieces may be turned on the sheet, radians.
@@ -296,14 +342,11 @@ fn turns() -> impl Iterator<Item = f64> {
     (-17..=18).map(|step| f64::from(step) * PI / 36.0)
 }
 
-/// How far a piece is turned so that its box is smallest: not at all where that gains little.
-fn turn(outline: &Outline) -> f64 {
-    let size = |turn: f64| {
-        let (low, high) = bounds_turned(outline, turn);
-        (high.x - low.x) * (high.y - low.y)
-    };
-    let best = turns().min_by(|a, b| size(*a).total_cmp(&size(*b)));
-    let best = best.filter(|best| size(*best) < WORTH_TURNING * size(0.0));
+/// How far a piece is turned so that the box of this size around it is smallest: not at all where that gains little.
+fn turn(size: impl Fn(f64) -> DVec2) -> f64 {
+    let area = |turn: f64| size(turn).element_product();
+    let best = turns().min_by(|a, b| area(*a).total_cmp(&area(*b)));
+    let best = best.filter(|best| area(*best) < WORTH_TURNING * area(0.0));
     best.unwrap_or(0.0)
 }
 
