@@ -101,7 +101,8 @@ impl Lifting<'_> {
             is_exact: Vec::with_capacity(count),
             faces: Vec::with_capacity(count),
         };
-        let mut lays: Vec<Option<Lay>> = Vec::with_capacity(count);
+        // Most shapes of a large drawing are not laid on others.
+        let mut lays: Vec<Option<Box<Lay>>> = Vec::with_capacity(count);
         let mut both_sides = ti_vec![false; offsets.len()];
         let mut on_back = Vec::new();
         for (index, shape) in self.arrangement.shapes.iter().enumerate() {
@@ -111,15 +112,15 @@ impl Lifting<'_> {
                 Form::Laid(lay)
                     if lay.form == LayForm::Volume && !shape.is_soft && !lay.is_symmetric =>
                 {
-                    ([self.raise(index, &moved)[0], 0.0], Some(*lay))
+                    ([self.raise(index, &moved)[0], 0.0], Some(lay))
                 }
-                Form::Laid(lay) => ([0.0; 2], Some(*lay)),
+                Form::Laid(lay) => ([0.0; 2], Some(lay)),
             };
             raised[shape.part] = by;
             let [back, front] = self.faces(index);
             let is_exact = lay.is_none();
             let has_back = is_exact || !(shape.is_soft || self.is_symmetric(index));
-            both_sides[shape.part] = self.is_on_both_sides(index, lay.as_ref());
+            both_sides[shape.part] = self.is_on_both_sides(index, lay.as_deref());
             if both_sides[shape.part] && self.arrangement.covers[index].is_detail {
                 on_back.push(shape.part);
             }
@@ -382,7 +383,7 @@ impl Lifting<'_> {
     /// one.
     fn pile(
         &self,
-        lays: Vec<Option<Lay>>,
+        lays: Vec<Option<Box<Lay>>>,
         raised: &TiSlice<PartId, [f64; 2]>,
         recent: Arc<RecentHeights>,
     ) -> (Pile, TiVec<PartId, Option<usize>>, Vec<BackSkin>) {
@@ -399,11 +400,14 @@ impl Lifting<'_> {
             backs: Vec::with_capacity(self.backs.len()),
         };
         // What belongs to a vehicle is there twice as a whole.
-        let copied = lays.iter().enumerate().map(|(index, lay)| {
-            let is_apart = self.arrangement.shapes[index].of_vehicle.is_none();
-            lay.clone().filter(|_| self.mirrored[index] && is_apart)
-        });
-        let copied: Vec<Option<Lay>> = copied.collect();
+        let is_copied = |index: usize| {
+            self.mirrored[index] && self.arrangement.shapes[index].of_vehicle.is_none()
+        };
+        let copied = lays.iter().enumerate();
+        let copied = copied.filter(|(index, _)| is_copied(*index));
+        let copied: Vec<(usize, Lay)> = copied
+            .filter_map(|(index, lay)| Some((index, lay.as_deref()?.clone())))
+            .collect();
         let places = self.pile_shapes(&mut heap, lays, raised);
         self.pile_back_skins(&mut heap);
         self.pile_images(&mut heap, copied, raised);
@@ -411,7 +415,7 @@ impl Lifting<'_> {
     }
 
     /// Per shape whether it is in the pile.
-    fn takes_part(&self, lays: &[Option<Lay>]) -> Vec<bool> {
+    fn takes_part(&self, lays: &[Option<Box<Lay>>]) -> Vec<bool> {
         let mut takes_part = vec![false; self.arrangement.shapes.len()];
         for (index, lay) in lays.iter().enumerate() {
             if let Some(lay) = lay {
@@ -435,7 +439,7 @@ impl Lifting<'_> {
     fn pile_shapes(
         &self,
         heap: &mut Heap,
-        lays: Vec<Option<Lay>>,
+        lays: Vec<Option<Box<Lay>>>,
         raised: &TiSlice<PartId, [f64; 2]>,
     ) -> TiVec<PartId, Option<usize>> {
         let mut places = ti_vec![None; self.arrangement.context.bindings.parts.len()];
@@ -449,7 +453,7 @@ impl Lifting<'_> {
                 below: to_place(lay.below),
                 wraps: to_place(lay.wraps),
                 behind: to_place(lay.behind),
-                ..lay
+                ..*lay
             });
             let part = self.arrangement.shapes[index].part;
             places[part] = Some(place);
@@ -492,17 +496,16 @@ impl Lifting<'_> {
         }
     }
 
-    /// Adds the mirror images of shapes, given how each is laid on others if it has one.
+    /// Adds the mirror images of these shapes, given how each of them is laid on others.
     fn pile_images(
         &self,
         heap: &mut Heap,
-        copied: Vec<Option<Lay>>,
+        copied: Vec<(usize, Lay)>,
         raised: &TiSlice<PartId, [f64; 2]>,
     ) {
         // Per shape its mirror image, once it is made.
         let mut images: Vec<Option<usize>> = vec![None; self.arrangement.shapes.len()];
-        for (index, lay) in copied.into_iter().enumerate() {
-            let Some(lay) = lay else { continue };
+        for (index, lay) in copied {
             let on = |shape: &usize| {
                 let is_volume = !self.arrangement.covers[*shape].is_detail;
                 let volume = heap.place[*shape].filter(|_| is_volume);

@@ -433,7 +433,8 @@ fn describe(
         shape.is_soft && !shape.is_ink && (*takes_part || is_foot(shape))
     });
     soft.for_each(|(shape, _)| {
-        shape.natural = Some(SolidHeights::new(solid(shape), Arc::clone(recent)));
+        let heights = SolidHeights::new(solid(shape), Arc::clone(recent));
+        shape.natural = Some(Box::new(heights));
     });
 }
 

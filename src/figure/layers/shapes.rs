@@ -52,7 +52,7 @@ pub(super) struct Shape {
     /// How far its plane faces are from its plane, back and front, drawing units; `None` for a side without one.
     pub(super) faces: [Option<f64>; 2],
     /// The heights of a soft shape that lies over others or under them.
-    pub(super) natural: Option<SolidHeights>,
+    pub(super) natural: Option<Box<SolidHeights>>,
     /// How it is round about what wears it.
     pub(super) girth: Option<Arc<Girth>>,
     /// What its heights are multiplied by; see [`Shape::flatten`].
