@@ -13,6 +13,8 @@ use super::drawn::{self, DrawnLine, DrawnView};
 use super::features::{self, OfRegion};
 use super::keys;
 use super::matching::{Matching, RegionInView, Track, TrackId};
+use super::paints::{Paint, Paints, Said, is_same_color};
+use super::pieces::DEPTH;
 use super::place::{Frame, TrackPosition, frames, place};
 use super::region::{Direction, RegionId, View};
 use super::shape::{Ends, Morph, line_mesh, match_lines};
@@ -54,11 +56,9 @@ pub struct Character {
 pub struct RegionModel {
     /// Its name; unique in the character.
     pub name: String,
-    /// Its colour, the mean one of a gradient: sRGB with straight alpha, each 0 to 1.
-    pub color: [f64; 4],
     /// Its place in each view, in the character's space, heights.
     pub positions: TiVec<ViewId, DVec3>,
-    /// The area, the line along its border in front of it, and its backing behind the whole character.
+    /// The area, the line along its border in front of it, and its backing behind the whole character; at least the area.
     pub meshes: Vec<RegionMesh>,
     /// The shape that it is in the first view that shows it, or of the picture that it is in.
     pub shape: Option<ShapeId>,
@@ -72,24 +72,45 @@ pub struct RegionModel {
     pub shapes: TiVec<ViewId, Option<ShapeId>>,
 }
 
-/// A mesh in one colour.
+/// A mesh with a paint for each view.
 #[derive(Debug)]
 pub struct RegionMesh {
     /// Its shape in each view, drawing units.
     pub morph: Morph,
-    /// What it is filled with.
-    pub fill: Fill,
+    /// What it is painted with.
+    pub paints: Paints,
     /// How far in front of the region's place it is, heights.
     pub lift: f64,
 }
 
-/// What a mesh of a region is filled with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Fill {
-    /// What the region is filled with, a gradient included.
-    Region,
-    /// sRGB with straight alpha, each 0 to 1.
-    Color([f64; 4]),
+impl RegionModel {
+    /// What its area is painted with.
+    pub(crate) fn paints(&self) -> &Paints {
+        &self.meshes[0].paints
+    }
+
+    /// What each view that shows it paints it with, for people: its area, and the line along its border if that has several paints.
+    /// `None` if it looks the same in all of them.
+    pub(crate) fn paints_in_views(&self) -> Option<TiVec<ViewId, Option<String>>> {
+        let line = self.meshes.iter().find(|mesh| mesh.lift > 0.0);
+        let line = line.map(|line| &line.paints).filter(|line| line.differ());
+        let area = self.paints();
+        if !area.differ() && line.is_none() {
+            return None;
+        }
+        let of_view = |(view, shape): (ViewId, &Option<ShapeId>)| {
+            (*shape)?;
+            let area = area.list[area.of_view[view]].describe();
+            Some(match line {
+                Some(line) => format!(
+                    "{area}, border {}",
+                    line.list[line.of_view[view]].describe()
+                ),
+                None => area,
+            })
+        };
+        Some(self.shapes.iter_enumerated().map(of_view).collect())
+    }
 }
 
 /// Reads the characters of a drawing.
@@ -189,6 +210,7 @@ fn character(
             frames: &frames,
             track: &tracks[index],
             placed: &placed[index],
+            said: Said { drawing, bindings },
             memo,
             features: &features[index],
             backing: backings[index].as_deref(),
@@ -215,6 +237,7 @@ struct Sources<'a> {
     frames: &'a TiSlice<ViewId, Frame>,
     track: &'a Track,
     placed: &'a TrackPosition,
+    said: Said<'a>,
     memo: &'a Memo,
     features: &'a OfRegion,
     /// The outlines of its backing.
@@ -262,6 +285,13 @@ impl Sources<'_> {
             .filter_map(|at| Some((at.view, drawn(at).line?)));
         let lines: Vec<(ViewId, DrawnLine)> = lines.collect();
         let line = self.line(&area, &lines);
+        let own = shown.iter().map(|at| Paint {
+            color: region(at).color,
+            part: drawn(at).part,
+            view: at.view,
+        });
+        let own: Vec<Paint> = own.collect();
+        let paints = self.said.paints(self.drawn.len(), &own, &area);
         self.shrink(&mut area);
         let first = shown.first();
         let backing = self.backing.map(|outlines| {
@@ -269,13 +299,13 @@ impl Sources<'_> {
             self.shrink(&mut morph);
             RegionMesh {
                 morph,
-                fill: Fill::Region,
+                paints: paints.clone(),
                 lift: -self.behind,
             }
         });
         let area = RegionMesh {
             morph: area,
-            fill: Fill::Region,
+            paints,
             lift: 0.0,
         };
         let meshes = [Some(area), line, backing].into_iter().flatten().collect();
@@ -295,7 +325,6 @@ impl Sources<'_> {
                     Some(own) => own.to_owned(),
                 }
             }),
-            color: first.map_or([0.0; 4], |first| region(first).color),
             positions: self.positions(),
             meshes,
             shape: first.map(|first| drawn(first).shape),
@@ -322,7 +351,6 @@ impl Sources<'_> {
 
     /// The line along the border, as wide as it is drawn in each view.
     fn line(&self, area: &Morph, lines: &[(ViewId, DrawnLine)]) -> Option<RegionMesh> {
-        let (_, DrawnLine { color, .. }) = *lines.first()?;
         // A view that does not show the region has the width of another one.
         let width = |view: ViewId| {
             let own = lines.iter().find(|(v, _)| *v == view);
@@ -352,10 +380,15 @@ impl Sources<'_> {
                 .extend(triangles.map(|t| t.map(|corner| corner + base)));
         }
         self.shrink(&mut morph);
+        let drawn = lines.iter();
+        let drawn = drawn.map(|(view, line)| (*view, Paint::plain(line.color, *view)));
+        let is_same = |a: &Paint, b: &Paint| is_same_color(a.color, b.color);
+        let paints = Paints::collect(self.drawn.len(), drawn, is_same);
         Some(RegionMesh {
             morph,
-            fill: Fill::Color(color),
-            lift: LINE_STEP,
+            // What is seen of a line lies in front of the area, and behind what is painted over the region.
+            lift: LINE_STEP - if paints.differ() { DEPTH } else { 0.0 },
+            paints,
         })
     }
 

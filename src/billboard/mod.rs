@@ -13,6 +13,8 @@ mod features;
 mod keys;
 mod matching;
 mod nodes;
+mod paints;
+mod pieces;
 mod place;
 mod raster;
 mod region;

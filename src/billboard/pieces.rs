@@ -1,0 +1,336 @@
+//! A mesh with a paint of its own in each view, as pieces that every glTF viewer shows: nothing but their positions depends on the
+//! weights of morph targets. (Blender reads only the positions of morph targets; colours, texture coordinates and materials that
+//! change are not shown by all programs.)
+//!
+//! Three ways, by what is to be shown:
+//! - *Mixtures*, if all paints are opaque colours. One copy of the mesh for each paint and for mixtures of them lie behind each other.
+//!   The one whose mixture is nearest to the weights of the views is in front: copy c has the depth 2 c·u − |c|², linear in the
+//!   shares u of the paints, which is the greatest for the c nearest to u (a power diagram).
+//! - *Veils*, if a gradient, pattern or picture is among opaque paints. The first paint lies at rest. Copies in another paint, each
+//!   with an alpha of its own, come through it to the front one after the other; the last is opaque. Copies in one paint may be
+//!   blended in any order.
+//! - *Hatches*, if something is seen through a paint, so that no copy may lie behind another. Small triangles are divided between the
+//!   paints in proportion to their shares.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+use typed_index_collections::{TiSlice, TiVec};
+
+use super::paints::Paints;
+use super::shape::Morph;
+use crate::scene::ViewId;
+
+/// How far in front of its place what is seen of a mesh lies at most, heights.
+pub(super) const DEPTH: f64 = 0.000_15;
+/// How far the last of the veils lies in front at most, heights; the first half of that.
+const VEILED: f64 = 0.000_2;
+/// Neighbouring mixtures differ by at most this in each channel, as far as [`MOST_STEPS`] allows.
+const STEP: f64 = 0.1;
+/// Steps from one paint to another.
+const MOST_STEPS: usize = 6;
+/// Copies of a mesh of three and more paints; of more there would be no mixtures.
+const MOST_COPIES: usize = 32;
+/// Veils of each paint.
+const VEILS: usize = 4;
+/// Triangles of hatches are at most so long, heights, as far as [`MOST_HATCHES`] allows.
+const HATCH: f64 = 0.03;
+/// Triangles of a mesh are divided until there are so many.
+const MOST_HATCHES: usize = 256;
+
+/// A part of a mesh that has one material.
+#[derive(Debug)]
+pub(super) struct Piece<'a> {
+    /// Its shape in each view, drawing units.
+    pub(super) morph: Cow<'a, Morph>,
+    /// Per view how far in front of the mesh it lies, heights.
+    pub(super) lifts: TiVec<ViewId, f64>,
+    /// What it is filled with.
+    pub(super) coat: Coat,
+}
+
+/// What a piece is filled with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Coat {
+    /// A paint, by its index in the list, times this alpha.
+    Paint(usize, f64),
+    /// sRGB with straight alpha, each 0 to 1.
+    Mixture([f64; 4]),
+}
+
+/// What decides in which way a paint is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cover {
+    /// A colour without alpha.
+    Color,
+    /// A texture without alpha.
+    Texture,
+    /// Something is seen through it.
+    Transparent,
+}
+
+/// The pieces of a mesh whose paints cover what is behind them like `covers`. `between` are the sets of views between which weights
+/// are linear, `heights` those of the character in each view, drawing units.
+pub(super) fn pieces<'a>(
+    morph: &'a Morph,
+    paints: &Paints,
+    covers: &[Cover],
+    between: &[Vec<ViewId>],
+    heights: &TiSlice<ViewId, f64>,
+) -> Vec<Piece<'a>> {
+    if !paints.differ() {
+        return vec![Piece {
+            morph: Cow::Borrowed(morph),
+            lifts: heights.iter().map(|_| 0.0).collect(),
+            coat: Coat::Paint(0, 1.0),
+        }];
+    }
+    if covers.contains(&Cover::Transparent) {
+        hatches(morph, paints, heights)
+    } else if covers.contains(&Cover::Texture) {
+        veils(morph, paints)
+    } else {
+        mixtures(morph, paints, between)
+    }
+}
+
+/// Shares of the paints in a mixture, in steps.
+type Shares = Vec<usize>;
+
+fn mixtures<'a>(morph: &'a Morph, paints: &Paints, between: &[Vec<ViewId>]) -> Vec<Piece<'a>> {
+    let apart = |a: &[f64; 4], b: &[f64; 4]| {
+        let channels = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+        channels.fold(0.0, f64::max)
+    };
+    let colors: Vec<[f64; 4]> = paints.list.iter().map(|paint| paint.color).collect();
+    let pairs = colors
+        .iter()
+        .flat_map(|a| colors.iter().map(move |b| apart(a, b)));
+    let greatest = pairs.fold(0.0, f64::max);
+    let wanted = ((greatest / STEP).ceil() as usize).clamp(1, MOST_STEPS);
+    let counts = (1..=wanted).rev();
+    let mut found = counts.map(|steps| (steps, all_shares(paints, between, steps)));
+    let found = found.find(|(steps, all)| *steps == 1 || all.len() <= MOST_COPIES);
+    let (steps, all) = found.unwrap_or_default();
+
+    let steps = steps as f64;
+    // Within half a step of a view the gap to the next mixture is widened: at the drawn views nothing else may show. What is seen there
+    // is `DEPTH` in front, what is seen between the views up to that much less.
+    let (curve, corner) = (DEPTH / 2.0, DEPTH * steps);
+    let copy = |shares: Shares| {
+        let c: Vec<f64> = shares.iter().map(|share| *share as f64 / steps).collect();
+        let squared: f64 = c.iter().map(|share| share * share).sum();
+        let depth = |at: usize| {
+            let edge = match c.iter().position(|share| *share == 1.0) {
+                None => 0.0,
+                Some(own) if own == at => corner / (2.0 * steps),
+                Some(_) => corner / (2.0 * steps) - corner,
+            };
+            curve * (2.0 * c[at] - squared) + edge
+        };
+        let mut mixture = [0.0; 4];
+        for (share, color) in c.iter().zip(&colors) {
+            for (sum, channel) in mixture.iter_mut().zip(color) {
+                *sum += share * channel;
+            }
+        }
+        let only = c.iter().position(|share| *share == 1.0);
+        Piece {
+            morph: Cow::Borrowed(morph),
+            lifts: paints.of_view.iter().map(|at| depth(*at)).collect(),
+            coat: only.map_or(Coat::Mixture(mixture), |paint| Coat::Paint(paint, 1.0)),
+        }
+    };
+    all.into_iter().map(copy).collect()
+}
+
+/// The mixtures between the paints of each set of views, in order.
+fn all_shares(paints: &Paints, between: &[Vec<ViewId>], steps: usize) -> Vec<Shares> {
+    let mut all: BTreeSet<Shares> = BTreeSet::new();
+    let count = paints.list.len();
+    for set in between {
+        let own: BTreeSet<usize> = set.iter().map(|view| paints.of_view[*view]).collect();
+        let own: Vec<usize> = own.into_iter().collect();
+        for first in 0..=steps {
+            for second in 0..=steps - first {
+                let shares = [steps - first - second, first, second];
+                // Sets have at most three views; what has no paint gets no share.
+                if shares[own.len().min(3)..].iter().any(|share| *share > 0) {
+                    continue;
+                }
+                let mut mixture = vec![0; count];
+                for (paint, share) in own.iter().zip(shares) {
+                    mixture[*paint] = share;
+                }
+                all.insert(mixture);
+            }
+        }
+    }
+    // In the order of the paints that they have most of.
+    all.into_iter().rev().collect()
+}
+
+fn veils<'a>(morph: &'a Morph, paints: &Paints) -> Vec<Piece<'a>> {
+    let first = Piece {
+        morph: Cow::Borrowed(morph),
+        lifts: paints.of_view.iter().map(|_| 0.0).collect(),
+        coat: Coat::Paint(0, 1.0),
+    };
+    let of_paint = |paint: usize| {
+        (1..=VEILS).map(move |number| {
+            // The share of the paint at which it passes the first one.
+            let passes = (number as f64 - 0.5) / VEILS as f64;
+            let in_front = VEILED * (1.0 + number as f64 / VEILS as f64) / 2.0;
+            let slope = in_front / (1.0 - passes);
+            let lift = |at: &usize| slope * (if *at == paint { 1.0 } else { 0.0 } - passes);
+            Piece {
+                morph: Cow::Borrowed(morph),
+                lifts: paints.of_view.iter().map(lift).collect(),
+                // So much that after each of them an equal part of what lies behind is gone.
+                coat: Coat::Paint(paint, 1.0 / (VEILS + 1 - number) as f64),
+            }
+        })
+    };
+    let others = (1..paints.list.len()).flat_map(of_paint);
+    std::iter::once(first).chain(others).collect()
+}
+
+/// Divides each triangle between the paints. Its side across from the first corner is cut so that the cuts move from one end to the
+/// other: in a view with paint p, cuts up to the p-th are at the first end, the others at the second.
+fn hatches<'a>(morph: &Morph, paints: &Paints, heights: &TiSlice<ViewId, f64>) -> Vec<Piece<'a>> {
+    let fine = divided(morph, heights);
+    let count = paints.list.len();
+    let piece = |paint: usize| {
+        let mut morph = Morph {
+            points: TiVec::from(vec![Vec::new(); heights.len()]),
+            ..Morph::default()
+        };
+        // Corners by the ends of the side that they are on, and by the number of the cut.
+        let mut known: FxHashMap<(u32, u32, usize), u32> = FxHashMap::default();
+        let mut corner = |from: u32, to: u32, number: usize| {
+            let key = match number {
+                0 => (from, from, 0),
+                _ if number == count => (to, to, 0),
+                _ => (from, to, number),
+            };
+            *known.entry(key).or_insert_with(|| {
+                for (view, points) in morph.points.iter_mut_enumerated() {
+                    let at = if number <= paints.of_view[view] {
+                        from
+                    } else {
+                        to
+                    };
+                    points.push(fine.points[view][at as usize]);
+                }
+                morph.points[ViewId::FIRST].len() as u32 - 1
+            })
+        };
+        for [apex, from, to] in &fine.triangles {
+            let triangle = [
+                corner(*apex, *apex, 0),
+                corner(*from, *to, paint),
+                corner(*from, *to, paint + 1),
+            ];
+            morph.triangles.push(triangle);
+        }
+        Piece {
+            morph: Cow::Owned(morph),
+            lifts: heights.iter().map(|_| 0.0).collect(),
+            coat: Coat::Paint(paint, 1.0),
+        }
+    };
+    (0..paints.list.len()).map(piece).collect()
+}
+
+/// The mesh with smaller triangles, each with its longest side across from its first corner. Triangles with a common side divide it
+/// alike.
+fn divided(morph: &Morph, heights: &TiSlice<ViewId, f64>) -> Morph {
+    let mut fine = morph.clone();
+    let length = |points: &TiVec<ViewId, Vec<DVec2>>, a: u32, b: u32| {
+        let views = points.iter().zip(heights);
+        let lengths = views.map(|(points, height)| {
+            points[a as usize].distance(points[b as usize]) / height.max(f64::MIN_POSITIVE)
+        });
+        lengths.fold(0.0, f64::max)
+    };
+    let mut limit = f64::INFINITY;
+    while limit > HATCH && fine.triangles.len() < MOST_HATCHES {
+        let sides = fine
+            .triangles
+            .iter()
+            .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]);
+        let longest = sides.map(|(a, b)| length(&fine.points, *a, *b));
+        let longest = longest.fold(0.0, f64::max);
+        if longest <= HATCH || !longest.is_finite() {
+            break;
+        }
+        limit = longest * std::f64::consts::FRAC_1_SQRT_2;
+        let mut middles: FxHashMap<(u32, u32), u32> = FxHashMap::default();
+        let mut divided = Vec::new();
+        for triangle in std::mem::take(&mut fine.triangles) {
+            let sides = [0, 1, 2].map(|i| {
+                let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
+                (a, b, length(&fine.points, a, b))
+            });
+            let middle = sides.map(|(a, b, length)| {
+                (length > limit).then(|| {
+                    *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                        for points in &mut fine.points {
+                            points.push(points[a as usize].midpoint(points[b as usize]));
+                        }
+                        fine.points[ViewId::FIRST].len() as u32 - 1
+                    })
+                })
+            });
+            divide(
+                triangle,
+                middle,
+                sides.map(|(_, _, length)| length),
+                &mut divided,
+            );
+        }
+        fine.triangles = divided;
+    }
+    for triangle in &mut fine.triangles {
+        let [a, b, c] = *triangle;
+        let sides = [
+            length(&fine.points, b, c),
+            length(&fine.points, c, a),
+            length(&fine.points, a, b),
+        ];
+        let across = (0..3).fold(0, |best, i| if sides[i] > sides[best] { i } else { best });
+        triangle.rotate_left(across);
+    }
+    fine
+}
+
+/// Divides a triangle at the middles of some of its sides, of which side i goes from corner i to the next.
+fn divide(
+    triangle: [u32; 3],
+    middles: [Option<u32>; 3],
+    lengths: [f64; 3],
+    out: &mut Vec<[u32; 3]>,
+) {
+    let Some(start) = (0..3)
+        .filter(|i| middles[*i].is_some())
+        .max_by(|a, b| lengths[*a].total_cmp(&lengths[*b]))
+    else {
+        return out.push(triangle);
+    };
+    // The longest side first: what is left are two triangles, which the other middles divide.
+    let [a, b, c] = [0, 1, 2].map(|i| triangle[(start + i) % 3]);
+    let [ab, bc, ca] = [0, 1, 2].map(|i| middles[(start + i) % 3]);
+    let Some(ab) = ab else {
+        return out.push(triangle);
+    };
+    match bc {
+        Some(bc) => out.extend([[ab, b, bc], [ab, bc, c]]),
+        None => out.push([ab, b, c]),
+    }
+    match ca {
+        Some(ca) => out.extend([[a, ab, ca], [ab, c, ca]]),
+        None => out.push([a, ab, c]),
+    }
+}
