@@ -9,15 +9,15 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::backing::backings;
 use super::diagnostics;
-use super::drawn::{self, DrawnLine, DrawnView};
+use super::drawn::{self, DrawnView};
 use super::features::{self, OfRegion};
 use super::keys;
 use super::matching::{Matching, RegionInView, Track, TrackId};
-use super::paints::{Paint, Paints, Said, is_same_color};
-use super::pieces::DEPTH;
+use super::paints::{Paints, Said};
 use super::place::{Frame, TrackPosition, frames, place};
 use super::region::{Direction, RegionId, View};
-use super::shape::{Ends, Morph, line_mesh, match_lines};
+use super::shape::{Ends, Morph, line_mesh};
+use super::shapes::{RegionShape, shapes};
 use super::turn::between;
 use crate::bind::{Bindings, LayerId, PartId};
 use crate::diagnostic::Diagnostic;
@@ -189,11 +189,14 @@ fn character(
         .iter()
         .map(|view| view.drawn.iter().map(|drawn| drawn.depth).collect())
         .collect();
-    let placed = place(&views, &frames, &matching.tracks, &depths);
-    let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
-    let turn = between(&directions);
     let tracks = &matching.tracks;
     let features = features::assign(bindings, &drawn, &frames, tracks, diagnostics);
+    let said = Said { drawing, bindings };
+    let shapes = shapes(&drawn, tracks, &features, said, memo);
+    let rooms: TiVec<TrackId, f64> = shapes.iter().map(RegionShape::room).collect();
+    let placed = place(&views, &frames, tracks, &depths, &rooms);
+    let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
+    let turn = between(&directions);
     let has_backing = drawn
         .iter()
         .any(|view| drawn::setting(bindings, view.layer, Keyword::Backing).is_some());
@@ -203,21 +206,24 @@ fn character(
         vec![None; tracks.len()].into()
     };
     let behind = behind_all(&placed);
-    let regions = (0..tracks.len()).into_par_iter().map(|index| {
-        let index = TrackId::from(index);
-        let sources = Sources {
-            drawn: &drawn,
-            frames: &frames,
-            track: &tracks[index],
-            placed: &placed[index],
-            said: Said { drawing, bindings },
-            memo,
-            features: &features[index],
-            backing: backings[index].as_deref(),
-            behind,
-        };
-        sources.model(drawing, index)
-    });
+    let regions = shapes
+        .raw
+        .into_par_iter()
+        .enumerate()
+        .map(|(index, shape)| {
+            let index = TrackId::from(index);
+            let sources = Sources {
+                drawn: &drawn,
+                frames: &frames,
+                track: &tracks[index],
+                placed: &placed[index],
+                memo,
+                features: &features[index],
+                backing: backings[index].as_deref(),
+                behind,
+            };
+            sources.model(drawing, index, shape)
+        });
     let mut regions: Vec<RegionModel> = regions.collect();
     unique_names(name, &mut regions);
     Character {
@@ -237,7 +243,6 @@ struct Sources<'a> {
     frames: &'a TiSlice<ViewId, Frame>,
     track: &'a Track,
     placed: &'a TrackPosition,
-    said: Said<'a>,
     memo: &'a Memo,
     features: &'a OfRegion,
     /// The outlines of its backing.
@@ -261,37 +266,16 @@ fn behind_all(placed: &TiSlice<TrackId, TrackPosition>) -> f64 {
 }
 
 impl Sources<'_> {
-    fn model(&self, drawing: &Drawing, index: TrackId) -> RegionModel {
-        let shown = self.track.regions.iter_enumerated();
-        let shown: Vec<RegionInView> = shown
-            .filter_map(|(view, id)| Some(RegionInView { view, id: (*id)? }))
-            .collect();
+    fn model(&self, drawing: &Drawing, index: TrackId, shape: RegionShape) -> RegionModel {
         let region = |at: &RegionInView| &self.drawn[at.view].view.regions[at.id];
         let drawn = |at: &RegionInView| &self.drawn[at.view].drawn[at.id];
-        let outlines = self.drawn.iter().zip(&self.track.regions);
-        let outlines: TiVec<ViewId, Arc<Outline>> = outlines
-            .map(|(drawn, id)| {
-                id.map_or_else(Arc::default, |id| {
-                    Arc::clone(&drawn.view.regions[id].outline)
-                })
-            })
-            .collect();
-        let mut area = match self.open_line(&shown) {
-            Some(line) => line,
-            None => keys::morphed(outlines.raw, self.features, self.memo),
-        };
-        let lines = shown
-            .iter()
-            .filter_map(|at| Some((at.view, drawn(at).line?)));
-        let lines: Vec<(ViewId, DrawnLine)> = lines.collect();
-        let line = self.line(&area, &lines);
-        let own = shown.iter().map(|at| Paint {
-            color: region(at).color,
-            part: drawn(at).part,
-            view: at.view,
-        });
-        let own: Vec<Paint> = own.collect();
-        let paints = self.said.paints(self.drawn.len(), &own, &area);
+        let line = self.line(&shape);
+        let RegionShape {
+            shown,
+            mut area,
+            paints,
+            ..
+        } = shape;
         self.shrink(&mut area);
         let first = shown.first();
         let backing = self.backing.map(|outlines| {
@@ -350,10 +334,15 @@ impl Sources<'_> {
     }
 
     /// The line along the border, as wide as it is drawn in each view.
-    fn line(&self, area: &Morph, lines: &[(ViewId, DrawnLine)]) -> Option<RegionMesh> {
-        // A view that does not show the region has the width of another one.
+    fn line(&self, shape: &RegionShape) -> Option<RegionMesh> {
+        let RegionShape { area, lines, .. } = shape;
+        let paints = shape.line_paints.clone()?;
+        // A view that does not show the region has the width of another one; where it is drawn without a line there is none.
         let width = |view: ViewId| {
             let own = lines.iter().find(|(v, _)| *v == view);
+            if own.is_none() && self.track.regions[view].is_some() {
+                return Some(0.0);
+            }
             let (from, line) = own.or(lines.first())?;
             Some(line.width * self.frames[view].height / self.frames[*from].height)
         };
@@ -380,29 +369,11 @@ impl Sources<'_> {
                 .extend(triangles.map(|t| t.map(|corner| corner + base)));
         }
         self.shrink(&mut morph);
-        let drawn = lines.iter();
-        let drawn = drawn.map(|(view, line)| (*view, Paint::plain(line.color, *view)));
-        let is_same = |a: &Paint, b: &Paint| is_same_color(a.color, b.color);
-        let paints = Paints::collect(self.drawn.len(), drawn, is_same);
         Some(RegionMesh {
             morph,
-            // What is seen of a line lies in front of the area, and behind what is painted over the region.
-            lift: LINE_STEP - if paints.differ() { DEPTH } else { 0.0 },
             paints,
+            lift: LINE_STEP + shape.thickness(),
         })
-    }
-
-    /// A line that is no border, as wide as it is drawn in each view; `None` if a view shows something else.
-    fn open_line(&self, shown: &[RegionInView]) -> Option<Morph> {
-        let mut points = TiVec::from(vec![Vec::new(); self.drawn.len()]);
-        let mut widths = TiVec::from(vec![0.0; self.drawn.len()]);
-        for RegionInView { view, id } in shown {
-            let line = self.drawn[*view].drawn[*id].open_line.as_ref()?;
-            points[*view].clone_from(&line.points);
-            widths[*view] = line.width;
-        }
-        let points = match_lines(&points.raw);
-        Some(line_mesh(&points, &widths.raw, Ends::Free))
     }
 
     /// Where a view does not show the region, it is a point at its place.

@@ -19,6 +19,7 @@ mod place;
 mod raster;
 mod region;
 mod shape;
+mod shapes;
 #[doc(hidden)]
 pub mod stages;
 #[cfg(test)]

@@ -23,14 +23,13 @@ use super::paints::Paints;
 use super::shape::Morph;
 use crate::scene::ViewId;
 
-/// How far in front of its place what is seen of a mesh lies at most, heights.
-pub(super) const DEPTH: f64 = 0.000_15;
-/// How far the last of the veils lies in front at most, heights; the first half of that.
-const VEILED: f64 = 0.000_2;
+/// How far in front of its place what is seen of a mesh lies at most, heights. The copies of a mesh share it, and the depth buffers of
+/// viewers have to tell them apart.
+pub(super) const DEPTH: f64 = 0.0012;
 /// Neighbouring mixtures differ by at most this in each channel, as far as [`MOST_STEPS`] allows.
-const STEP: f64 = 0.1;
+const STEP: f64 = 0.08;
 /// Steps from one paint to another.
-const MOST_STEPS: usize = 6;
+const MOST_STEPS: usize = 4;
 /// Copies of a mesh of three and more paints; of more there would be no mixtures.
 const MOST_COPIES: usize = 32;
 /// Veils of each paint.
@@ -182,7 +181,7 @@ fn veils<'a>(morph: &'a Morph, paints: &Paints) -> Vec<Piece<'a>> {
         (1..=VEILS).map(move |number| {
             // The share of the paint at which it passes the first one.
             let passes = (number as f64 - 0.5) / VEILS as f64;
-            let in_front = VEILED * (1.0 + number as f64 / VEILS as f64) / 2.0;
+            let in_front = DEPTH * (1.0 + number as f64 / VEILS as f64) / 2.0;
             let slope = in_front / (1.0 - passes);
             let lift = |at: &usize| slope * (if *at == paint { 1.0 } else { 0.0 } - passes);
             Piece {
