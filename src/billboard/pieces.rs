@@ -333,3 +333,172 @@ fn divide(
         None => out.push([a, ab, c]),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::paints::Paint;
+    use super::*;
+
+    /// Paints of so many views, in one set.
+    fn paints(colors: &[[f64; 4]]) -> (Paints, Vec<Vec<ViewId>>) {
+        let views = (0..colors.len()).map(ViewId::from);
+        let shown = views
+            .zip(colors)
+            .map(|(view, color)| (view, Paint::plain(*color, view)));
+        let paints = Paints::collect(colors.len(), shown, |a, b| a.color == b.color);
+        let set = (0..colors.len()).map(ViewId::from).collect();
+        (paints, vec![set])
+    }
+
+    /// A square of 100 drawing units, the same in all views.
+    fn square(views: usize) -> Morph {
+        let corners = [(0.0, 0.0), (0.0, 100.0), (100.0, 100.0), (100.0, 0.0)];
+        let corners = corners.map(|(x, y)| DVec2::new(x, y)).to_vec();
+        Morph {
+            points: vec![corners; views].into(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            rings: vec![vec![0, 1, 2, 3]],
+        }
+    }
+
+    /// Weights of up to three views.
+    fn weights(views: usize) -> impl Iterator<Item = Vec<f64>> {
+        let all = (0..=20).flat_map(move |a| (0..=20 - a).map(move |b| [a, b, 20 - a - b]));
+        let used = all.filter(move |all| all[views..].iter().all(|rest| *rest == 0));
+        used.map(move |all| {
+            all[..views]
+                .iter()
+                .map(|part| f64::from(*part) / 20.0)
+                .collect()
+        })
+    }
+
+    fn lift(piece: &Piece<'_>, weights: &[f64]) -> f64 {
+        piece
+            .lifts
+            .iter()
+            .zip(weights)
+            .map(|(lift, weight)| lift * weight)
+            .sum()
+    }
+
+    #[test]
+    fn the_mixture_in_front_is_that_of_the_weights() {
+        let colors = [
+            [0.8, 0.3, 0.2, 1.0],
+            [0.5, 0.4, 0.3, 1.0],
+            [0.7, 0.6, 0.1, 1.0],
+        ];
+        for views in [2, 3] {
+            let (paints, between) = paints(&colors[..views]);
+            let morph = square(views);
+            let heights = TiVec::from(vec![100.0; views]);
+            let pieces = pieces(
+                &morph,
+                &paints,
+                &vec![Cover::Color; views],
+                &between,
+                &heights,
+            );
+            assert_eq!(pieces.len(), [5, 15][views - 2]);
+            for weights in weights(views) {
+                let mut order: Vec<&Piece<'_>> = pieces.iter().collect();
+                order.sort_by(|a, b| lift(b, &weights).total_cmp(&lift(a, &weights)));
+                let front = lift(order[0], &weights);
+                assert!(
+                    (-DEPTH / 4.0..DEPTH * 1.001).contains(&front),
+                    "{weights:?}: {front}"
+                );
+                let shown = match order[0].coat {
+                    Coat::Mixture(color) => color,
+                    Coat::Paint(paint, alpha) => {
+                        assert_eq!(alpha, 1.0);
+                        paints.list[paint].color
+                    }
+                };
+                for channel in 0..3 {
+                    let all = colors
+                        .iter()
+                        .zip(&weights)
+                        .map(|(color, weight)| color[channel] * weight);
+                    let mixed: f64 = all.sum();
+                    // Half a step from one paint to another, or within three.
+                    let step = 0.3 / MOST_STEPS as f64;
+                    assert!(
+                        (shown[channel] - mixed).abs() < 0.7 * step,
+                        "{weights:?}: {shown:?}"
+                    );
+                }
+                if weights.contains(&1.0) {
+                    assert!(
+                        front - lift(order[1], &weights) > DEPTH / 2.0,
+                        "{weights:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn veils_in_front_mix_by_the_weights() {
+        let (paints, between) = paints(&[[0.0, 0.0, 0.0, 1.0], [1.0, 1.0, 1.0, 1.0]]);
+        let (morph, heights) = (square(2), TiVec::from(vec![100.0; 2]));
+        let pieces = pieces(&morph, &paints, &[Cover::Texture; 2], &between, &heights);
+        for weights in weights(2) {
+            let mut order: Vec<&Piece<'_>> = pieces.iter().collect();
+            order.sort_by(|a, b| lift(b, &weights).total_cmp(&lift(a, &weights)));
+            let (mut white, mut rest) = (0.0, 1.0);
+            for piece in order {
+                let Coat::Paint(paint, alpha) = piece.coat else {
+                    panic!("a mixture");
+                };
+                white += rest * alpha * paint as f64;
+                rest *= 1.0 - alpha;
+            }
+            let off = (white - weights[1]).abs();
+            assert!(
+                rest == 0.0 && off < 0.51 / VEILS as f64,
+                "{weights:?}: {white}"
+            );
+        }
+    }
+
+    #[test]
+    fn hatches_cover_areas_by_the_weights() {
+        let colors = [
+            [0.0, 0.0, 0.0, 0.5],
+            [1.0, 1.0, 1.0, 0.7],
+            [1.0, 0.0, 0.0, 1.0],
+        ];
+        for views in [2, 3] {
+            let (paints, between) = paints(&colors[..views]);
+            let (morph, heights) = (square(views), TiVec::from(vec![100.0; views]));
+            let pieces = pieces(
+                &morph,
+                &paints,
+                &vec![Cover::Transparent; views],
+                &between,
+                &heights,
+            );
+            assert!((MOST_HATCHES..6 * MOST_HATCHES).contains(&pieces[0].morph.triangles.len()));
+            for weights in weights(views) {
+                for (piece, weight) in pieces.iter().zip(&weights) {
+                    let point = |corner: u32| -> DVec2 {
+                        let views = piece.morph.points.iter().zip(&weights);
+                        views
+                            .map(|(points, weight)| points[corner as usize] * *weight)
+                            .sum()
+                    };
+                    let areas = piece.morph.triangles.iter().map(|triangle| {
+                        let [a, b, c] = triangle.map(point);
+                        let area = -(b - a).perp_dot(c - a) / 2.0;
+                        assert!(area > -1e-9);
+                        area
+                    });
+                    let share = areas.sum::<f64>() / 1e4;
+                    assert!((share - weight).abs() < 1e-9, "{weights:?}: {share}");
+                }
+            }
+        }
+    }
+}
