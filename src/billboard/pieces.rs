@@ -9,7 +9,7 @@
 //! - *Veils*, if a gradient, pattern or picture is among opaque paints. The first paint lies at rest. Copies in another paint, each
 //!   with an alpha of its own, come through it to the front one after the other; the last is opaque. Copies in one paint may be
 //!   blended in any order.
-//! - *Hatches*, if something is seen through a paint, so that no copy may lie behind another. Small triangles are divided between the
+//! - *Hatches*, if something is seen through a paint, so that no copy may lie behind another. Narrow bands are divided between the
 //!   paints in proportion to their shares.
 
 use std::borrow::Cow;
@@ -34,10 +34,10 @@ const MOST_STEPS: usize = 4;
 const MOST_COPIES: usize = 32;
 /// Veils of each paint.
 const VEILS: usize = 4;
-/// Triangles of hatches are at most so long, heights, as far as [`MOST_HATCHES`] allows.
-const HATCH: f64 = 0.03;
-/// Triangles of a mesh are divided until there are so many.
-const MOST_HATCHES: usize = 256;
+/// The height of bands, in heights of the character, as far as [`MOST_HATCHES`] allows.
+const HATCH: f64 = 0.01;
+/// At most about so many parts of triangles are bands of a mesh.
+const MOST_HATCHES: usize = 300;
 
 /// A part of a mesh that has one material.
 #[derive(Debug)]
@@ -196,22 +196,23 @@ fn veils<'a>(morph: &'a Morph, paints: &Paints) -> Vec<Piece<'a>> {
     std::iter::once(first).chain(others).collect()
 }
 
-/// Divides each triangle between the paints. Its side across from the first corner is cut so that the cuts move from one end to the
-/// other: in a view with paint p, cuts up to the p-th are at the first end, the others at the second.
+/// Divides the mesh into bands, and each of them between the paints. In a view with paint p, cuts up to the p-th are at a band's upper
+/// border, the others at the lower one; between the views they move from one to the other.
 fn hatches<'a>(morph: &Morph, paints: &Paints, heights: &TiSlice<ViewId, f64>) -> Vec<Piece<'a>> {
-    let fine = divided(morph, heights);
+    let view = paints.list[0].view;
+    let (fine, bands) = banded(morph, view, heights[view]);
     let count = paints.list.len();
     let piece = |paint: usize| {
         let mut morph = Morph {
             points: TiVec::from(vec![Vec::new(); heights.len()]),
             ..Morph::default()
         };
-        // Corners by the ends of the side that they are on, and by the number of the cut.
+        // Corners by the ends of the way that their cut takes, and by the number of the cut.
         let mut known: FxHashMap<(u32, u32, usize), u32> = FxHashMap::default();
         let mut corner = |from: u32, to: u32, number: usize| {
             let key = match number {
                 0 => (from, from, 0),
-                _ if number == count => (to, to, 0),
+                _ if number == count || from == to => (to, to, 0),
                 _ => (from, to, number),
             };
             *known.entry(key).or_insert_with(|| {
@@ -221,18 +222,19 @@ fn hatches<'a>(morph: &Morph, paints: &Paints, heights: &TiSlice<ViewId, f64>) -
                     } else {
                         to
                     };
-                    points.push(fine.points[view][at as usize]);
+                    points.push(fine[view][at as usize]);
                 }
                 morph.points[ViewId::FIRST].len() as u32 - 1
             })
         };
-        for [apex, from, to] in &fine.triangles {
-            let triangle = [
-                corner(*apex, *apex, 0),
-                corner(*from, *to, paint),
-                corner(*from, *to, paint + 1),
-            ];
-            morph.triangles.push(triangle);
+        for Band { lower, upper } in &bands {
+            let [a, b] = [0, 1].map(|side| corner(upper[side], lower[side], paint + 1));
+            let [d, c] = [0, 1].map(|side| corner(upper[side], lower[side], paint));
+            let triangles = [[a, b, c], [a, c, d]];
+            let is_area = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+            morph
+                .triangles
+                .extend(triangles.iter().filter(|t| is_area(t)));
         }
         Piece {
             morph: Cow::Owned(morph),
@@ -240,98 +242,98 @@ fn hatches<'a>(morph: &Morph, paints: &Paints, heights: &TiSlice<ViewId, f64>) -
             coat: Coat::Paint(paint, 1.0),
         }
     };
-    (0..paints.list.len()).map(piece).collect()
+    (0..count).map(piece).collect()
 }
 
-/// The mesh with smaller triangles, each with its longest side across from its first corner. Triangles with a common side divide it
-/// alike.
-fn divided(morph: &Morph, heights: &TiSlice<ViewId, f64>) -> Morph {
-    let mut fine = morph.clone();
-    let length = |points: &TiVec<ViewId, Vec<DVec2>>, a: u32, b: u32| {
-        let views = points.iter().zip(heights);
-        let lengths = views.map(|(points, height)| {
-            points[a as usize].distance(points[b as usize]) / height.max(f64::MIN_POSITIVE)
-        });
-        lengths.fold(0.0, f64::max)
-    };
-    let mut limit = f64::INFINITY;
-    while limit > HATCH && fine.triangles.len() < MOST_HATCHES {
-        let sides = fine
-            .triangles
-            .iter()
-            .flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]);
-        let longest = sides.map(|(a, b)| length(&fine.points, *a, *b));
-        let longest = longest.fold(0.0, f64::max);
-        if longest <= HATCH || !longest.is_finite() {
-            break;
-        }
-        limit = longest * std::f64::consts::FRAC_1_SQRT_2;
-        let mut middles: FxHashMap<(u32, u32), u32> = FxHashMap::default();
-        let mut divided = Vec::new();
-        for triangle in std::mem::take(&mut fine.triangles) {
-            let sides = [0, 1, 2].map(|i| {
-                let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
-                (a, b, length(&fine.points, a, b))
-            });
-            let middle = sides.map(|(a, b, length)| {
-                (length > limit).then(|| {
-                    *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                        for points in &mut fine.points {
-                            points.push(points[a as usize].midpoint(points[b as usize]));
-                        }
-                        fine.points[ViewId::FIRST].len() as u32 - 1
-                    })
-                })
-            });
-            divide(
-                triangle,
-                middle,
-                sides.map(|(_, _, length)| length),
-                &mut divided,
-            );
-        }
-        fine.triangles = divided;
-    }
-    for triangle in &mut fine.triangles {
-        let [a, b, c] = *triangle;
-        let sides = [
-            length(&fine.points, b, c),
-            length(&fine.points, c, a),
-            length(&fine.points, a, b),
-        ];
-        let across = (0..3).fold(0, |best, i| if sides[i] > sides[best] { i } else { best });
-        triangle.rotate_left(across);
-    }
-    fine
+/// A part of a triangle between two lines: its corners on each, so that lower 0, lower 1, upper 1, upper 0 goes around it as the
+/// corners of the triangle do.
+struct Band {
+    lower: [u32; 2],
+    upper: [u32; 2],
 }
 
-/// Divides a triangle at the middles of some of its sides, of which side i goes from corner i to the next.
-fn divide(
-    triangle: [u32; 3],
-    middles: [Option<u32>; 3],
-    lengths: [f64; 3],
-    out: &mut Vec<[u32; 3]>,
-) {
-    let Some(start) = (0..3)
-        .filter(|i| middles[*i].is_some())
-        .max_by(|a, b| lengths[*a].total_cmp(&lengths[*b]))
-    else {
-        return out.push(triangle);
+/// The points of a mesh and of the bands into which evenly spaced level lines of one view divide it, and these bands.
+fn banded(morph: &Morph, view: ViewId, height: f64) -> (TiVec<ViewId, Vec<DVec2>>, Vec<Band>) {
+    let level = |corner: u32| morph.points[view][corner as usize].y;
+    let sorted = |triangle: &[u32; 3]| {
+        let mut corners = *triangle;
+        corners.sort_by(|a, b| level(*a).total_cmp(&level(*b)));
+        corners
     };
-    // The longest side first: what is left are two triangles, which the other middles divide.
-    let [a, b, c] = [0, 1, 2].map(|i| triangle[(start + i) % 3]);
-    let [ab, bc, ca] = [0, 1, 2].map(|i| middles[(start + i) % 3]);
-    let Some(ab) = ab else {
-        return out.push(triangle);
+    let spans = morph.triangles.iter().map(|triangle| {
+        let [low, _, high] = sorted(triangle);
+        level(high) - level(low)
+    });
+    // So many bands of this height, besides two for each triangle.
+    let sum: f64 = spans.sum();
+    let step = (HATCH * height).max(sum / MOST_HATCHES as f64);
+
+    let mut points = morph.points.clone();
+    let mut known: FxHashMap<(u32, u32, u64), u32> = FxHashMap::default();
+    // The point of a side at a level: of neighbours the same.
+    let mut cut = |a: u32, b: u32, at: f64| {
+        let (a, b) = (a.min(b), a.max(b));
+        if at == level(a) {
+            return a;
+        }
+        if at == level(b) {
+            return b;
+        }
+        let share = (at - level(a)) / (level(b) - level(a));
+        *known.entry((a, b, at.to_bits())).or_insert_with(|| {
+            for points in &mut points {
+                points.push(points[a as usize].lerp(points[b as usize], share));
+            }
+            points[ViewId::FIRST].len() as u32 - 1
+        })
     };
-    match bc {
-        Some(bc) => out.extend([[ab, b, bc], [ab, bc, c]]),
-        None => out.push([ab, b, c]),
+    let mut bands = Vec::new();
+    for triangle in &morph.triangles {
+        let [low, middle, high] = sorted(triangle);
+        let span = level(high) - level(low);
+        if span <= 0.0 {
+            // It may have an area in other views.
+            let [a, b, c] = *triangle;
+            bands.push(Band {
+                lower: [a, b],
+                upper: [c, c],
+            });
+            continue;
+        }
+        // Around the triangle from low over the middle one to high, or the other way.
+        let start = triangle.iter().position(|corner| *corner == low);
+        let is_around = start.is_some_and(|start| triangle[(start + 1) % 3] == middle);
+        let mut levels = vec![level(low), level(middle), level(high)];
+        if step > 0.0 && span.is_finite() {
+            let first = (level(low) / step).floor() + 1.0;
+            let inner = (0..=(span / step) as usize).map(|number| (first + number as f64) * step);
+            levels.extend(inner.filter(|at| *at < level(high)));
+        }
+        levels.sort_by(f64::total_cmp);
+        levels.dedup();
+        let ends = |at: f64| {
+            let long = cut(low, high, at);
+            let short = if at < level(middle) {
+                cut(low, middle, at)
+            } else if at > level(middle) {
+                cut(middle, high, at)
+            } else {
+                middle
+            };
+            if is_around {
+                [long, short]
+            } else {
+                [short, long]
+            }
+        };
+        let ends: Vec<[u32; 2]> = levels.into_iter().map(ends).collect();
+        let pairs = ends.windows(2);
+        bands.extend(pairs.map(|pair| Band {
+            lower: pair[0],
+            upper: pair[1],
+        }));
     }
-    match ca {
-        Some(ca) => out.extend([[a, ab, ca], [ab, c, ca]]),
-        None => out.push([a, ab, c]),
-    }
+    (points, bands)
 }
 
 #[cfg(test)]
@@ -480,7 +482,8 @@ mod tests {
                 &between,
                 &heights,
             );
-            assert!((MOST_HATCHES..6 * MOST_HATCHES).contains(&pieces[0].morph.triangles.len()));
+            // Two triangles of each band in each half of the square, but one at its corners.
+            assert!((396..=400).contains(&pieces[0].morph.triangles.len()));
             for weights in weights(views) {
                 for (piece, weight) in pieces.iter().zip(&weights) {
                     let point = |corner: u32| -> DVec2 {
