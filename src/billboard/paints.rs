@@ -4,7 +4,6 @@
 //! `Color`, `Alpha` or `Texture` says in the string of one view holds in all others whose strings say nothing of the kind.
 
 use std::fmt::Write as _;
-use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use typed_index_collections::{TiVec, ti_vec};
@@ -12,10 +11,9 @@ use typed_index_collections::{TiVec, ti_vec};
 use super::shape::Morph;
 use crate::bind::{Bindings, PartId};
 use crate::lang::keyword::Keyword;
-use crate::mark_tracks::hex;
 use crate::scene::ViewId;
 use crate::svg::{Drawing, PaintKey};
-use crate::texture::Source;
+use crate::texture::PaintServer;
 
 /// Colours that differ by less in each channel are the same. The drawn views are reproduced to within twice as much.
 const SAME_COLOR: f64 = 0.01;
@@ -48,7 +46,7 @@ impl Paint {
     /// For people: `#rrggbb` or, with alpha, `#rrggbbaa`.
     pub(super) fn describe(&self) -> String {
         let [r, g, b, alpha] = self.color.map(|channel| (channel * 255.0).round() as u8);
-        let mut text = hex([r, g, b]);
+        let mut text = format!("#{r:02x}{g:02x}{b:02x}");
         if alpha < 255 {
             let _ = write!(text, "{alpha:02x}");
         }
@@ -110,16 +108,12 @@ pub(super) struct Said<'a> {
     pub(super) bindings: &'a Bindings,
 }
 
-/// What a texture shows, and the map from its own plane to the drawing.
-struct Textured<'a> {
-    content: Content<'a>,
-    place: DAffine2,
-}
-
-enum Content<'a> {
-    /// The link of `Texture`.
-    File(&'a str),
-    Server(&'a Source),
+/// What is painted with other than a plain colour.
+enum Textured<'a> {
+    /// The link of `Texture`, and the map from the drawing to the picture, of size 1.
+    File(&'a str, DAffine2),
+    /// A gradient, pattern or picture of the drawing.
+    Server(&'a PaintServer),
 }
 
 impl Said<'_> {
@@ -145,26 +139,18 @@ impl Said<'_> {
         match (self.texture(a), self.texture(b)) {
             (None, None) => is_same_color(a.color, b.color),
             (Some(first), Some(second)) => {
-                let is_alike = match (&first.content, &second.content) {
-                    (Content::File(a), Content::File(b)) => a == b,
-                    (Content::Server(a), Content::Server(b)) => is_same_source(a, b),
+                let is_alike = match (&first, &second) {
+                    (Textured::File(a, _), Textured::File(b, _)) => a == b,
+                    (Textured::Server(a), Textured::Server(b)) => a.is_like(b),
                     _ => false,
                 };
-                // Each in its own plane; of a linear gradient only how far along it matters.
-                let own = |texture: &Textured<'_>, paint: &Paint| -> Vec<DVec2> {
-                    let from_drawing = texture.place.inverse();
-                    let flat = match texture.content {
-                        Content::Server(Source::Linear(_)) => DVec2::X,
-                        _ => DVec2::ONE,
-                    };
-                    let points = area.points[paint.view].iter();
-                    points
-                        .map(|point| from_drawing.transform_point2(*point) * flat)
-                        .collect()
+                let own = |texture: &Textured<'_>, point: DVec2| match texture {
+                    Textured::File(_, map) => map.transform_point2(point),
+                    Textured::Server(server) => server.in_own_plane(point),
                 };
-                let points = own(&first, a).into_iter().zip(own(&second, b));
+                let points = area.points[a.view].iter().zip(&area.points[b.view]);
                 is_alike && (a.color[3] - b.color[3]).abs() <= SAME_COLOR && { points }
-                    .all(|(a, b)| a.distance(b) <= SAME_PLACE)
+                    .all(|(a, b)| own(&first, *a).distance(own(&second, *b)) <= SAME_PLACE)
             }
             _ => false,
         }
@@ -176,27 +162,12 @@ impl Said<'_> {
         let attributes = self.bindings.attributes(paint.part?);
         if let Some(file) = attributes.texture() {
             let (low, high) = part.measure.bounds;
-            return Some(Textured {
-                content: Content::File(file.value),
-                place: DAffine2::from_translation(low) * DAffine2::from_scale(high - low),
-            });
+            let place = DAffine2::from_translation(low) * DAffine2::from_scale(high - low);
+            return Some(Textured::File(file.value, place.inverse()));
         }
         let drawn = part.paint(self.drawing);
-        let server = drawn.server.as_ref()?;
+        let server = drawn.server.as_deref()?;
         let is_picture = matches!(drawn.key, PaintKey::Picture(_));
-        (is_picture || attributes.color().is_none()).then_some(Textured {
-            content: Content::Server(&server.source),
-            place: server.place,
-        })
-    }
-}
-
-fn is_same_source(a: &Source, b: &Source) -> bool {
-    match (a, b) {
-        (Source::Linear(a), Source::Linear(b)) => a == b,
-        (Source::Radial(a, from), Source::Radial(b, to)) => a == b && from == to,
-        (Source::Pattern(a), Source::Pattern(b)) => Arc::ptr_eq(a, b),
-        (Source::Picture(a, by), Source::Picture(b, with)) => a == b && by == with,
-        _ => false,
+        (is_picture || attributes.color().is_none()).then_some(Textured::Server(server))
     }
 }
