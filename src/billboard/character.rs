@@ -64,8 +64,6 @@ pub struct RegionModel {
     pub shape: Option<ShapeId>,
     /// Its part there, if it has one: regions of pictures have none.
     pub part: Option<PartId>,
-    /// The first view that shows it.
-    pub first_view: ViewId,
     /// Per view whether it is hidden there (`Hidden`).
     pub is_hidden: TiVec<ViewId, bool>,
     /// Per view the shape or picture, where the view shows it.
@@ -313,7 +311,6 @@ impl Sources<'_> {
             meshes,
             shape: first.map(|first| drawn(first).shape),
             part: first.and_then(|first| drawn(first).part),
-            first_view: first.map_or(ViewId::FIRST, |first| first.view),
             is_hidden,
             shapes,
         }
