@@ -40,9 +40,15 @@ fn character(name: &str) -> Character {
 
 /// An example whose text was changed.
 fn edited(name: &str, edit: impl Fn(&str) -> String) -> Character {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/characters");
-    let text = fs::read_to_string(folder.join(format!("{name}.svg"))).expect("a drawing");
-    let text = edit(&text);
+    let file = format!("examples/characters/{name}.svg");
+    drawn(Path::new(&file), edit)
+}
+
+/// A drawing of the project whose text was changed.
+fn drawn(file: &Path, edit: impl Fn(&str) -> String) -> Character {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let folder = file.parent().expect("a folder").to_owned();
+    let text = edit(&fs::read_to_string(&file).expect("a drawing"));
     let compiled = common::compiled(&text, &FolderResolver::new(&folder));
     assert!(
         compiled.diagnostics.is_empty(),
@@ -284,6 +290,53 @@ fn a_viewer_in_the_direction_of_a_view_sees_it() {
         }
     }
     assert_eq!(views, 9);
+}
+
+/// Asserts that a picture of the model has the colours of the drawing, each channel within 0.02, wherever nothing begins or ends nearby.
+fn assert_same_colors(drawn: &Picture, model: &Picture, what: &str) {
+    let height = drawn.pixels.len() / drawn.width;
+    let mut compared = 0;
+    for row in 2..height - 2 {
+        for column in 2..drawn.width - 2 {
+            let own = drawn.pixels[row * drawn.width + column];
+            let around = (row - 2..=row + 2).flat_map(|row| {
+                drawn.pixels[row * drawn.width + column - 2..][..5]
+                    .iter()
+                    .copied()
+            });
+            let apart = |a: [u8; 4], b: [u8; 4]| {
+                let channels = (0..4).map(|channel| a[channel].abs_diff(b[channel]));
+                channels.max().unwrap_or_default()
+            };
+            // A gradient changes little by little.
+            if own[3] == 0 || around.into_iter().any(|other| apart(own, other) > 8) {
+                continue;
+            }
+            compared += 1;
+            let shown = model.pixels[row * drawn.width + column];
+            assert!(
+                apart(own, shown) <= 5,
+                "{what}: {shown:?} instead of {own:?} at {column}, {row}"
+            );
+        }
+    }
+    assert!(compared > 5000, "{what}: {compared} pixels");
+}
+
+#[test]
+fn each_view_has_its_own_paints() {
+    let character = drawn(
+        Path::new("tests/cases/view-paints/drawing.svg"),
+        str::to_owned,
+    );
+    let scene = character.compiled.scene.clone();
+    let view = DrawnView::new(&character.compiled, scene, SCALE).expect("a page");
+    let model = picture(&view.scene, &view.sheet, view.size);
+    assert_same_colors(&Picture::of_drawing(&character), &model, "the page");
+    for seen in seen(&character) {
+        let what = format!("from {:?}", seen.direction);
+        assert_same_colors(&seen.drawn, &seen.model, &what);
+    }
 }
 
 /// A place on a border with a line.

@@ -48,6 +48,7 @@ const USES: &[(&str, &[&str])] = &[
             "scene",
             "source",
             "svg",
+            "texture",
         ],
     ),
     (

@@ -137,7 +137,8 @@ pub(crate) fn assemble(
 /// The parts that say what the regions of characters look like.
 fn parts_of(characters: &[Character]) -> Vec<PartId> {
     let regions = characters.iter().flat_map(|character| &character.regions);
-    regions.filter_map(|region| region.part).collect()
+    let paints = regions.flat_map(|region| &region.paints().list);
+    paints.filter_map(|paint| paint.part).collect()
 }
 
 /// Builds the scene of a drawing so that its materials say what each surface is made from: a region of a character from its part in
@@ -170,6 +171,19 @@ pub(crate) fn assemble_apart(
         if let Some((material, _)) = material {
             owners[*material] = Some(Owner::Part(part));
         }
+    }
+    // A paint of another view belongs to the part in the first one.
+    for region in characters.iter().flat_map(|character| &character.regions) {
+        for paint in &region.paints().list {
+            if let Some((material, _)) = paint.part.and_then(|part| built.of_part[part]) {
+                owners[material] = region.part.map(Owner::Part);
+            }
+        }
+    }
+    let veils = materials.veils.iter();
+    let veils = veils.map(|((material, _), veil)| (*veil, owners[*material]));
+    for (veil, owner) in veils.collect::<Vec<_>>() {
+        owners[veil] = owner;
     }
     for (layer, materials) in built.of_looks.0.iter_enumerated() {
         for material in materials.iter().flatten() {

@@ -9,13 +9,15 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::backing::backings;
 use super::diagnostics;
-use super::drawn::{self, DrawnLine, DrawnView};
+use super::drawn::{self, DrawnView};
 use super::features::{self, OfRegion};
 use super::keys;
 use super::matching::{Matching, RegionInView, Track, TrackId};
+use super::paints::{Paints, Said};
 use super::place::{Frame, TrackPosition, frames, place};
 use super::region::{Direction, RegionId, View};
-use super::shape::{Ends, Morph, line_mesh, match_lines};
+use super::shape::{Ends, Morph, line_mesh};
+use super::shapes::{RegionShape, shapes};
 use super::turn::between;
 use crate::bind::{Bindings, LayerId, PartId};
 use crate::diagnostic::Diagnostic;
@@ -54,42 +56,59 @@ pub struct Character {
 pub struct RegionModel {
     /// Its name; unique in the character.
     pub name: String,
-    /// Its colour, the mean one of a gradient: sRGB with straight alpha, each 0 to 1.
-    pub color: [f64; 4],
     /// Its place in each view, in the character's space, heights.
     pub positions: TiVec<ViewId, DVec3>,
-    /// The area, the line along its border in front of it, and its backing behind the whole character.
+    /// The area, the line along its border in front of it, and its backing behind the whole character; at least the area.
     pub meshes: Vec<RegionMesh>,
     /// The shape that it is in the first view that shows it, or of the picture that it is in.
     pub shape: Option<ShapeId>,
     /// Its part there, if it has one: regions of pictures have none.
     pub part: Option<PartId>,
-    /// The first view that shows it.
-    pub first_view: ViewId,
     /// Per view whether it is hidden there (`Hidden`).
     pub is_hidden: TiVec<ViewId, bool>,
     /// Per view the shape or picture, where the view shows it.
     pub shapes: TiVec<ViewId, Option<ShapeId>>,
 }
 
-/// A mesh in one colour.
+/// A mesh with a paint for each view.
 #[derive(Debug)]
 pub struct RegionMesh {
     /// Its shape in each view, drawing units.
     pub morph: Morph,
-    /// What it is filled with.
-    pub fill: Fill,
+    /// What it is painted with.
+    pub paints: Paints,
     /// How far in front of the region's place it is, heights.
     pub lift: f64,
 }
 
-/// What a mesh of a region is filled with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Fill {
-    /// What the region is filled with, a gradient included.
-    Region,
-    /// sRGB with straight alpha, each 0 to 1.
-    Color([f64; 4]),
+impl RegionModel {
+    /// What its area is painted with.
+    pub(crate) fn paints(&self) -> &Paints {
+        &self.meshes[0].paints
+    }
+
+    /// What each view that shows it paints it with, for people: its area, and the line along its border if that has several paints.
+    /// `None` if it looks the same in all of them.
+    pub(crate) fn paints_in_views(&self) -> Option<TiVec<ViewId, Option<String>>> {
+        let line = self.meshes.iter().find(|mesh| mesh.lift > 0.0);
+        let line = line.map(|line| &line.paints).filter(|line| line.differ());
+        let area = self.paints();
+        if !area.differ() && line.is_none() {
+            return None;
+        }
+        let of_view = |(view, shape): (ViewId, &Option<ShapeId>)| {
+            (*shape)?;
+            let area = area.list[area.of_view[view]].describe();
+            Some(match line {
+                Some(line) => format!(
+                    "{area}, border {}",
+                    line.list[line.of_view[view]].describe()
+                ),
+                None => area,
+            })
+        };
+        Some(self.shapes.iter_enumerated().map(of_view).collect())
+    }
 }
 
 /// Reads the characters of a drawing.
@@ -168,11 +187,14 @@ fn character(
         .iter()
         .map(|view| view.drawn.iter().map(|drawn| drawn.depth).collect())
         .collect();
-    let placed = place(&views, &frames, &matching.tracks, &depths);
-    let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
-    let turn = between(&directions);
     let tracks = &matching.tracks;
     let features = features::assign(bindings, &drawn, &frames, tracks, diagnostics);
+    let said = Said { drawing, bindings };
+    let shapes = shapes(&drawn, tracks, &features, said, memo);
+    let rooms: TiVec<TrackId, f64> = shapes.iter().map(RegionShape::room).collect();
+    let placed = place(&views, &frames, tracks, &depths, &rooms);
+    let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
+    let turn = between(&directions);
     let has_backing = drawn
         .iter()
         .any(|view| drawn::setting(bindings, view.layer, Keyword::Backing).is_some());
@@ -182,20 +204,24 @@ fn character(
         vec![None; tracks.len()].into()
     };
     let behind = behind_all(&placed);
-    let regions = (0..tracks.len()).into_par_iter().map(|index| {
-        let index = TrackId::from(index);
-        let sources = Sources {
-            drawn: &drawn,
-            frames: &frames,
-            track: &tracks[index],
-            placed: &placed[index],
-            memo,
-            features: &features[index],
-            backing: backings[index].as_deref(),
-            behind,
-        };
-        sources.model(drawing, index)
-    });
+    let regions = shapes
+        .raw
+        .into_par_iter()
+        .enumerate()
+        .map(|(index, shape)| {
+            let index = TrackId::from(index);
+            let sources = Sources {
+                drawn: &drawn,
+                frames: &frames,
+                track: &tracks[index],
+                placed: &placed[index],
+                memo,
+                features: &features[index],
+                backing: backings[index].as_deref(),
+                behind,
+            };
+            sources.model(drawing, index, shape)
+        });
     let mut regions: Vec<RegionModel> = regions.collect();
     unique_names(name, &mut regions);
     Character {
@@ -238,30 +264,16 @@ fn behind_all(placed: &TiSlice<TrackId, TrackPosition>) -> f64 {
 }
 
 impl Sources<'_> {
-    fn model(&self, drawing: &Drawing, index: TrackId) -> RegionModel {
-        let shown = self.track.regions.iter_enumerated();
-        let shown: Vec<RegionInView> = shown
-            .filter_map(|(view, id)| Some(RegionInView { view, id: (*id)? }))
-            .collect();
+    fn model(&self, drawing: &Drawing, index: TrackId, shape: RegionShape) -> RegionModel {
         let region = |at: &RegionInView| &self.drawn[at.view].view.regions[at.id];
         let drawn = |at: &RegionInView| &self.drawn[at.view].drawn[at.id];
-        let outlines = self.drawn.iter().zip(&self.track.regions);
-        let outlines: TiVec<ViewId, Arc<Outline>> = outlines
-            .map(|(drawn, id)| {
-                id.map_or_else(Arc::default, |id| {
-                    Arc::clone(&drawn.view.regions[id].outline)
-                })
-            })
-            .collect();
-        let mut area = match self.open_line(&shown) {
-            Some(line) => line,
-            None => keys::morphed(outlines.raw, self.features, self.memo),
-        };
-        let lines = shown
-            .iter()
-            .filter_map(|at| Some((at.view, drawn(at).line?)));
-        let lines: Vec<(ViewId, DrawnLine)> = lines.collect();
-        let line = self.line(&area, &lines);
+        let line = self.line(&shape);
+        let RegionShape {
+            shown,
+            mut area,
+            paints,
+            ..
+        } = shape;
         self.shrink(&mut area);
         let first = shown.first();
         let backing = self.backing.map(|outlines| {
@@ -269,13 +281,13 @@ impl Sources<'_> {
             self.shrink(&mut morph);
             RegionMesh {
                 morph,
-                fill: Fill::Region,
+                paints: paints.clone(),
                 lift: -self.behind,
             }
         });
         let area = RegionMesh {
             morph: area,
-            fill: Fill::Region,
+            paints,
             lift: 0.0,
         };
         let meshes = [Some(area), line, backing].into_iter().flatten().collect();
@@ -295,12 +307,10 @@ impl Sources<'_> {
                     Some(own) => own.to_owned(),
                 }
             }),
-            color: first.map_or([0.0; 4], |first| region(first).color),
             positions: self.positions(),
             meshes,
             shape: first.map(|first| drawn(first).shape),
             part: first.and_then(|first| drawn(first).part),
-            first_view: first.map_or(ViewId::FIRST, |first| first.view),
             is_hidden,
             shapes,
         }
@@ -321,11 +331,15 @@ impl Sources<'_> {
     }
 
     /// The line along the border, as wide as it is drawn in each view.
-    fn line(&self, area: &Morph, lines: &[(ViewId, DrawnLine)]) -> Option<RegionMesh> {
-        let (_, DrawnLine { color, .. }) = *lines.first()?;
-        // A view that does not show the region has the width of another one.
+    fn line(&self, shape: &RegionShape) -> Option<RegionMesh> {
+        let RegionShape { area, lines, .. } = shape;
+        let paints = shape.line_paints.clone()?;
+        // A view that does not show the region has the width of another one; where it is drawn without a line there is none.
         let width = |view: ViewId| {
             let own = lines.iter().find(|(v, _)| *v == view);
+            if own.is_none() && self.track.regions[view].is_some() {
+                return Some(0.0);
+            }
             let (from, line) = own.or(lines.first())?;
             Some(line.width * self.frames[view].height / self.frames[*from].height)
         };
@@ -354,22 +368,9 @@ impl Sources<'_> {
         self.shrink(&mut morph);
         Some(RegionMesh {
             morph,
-            fill: Fill::Color(color),
-            lift: LINE_STEP,
+            paints,
+            lift: LINE_STEP + shape.thickness(),
         })
-    }
-
-    /// A line that is no border, as wide as it is drawn in each view; `None` if a view shows something else.
-    fn open_line(&self, shown: &[RegionInView]) -> Option<Morph> {
-        let mut points = TiVec::from(vec![Vec::new(); self.drawn.len()]);
-        let mut widths = TiVec::from(vec![0.0; self.drawn.len()]);
-        for RegionInView { view, id } in shown {
-            let line = self.drawn[*view].drawn[*id].open_line.as_ref()?;
-            points[*view].clone_from(&line.points);
-            widths[*view] = line.width;
-        }
-        let points = match_lines(&points.raw);
-        Some(line_mesh(&points, &widths.raw, Ends::Free))
     }
 
     /// Where a view does not show the region, it is a point at its place.

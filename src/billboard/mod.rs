@@ -13,10 +13,13 @@ mod features;
 mod keys;
 mod matching;
 mod nodes;
+mod paints;
+mod pieces;
 mod place;
 mod raster;
 mod region;
 mod shape;
+mod shapes;
 #[doc(hidden)]
 pub mod stages;
 #[cfg(test)]

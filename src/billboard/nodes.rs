@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DAffine2, DQuat, DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
-use super::character::{Character, Fill, RegionMesh, RegionModel};
+use super::character::{Character, RegionMesh, RegionModel};
+use super::paints::Paint;
+use super::pieces::{Coat, Cover, pieces};
 use crate::bind::{Bindings, PartId};
 use crate::scene::{
     AlphaMode, Animation, Interpolation, Material, MaterialId, Mesh, NewNode, Node, NodeId,
@@ -26,6 +28,8 @@ pub(crate) struct RegionMaterials<'a> {
     pub textured: &'a TiSlice<PartId, PartMaterial>,
     /// The materials without a texture, by the part to which they belong and their colours.
     pub flat: FxHashMap<FlatMaterial, MaterialId>,
+    /// Materials with a texture seen through, by the material without that and by the alpha that it is multiplied with as bits.
+    pub veils: FxHashMap<(MaterialId, u64), MaterialId>,
     /// Whether no two parts have a material in common.
     pub are_apart: bool,
 }
@@ -39,8 +43,66 @@ impl<'a> RegionMaterials<'a> {
         Self {
             textured,
             flat: FxHashMap::default(),
+            veils: FxHashMap::default(),
             are_apart,
         }
+    }
+
+    /// The material of a paint with a texture, and the map to its coordinates.
+    fn textured(&self, paint: &Paint) -> Option<(MaterialId, DAffine2)> {
+        let (material, map) = self.textured[paint.part?]?;
+        Some((material, map?))
+    }
+
+    /// How a paint covers what is behind it.
+    fn cover(&self, paint: &Paint, scene: &Scene) -> Cover {
+        match self.textured(paint) {
+            Some((material, _)) => match scene.materials[material].alpha_mode {
+                AlphaMode::Opaque => Cover::Texture,
+                _ => Cover::Transparent,
+            },
+            None if paint.color[3] < 1.0 => Cover::Transparent,
+            None => Cover::Color,
+        }
+    }
+
+    /// The material of a piece of a region, and the map to texture coordinates with the view in whose drawing it begins.
+    fn of_piece(
+        &mut self,
+        region: &RegionModel,
+        paints: &[Paint],
+        coat: Coat,
+        scene: &mut Scene,
+    ) -> (MaterialId, Option<(DAffine2, ViewId)>) {
+        let (paint, alpha) = match coat {
+            Coat::Mixture(color) => return (self.material(region.part, color, scene), None),
+            Coat::Paint(paint, alpha) => (&paints[paint], alpha),
+        };
+        match self.textured(paint) {
+            Some((material, map)) => {
+                let material = self.veil(material, alpha, scene);
+                (material, Some((map, paint.view)))
+            }
+            None => {
+                let [r, g, b, own] = paint.color;
+                let color = [r, g, b, own * alpha];
+                (self.material(region.part, color, scene), None)
+            }
+        }
+    }
+
+    /// A material whose alpha is multiplied.
+    fn veil(&mut self, material: MaterialId, alpha: f64, scene: &mut Scene) -> MaterialId {
+        if alpha == 1.0 {
+            return material;
+        }
+        let key = (material, alpha.to_bits());
+        *self.veils.entry(key).or_insert_with(|| {
+            let mut veil = scene.materials[material].clone();
+            veil.base_color[3] *= alpha as f32;
+            veil.alpha_mode = AlphaMode::Blend;
+            scene.materials.push_and_get_key(veil)
+        })
     }
 
     /// The material of a part in a colour, sRGB with straight alpha, each 0 to 1.
@@ -131,46 +193,51 @@ fn mesh(
     materials: &mut RegionMaterials<'_>,
     scene: &mut Scene,
 ) -> Mesh {
-    let textured = region.part.and_then(|part| materials.textured[part]);
+    let heights: TiVec<ViewId, f64> = character.frames.iter().map(|frame| frame.height).collect();
     let mut primitives: Vec<Primitive> = Vec::new();
     for part in &region.meshes {
-        let RegionMesh { morph, fill, lift } = part;
-        let height = lift * scale;
-        let placed = |view: ViewId| {
-            let [right, up, _] = view_axes(character.turn.views[view]);
-            let place = region.positions[view];
-            let middle = DVec2::new(place.dot(right), place.dot(up));
-            let frame = &character.frames[view];
-            morph.points[view].iter().map(move |point| {
-                let point = (frame.on_screen(*point) - middle) * scale;
-                point.extend(height).as_vec3()
-            })
-        };
-        let base: Vec<_> = placed(ViewId::FIRST).collect();
-        let target = |view: ViewId| {
-            let offsets = placed(view).zip(&base).map(|(point, base)| point - *base);
-            offsets.map(|offset| offset.to_array()).collect()
-        };
-        let mut surface = Surface {
-            normals: vec![[0.0, 0.0, 1.0]; base.len()],
-            targets: character.frames.keys().skip(1).map(target).collect(),
-            triangles: morph.triangles.clone(),
-            positions: base.into_iter().map(|point| point.to_array()).collect(),
-            ..Surface::default()
-        };
-        let (material, map) = match (fill, textured) {
-            (Fill::Region, Some((material, Some(map)))) => (material, Some(map)),
-            (Fill::Region, _) => (materials.material(region.part, region.color, scene), None),
-            (Fill::Color(color), _) => (materials.material(region.part, *color, scene), None),
-        };
-        if let Some(map) = map {
-            let uv = |point: &DVec2| map.transform_point2(*point).as_vec2().to_array();
-            surface.uvs = morph.points[region.first_view].iter().map(uv).collect();
+        let RegionMesh {
+            morph,
+            paints,
+            lift,
+        } = part;
+        let covers = paints.list.iter();
+        let covers: Vec<Cover> = covers.map(|paint| materials.cover(paint, scene)).collect();
+        for piece in pieces(morph, paints, &covers, &character.turn.between, &heights) {
+            let morph = &*piece.morph;
+            let placed = |view: ViewId| {
+                let [right, up, _] = view_axes(character.turn.views[view]);
+                let place = region.positions[view];
+                let middle = DVec2::new(place.dot(right), place.dot(up));
+                let frame = &character.frames[view];
+                let height = (lift + piece.lifts[view]) * scale;
+                morph.points[view].iter().map(move |point| {
+                    let point = (frame.on_screen(*point) - middle) * scale;
+                    point.extend(height).as_vec3()
+                })
+            };
+            let base: Vec<_> = placed(ViewId::FIRST).collect();
+            let target = |view: ViewId| {
+                let offsets = placed(view).zip(&base).map(|(point, base)| point - *base);
+                offsets.map(|offset| offset.to_array()).collect()
+            };
+            let mut surface = Surface {
+                normals: vec![[0.0, 0.0, 1.0]; base.len()],
+                targets: character.frames.keys().skip(1).map(target).collect(),
+                triangles: morph.triangles.clone(),
+                positions: base.into_iter().map(|point| point.to_array()).collect(),
+                ..Surface::default()
+            };
+            let (material, map) = materials.of_piece(region, &paints.list, piece.coat, scene);
+            if let Some((map, view)) = map {
+                let uv = |point: &DVec2| map.transform_point2(*point).as_vec2().to_array();
+                surface.uvs = morph.points[view].iter().map(uv).collect();
+            }
+            primitives.push(Primitive {
+                patches: vec![surface.into()],
+                material,
+            });
         }
-        primitives.push(Primitive {
-            patches: vec![surface.into()],
-            material,
-        });
     }
     Mesh { primitives }
 }

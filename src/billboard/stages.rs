@@ -57,6 +57,7 @@ pub fn place(found: &Segmented, matched: &Matched) {
         &found.frames,
         &matched.0.tracks,
         TiSlice::from_ref(&[]),
+        TiSlice::from_ref(&[]),
     );
     assert_eq!(placed.len(), matched.0.tracks.len());
 }

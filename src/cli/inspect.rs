@@ -207,7 +207,12 @@ fn regions(loaded: &Loaded, character: &Character, numbers: Numbers) -> Vec<[Str
             Numbers::None => region.name.clone(),
             Numbers::AsInPicture => format!("{} {}", index + 1, region.name),
         };
-        [name, members.join(" – ")]
+        let mut what = members.join(" – ");
+        if let Some(paints) = region.paints_in_views() {
+            let paints: Vec<String> = paints.raw.into_iter().flatten().collect();
+            what = format!("{what}; painted {}", paints.join(" – "));
+        }
+        [name, what]
     };
     let mut listed: Vec<[String; 2]> = tracks.enumerate().map(row).collect();
     shorten(&mut listed);

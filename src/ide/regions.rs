@@ -6,7 +6,7 @@ use super::hover::escaped;
 use super::subject::span_of_shape;
 use super::{Analysis, Target};
 use crate::billboard::{
-    Candidate, Character, Pair, Reason, RegionInView, TrackId, Unmatched, ViewId,
+    Candidate, Character, Pair, Reason, RegionInView, RegionModel, TrackId, Unmatched, ViewId,
 };
 use crate::bind::{LayerKind, StringId};
 use crate::source::Span;
@@ -74,6 +74,21 @@ impl<'a> Region<'a> {
         })
     }
 
+    /// The paints of the views, if they differ: a list in Markdown.
+    fn paints_card(self) -> String {
+        let track = self.track().map(|track| &self.character.regions[track]);
+        let Some(paints) = track.and_then(RegionModel::paints_in_views) else {
+            return String::new();
+        };
+        let mut out = "\nEach view has its own paint, mixed in between:\n\n".to_owned();
+        for (view, paint) in paints.into_iter_enumerated() {
+            if let Some(paint) = paint {
+                let _ = writeln!(out, "- in {}: {paint}", angles(self.character, view));
+            }
+        }
+        out
+    }
+
     /// `45 0`: the angles of its view as a string gives them.
     fn angles(self) -> String {
         angles(self.character, self.at.view)
@@ -118,6 +133,7 @@ impl Analysis {
             let (angles, what) = (partner.angles(), self.partner(*region, partner));
             let _ = writeln!(out, "- in {angles}: {what}");
         }
+        out.push_str(&region.paints_card());
         let _ = write!(out, "\n{SCORES}");
         Some(out)
     }
@@ -403,6 +419,23 @@ mod tests {
         assert_has(
             &found,
             &["**Star** (`#badge-2`)", "they have the same name"],
+        );
+    }
+
+    #[test]
+    fn hovers_of_regions_tell_the_paints_of_the_views() {
+        let badge = BADGE.replace("<circle", "<cir¦cle");
+        let found = card(&box_with(&badge, OTHER_BADGE));
+        assert!(!found.contains("paint"), "{found}");
+        let other = OTHER_BADGE.replace("#ffcc00", "#cc9900\" fill-opacity=\".8");
+        let found = card(&box_with(&badge, &other));
+        assert_has(
+            &found,
+            &[
+                "Each view has its own paint",
+                "- in `0 0`: #ffcc00\n",
+                "- in `45 0`: #cc9900cc\n",
+            ],
         );
     }
 

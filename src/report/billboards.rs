@@ -30,6 +30,9 @@ pub(crate) struct BillboardRegion<'a> {
     pub similarity: Option<f64>,
     /// Its position in the character's space, heights: its left, up, its front.
     pub position: [f64; 3],
+    /// Per view what it is painted with; `None` where the view does not show it. Only of a region that does not look the same in all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub paints: Option<Vec<Option<String>>>,
 }
 
 /// The characters of a drawing.
@@ -68,6 +71,7 @@ fn region<'a>(
         numbers: track.regions.iter().map(number).collect(),
         similarity: own.map(|pair| pair.similarity).reduce(f64::min),
         position: model.positions[ViewId::FIRST].to_array(),
+        paints: model.paints_in_views().map(|paints| paints.raw),
     }
 }
 

@@ -121,6 +121,26 @@ pub struct Baked {
 }
 
 impl PaintServer {
+    /// Whether another one has the same content, wherever it lies. Two patterns are alike only if they are one.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        match (&self.source, &other.source) {
+            (Source::Linear(a), Source::Linear(b)) => a == b,
+            (Source::Radial(a, from), Source::Radial(b, to)) => a == b && from == to,
+            (Source::Pattern(a), Source::Pattern(b)) => Arc::ptr_eq(a, b),
+            (Source::Picture(a, by), Source::Picture(b, with)) => a == b && by == with,
+            _ => false,
+        }
+    }
+
+    /// A point of the drawing in the paint's own plane; for a linear gradient, which is the same across its direction, on its axis.
+    pub(crate) fn in_own_plane(&self, point: DVec2) -> DVec2 {
+        let own = self.place.inverse().transform_point2(point);
+        match self.source {
+            Source::Linear(_) => DVec2::new(own.x, 0.0),
+            _ => own,
+        }
+    }
+
     /// Plans the texture for a part with the bounding box `low` to `high` in the drawing, at `density` pixels per drawing
     /// unit.
     ///

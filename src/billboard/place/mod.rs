@@ -39,14 +39,19 @@ pub(super) struct TrackPosition {
 /// from the character's centre. Lists may be short. A set depth counts more than the rays and more than the order of painting.
 ///
 /// A track that one view shows alone is at the depth of its container, or of the middle of the other tracks. Then what is painted over
-/// something else comes to lie in front of it, by at least 0.002, without a change to any drawing.
+/// something else comes to lie in front of it, by at least 0.002 and what that has in `rooms`, without a change to any drawing. The list
+/// may be short, too.
 pub(super) fn place(
     views: &TiSlice<ViewId, View>,
     frames: &TiSlice<ViewId, Frame>,
     tracks: &TiSlice<TrackId, Track>,
     depths: &TiSlice<ViewId, TiVec<RegionId, Option<f64>>>,
+    rooms: &TiSlice<TrackId, f64>,
 ) -> TiVec<TrackId, TrackPosition> {
-    let scene = Scene::new(views, frames, tracks, depths);
+    let scene = Scene {
+        rooms,
+        ..Scene::new(views, frames, tracks, depths)
+    };
     let mut points: TiVec<TrackId, Option<DVec3>> =
         tracks.iter().map(|t| scene.estimated(t)).collect();
     let containers: TiVec<TrackId, Option<TrackId>> =
@@ -116,6 +121,8 @@ struct Scene<'a> {
     frames: &'a TiSlice<ViewId, Frame>,
     tracks: &'a TiSlice<TrackId, Track>,
     depths: &'a TiSlice<ViewId, TiVec<RegionId, Option<f64>>>,
+    /// How much farther away what is painted over each track is.
+    rooms: &'a TiSlice<TrackId, f64>,
     /// The track of each region of each view.
     track_of: TiVec<ViewId, TiVec<RegionId, Option<TrackId>>>,
 }
@@ -142,6 +149,7 @@ impl<'a> Scene<'a> {
             frames,
             tracks,
             depths,
+            rooms: TiSlice::from_ref(&[]),
             track_of,
         }
     }

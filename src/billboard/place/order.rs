@@ -46,7 +46,8 @@ pub(super) fn put_in_front(scene: &Scene, placed: &mut TiSlice<TrackId, TrackPos
             if scene.is_set(view, upper) {
                 continue;
             }
-            let least = snapped(placed[lower].depths[view] + GAP);
+            let room = scene.rooms.get(lower).copied().unwrap_or_default();
+            let least = snapped(placed[lower].depths[view] + GAP + room);
             let placed = &mut placed[upper];
             let missing = least - placed.depths[view];
             if missing > 0.0 {

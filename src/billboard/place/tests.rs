@@ -37,6 +37,7 @@ fn place(
         TiSlice::from_ref(frames),
         TiSlice::from_ref(tracks),
         &depths,
+        TiSlice::from_ref(&[]),
     )
     .raw
 }

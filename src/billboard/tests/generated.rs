@@ -5,7 +5,7 @@
 //! character's centre at their origin.
 
 mod body;
-mod random;
+pub(in crate::billboard) mod random;
 
 use std::ops::Range;
 

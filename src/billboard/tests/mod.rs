@@ -2,3 +2,4 @@
 
 pub(in crate::billboard) mod generated;
 mod measured;
+mod paints;

@@ -85,6 +85,7 @@ fn model_picture(drawn: &[Drawn; 2], frame: &Frame, direction: Direction) -> Lab
         TiSlice::from_ref(&[*frame; 2]),
         &tracks,
         TiSlice::from_ref(&[]),
+        TiSlice::from_ref(&[]),
     );
     let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
     let turn = between(&directions);
