@@ -148,9 +148,10 @@ impl Said<'_> {
                     Textured::File(_, map) => map.transform_point2(point),
                     Textured::Server(server) => server.in_own_plane(point),
                 };
-                let points = area.points[a.view].iter().zip(&area.points[b.view]);
-                is_alike && (a.color[3] - b.color[3]).abs() <= SAME_COLOR && { points }
-                    .all(|(a, b)| own(&first, *a).distance(own(&second, *b)) <= SAME_PLACE)
+                let mut points = area.points[a.view].iter().zip(&area.points[b.view]);
+                is_alike
+                    && (a.color[3] - b.color[3]).abs() <= SAME_COLOR
+                    && points.all(|(a, b)| own(&first, *a).distance(own(&second, *b)) <= SAME_PLACE)
             }
             _ => false,
         }
