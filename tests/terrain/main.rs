@@ -2,6 +2,7 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::print_stdout, reason = "what was measured is told")]
 
+mod backs;
 mod drawn;
 mod letters;
 mod rules;

@@ -516,6 +516,61 @@ fn remaining_tiles_are_built_too() {
     );
 }
 
+/// Rule 9: a roof behind a hill is that of a house whose wall the hill hides; on a plaza it is not.
+#[test]
+fn houses_may_stand_behind_hills() {
+    let hill = "
+        . R R . R R .
+        g R R g R R g
+        :-     -
+        g g g g B B g
+        g g g g|g g g
+        b b b b g g g
+        g g g g g g g";
+    let land = Landscape::new(&map(hill));
+    assert_eq!(notes(hill), []);
+    let built: Vec<HouseInfo> = land.houses().collect();
+    let house = HouseInfo {
+        base: 0,
+        width: 2,
+        depth: 2,
+        height: 1,
+    };
+    assert_eq!(built, [house; 2]);
+    let plaza = "
+        g g g g
+        g R R g
+        g g g g
+        b b b b";
+    assert!(matches!(notes(plaza)[..], [AmbiguityKind::Plain(_)]));
+}
+
+/// Rule 3: of the fronts between two surfaces, the longest that at least a quarter of the columns show.
+#[test]
+fn a_shore_that_is_thicker_in_one_column_does_not_lift_the_island() {
+    let shore = "
+        w w w w w w w w
+        w g g g g g g w
+        w g g g g g g w
+        w b b b b b b w
+        w w w b w w w w
+        w w w w w w w w";
+    let land = Landscape::new(&map(shore));
+    assert_eq!(land.top(1, 1), Some(1));
+    assert_eq!(
+        notes(shore),
+        [AmbiguityKind::Uneven {
+            most: 2,
+            taken: 1,
+            columns: 6
+        }]
+    );
+    // Two of six are more than a quarter: these are the posts of a bridge.
+    let bridge = shore.replace("w w w b w w w w", "w b w b w w w w");
+    assert_eq!(Landscape::new(&map(&bridge)).top(1, 1), Some(2));
+    assert_eq!(notes(&bridge), []);
+}
+
 /// Rule 3: groups without a connection are put on the ground, with a note.
 #[test]
 fn loose_groups_are_reported() {

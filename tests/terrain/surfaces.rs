@@ -44,13 +44,13 @@ fn assert_reconstructed(seeds: Range<u64>) {
 }
 
 /// The corners of a triangle, in tiles from the map's top left.
-type Triangle = [[f64; 3]; 3];
+pub(crate) type Triangle = [[f64; 3]; 3];
 
 /// A triangle with its material.
-type Shown = (u8, Triangle);
+pub(crate) type Shown = (u8, Triangle);
 
 /// All triangles of a landscape.
-fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
+pub(crate) fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
     let middle = [map.columns as f64 / 2.0, 0.0, map.rows as f64 / 2.0];
     let mut shown = vec![];
     for (look, pieces) in land.surface(roof, bevel) {
@@ -70,10 +70,9 @@ fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
     shown
 }
 
-/// The material that is visible at the middle of each cell, where a point (x, y, z) appears at column x and row z − y.
-fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
-    // Slightly off the middle, which is on the diagonals of squares.
-    const SPOT: [f64; 2] = [0.47, 0.56];
+/// What is visible at a spot of each cell, where a point (x, y, z) appears at column x and row z − y: how near it is, y + z, and its
+/// material.
+pub(crate) fn looked_at(map: &Map, triangles: &[Shown], spot: [f64; 2]) -> Vec<(f64, u8)> {
     let mut nearest = vec![(f64::NEG_INFINITY, 0); map.cells.len()];
     for (look, corners) in triangles {
         let flat = corners.map(|[x, y, z]| [x, z - y]);
@@ -93,7 +92,7 @@ fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
         let ((left, right), (top, bottom)) = (bounds(0), bounds(1));
         for row in top..bottom.min(map.rows) {
             for column in left..right.min(map.columns) {
-                let spot = [column as f64 + SPOT[0], row as f64 + SPOT[1]];
+                let spot = [column as f64 + spot[0], row as f64 + spot[1]];
                 let weights = [
                     cross(flat[1], flat[2], spot) / area,
                     cross(flat[2], flat[0], spot) / area,
@@ -117,13 +116,15 @@ fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
             }
         }
     }
-    nearest.into_iter().map(|(_, look)| look).collect()
+    nearest
 }
 
 /// Fails with the cells of a map that do not look as drawn.
 fn assert_seen_as_drawn(map: &Map, name: &str) {
     let land = Landscape::new(map);
-    let seen = looked_at(map, &triangles(map, &land, 0.5, 0.0));
+    // Slightly off the middle, which is on the diagonals of squares.
+    let seen = looked_at(map, &triangles(map, &land, 0.5, 0.0), [0.47, 0.56]);
+    let seen: Vec<u8> = seen.into_iter().map(|(_, look)| look).collect();
     let wrong: Vec<_> = (0..map.cells.len())
         .filter(|cell| map.tile(*cell) != Tile::None && seen[*cell] != map.cells[*cell])
         .map(|cell| (cell % map.columns, cell / map.columns))

@@ -127,6 +127,10 @@ impl AmbiguityKind {
                 format!("this group hangs in the air: its height is {needed}, but {drawn} brown tiles are drawn below it"),
                 "draw as many brown tiles as it is high, or draw an edge where another group begins".into(),
             ),
+            Self::Uneven { most, taken, columns } => (
+                format!("a few of the {columns} columns of this group's front have up to {most} brown tiles, so the group is only {taken} high, and there the front goes on below what it stands on"),
+                format!("draw at most {taken} brown tiles everywhere, or draw {most} in a quarter of the columns to lift the group"),
+            ),
             Self::Plain(Tile::Red) => (
                 "a roof without a wall below it is read as ground of its colour".into(),
                 "draw beige tiles below the roof, or say what the colour means: `$Tile green`".into(),
