@@ -10,7 +10,10 @@ mod diagnostics;
 mod edges;
 mod grid;
 mod materials;
+#[cfg(test)]
+mod palettes;
 mod raster;
+mod sand;
 #[cfg(test)]
 mod tests;
 
@@ -209,8 +212,8 @@ impl Reading<'_> {
         let is_complete = items.len() == content.fills.len();
         let canvas = Canvas::new(grid, items);
         let Classification {
-            cells,
-            materials,
+            mut cells,
+            mut materials,
             unclear,
             legends,
             plain,
@@ -222,6 +225,7 @@ impl Reading<'_> {
         let mut edges = vec![0; cells.len()];
         edges::read(&grid, &content.strokes(drawing), &mut edges);
         legends.iter().for_each(|legend| used[*legend] = true);
+        sand::walls(&mut cells, &edges, grid.columns, &mut materials);
         let map = Map {
             columns: grid.columns,
             rows: grid.rows,

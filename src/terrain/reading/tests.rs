@@ -185,6 +185,46 @@ fn unclear_colors_are_errors_that_name_cells() {
 }
 
 #[test]
+fn sand_is_ground_unless_a_roof_lies_over_it() {
+    const SAND: &str = "#d2b48c";
+    // A house with walls of sand on a beach, another one in a meadow whose wall is wider than its roof, and a frame around a wall.
+    let layer = only(&island(&format!(
+        "{}{}{}{}{}{}{}",
+        rect(0.0, 0.0, 90.0, 60.0, GREEN),
+        rect(0.0, 30.0, 60.0, 30.0, SAND),
+        rect(10.0, 20.0, 20.0, 10.0, COLORS[3]),
+        rect(70.0, 10.0, 10.0, 10.0, COLORS[3]),
+        rect(70.0, 20.0, 20.0, 10.0, SAND),
+        rect(70.0, 40.0, 10.0, 10.0, SAND),
+        r##"<path d="M10 50 H30" stroke="black" fill="none"/>"##,
+    )));
+    assert_eq!(
+        drawn(&layer),
+        [
+            "ggggggggg",
+            "gggggggrg",
+            "grrgggghh",
+            "ghhgggggg",
+            "ghhgggggg",
+            "ggggggggg"
+        ]
+    );
+    let sand: Vec<_> = layer
+        .materials
+        .iter()
+        .filter(|material| material.is_sand)
+        .collect();
+    assert_eq!(sand.len(), 1);
+    let walls: Vec<_> = layer
+        .materials
+        .iter()
+        .filter(|material| material.tile == Tile::Beige)
+        .collect();
+    assert_eq!(walls.len(), 1);
+    assert_eq!(walls[0].factors, sand[0].factors);
+}
+
+#[test]
 fn layers_without_tiles_and_huge_grids_are_reported() {
     let codes = |svg: &str| -> Vec<String> {
         let (layers, told) = read_svg(svg);
