@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, reason = "what was measured is told")]
 
 mod backs;
+mod byhand;
 mod drawn;
 mod letters;
 mod rules;

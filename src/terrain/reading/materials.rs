@@ -118,18 +118,23 @@ impl<'a> Paints<'a> {
         }
     }
 
-    /// The meaning of a code other than [`NOTHING`](super::raster::NOTHING).
-    pub(super) fn meaning(&self, code: Code) -> Meaning {
-        let (color, opacity) = self.appearance(code);
-        let legend = match paint_of(code) {
-            Some(paint) => self.legends.get(self.list[paint].key),
-            None => self.legends.get(&PaintKey::Solid(color)),
-        };
-        let legend = legend.copied();
+    /// What tiles of a paint are, if that is clear, and the index of their legend; `color` is the paint's mean.
+    pub(super) fn named(&self, key: &PaintKey, color: [u8; 3]) -> (Option<Named>, Option<usize>) {
+        let legend = self.legends.get(key).copied();
         let attributes = self.bindings.tile_attributes(self.layer, legend);
         let named = match attributes.tile() {
             Some(word) => Some(Named::Tile(tile(word))),
             None => colors::named(color),
+        };
+        (named, legend)
+    }
+
+    /// The meaning of a code other than [`NOTHING`](super::raster::NOTHING).
+    pub(super) fn meaning(&self, code: Code) -> Meaning {
+        let (color, opacity) = self.appearance(code);
+        let (named, legend) = match paint_of(code) {
+            Some(paint) => self.named(self.list[paint].key, color),
+            None => self.named(&PaintKey::Solid(color), color),
         };
         Meaning {
             named,

@@ -1,13 +1,14 @@
 //! Tile maps read from drawings.
 //!
-//! Invariant: the kind of a cell is that of the front-most paint at its middle; two cells have an edge between them if a stroke
-//! runs along their common side.
+//! Invariant: the kind of a cell is that of the front-most paint at its middle, and of a picture's commonest paint within it; two cells
+//! have an edge between them if a stroke runs along their common side. What is drawn and is neither is reported.
 
 mod classify;
 mod colors;
 mod content;
 mod diagnostics;
 mod edges;
+mod fit;
 mod grid;
 mod materials;
 #[cfg(test)]
@@ -186,6 +187,8 @@ impl Reading<'_> {
                 drawing, bindings, index, holds,
             ))))
         };
+        let mut paints = Paints::new(bindings, index);
+        let content = &content.clone().with_roads(drawing, size, &paints);
         let Some(bounds) = content.bounds() else {
             return nothing(false);
         };
@@ -197,7 +200,6 @@ impl Reading<'_> {
         if grid.columns == 0 || grid.rows == 0 {
             return nothing(true);
         }
-        let mut paints = Paints::new(bindings, index);
         let items = content.items(drawing, &grid, &mut paints, diagnostics)?;
         let sources = items.iter().map(|(shape, item)| {
             let [columns, rows] = item.reach(&grid).map(|[from, to]| from..to);
@@ -209,8 +211,8 @@ impl Reading<'_> {
         });
         let sources: Vec<TileSource> = sources.collect();
         let items: Vec<_> = items.into_iter().map(|(_, item)| item).collect();
-        let is_complete = items.len() == content.fills.len();
-        let canvas = Canvas::new(grid, items);
+        let is_complete = items.len() == content.painted();
+        let canvas = Canvas::new(grid, items, &paints);
         let Classification {
             mut cells,
             mut materials,
@@ -223,7 +225,9 @@ impl Reading<'_> {
         drop(canvas);
         let is_empty = materials.len() == 1 && unclear.is_empty();
         let mut edges = vec![0; cells.len()];
-        edges::read(&grid, &content.strokes(drawing), &mut edges);
+        let strokes = content.strokes(drawing);
+        edges::read(&grid, &strokes, &mut edges);
+        let strays = edges::strays(&grid, &strokes, &cells);
         legends.iter().for_each(|legend| used[*legend] = true);
         sand::walls(&mut cells, &edges, grid.columns, &mut materials);
         let map = Map {
@@ -253,6 +257,8 @@ impl Reading<'_> {
         diagnostics.extend(diagnostics::off_grid(
             drawing, bindings, index, &grid, content,
         ));
+        diagnostics.extend(diagnostics::stray(drawing, &layer, content, &strays));
+        diagnostics.extend(diagnostics::idle(drawing, &layer, &grid, content));
         if too_many_legends {
             let message =
                 "so many paints are used that not every legend's attributes can be heeded";
