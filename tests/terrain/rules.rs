@@ -467,6 +467,46 @@ fn a_house_stands_on_its_hill() {
     );
 }
 
+/// Rule 8: a roof in several colours has them where they are drawn, on both of its slopes.
+#[test]
+fn roofs_have_the_materials_of_their_tiles() {
+    let mut house = map("
+        R R R R
+        R R R R
+        R R R R
+        B B B B");
+    house.tiles.push(okoshi::internals::terrain::Tile::Red);
+    let other = house.tiles.len() as u8 - 1;
+    // The middle row, and the last tile of the eaves.
+    house.cells[4..8].fill(other);
+    house.cells[11] = other;
+    let area = |roof: f64| {
+        let mut areas = [0.0_f64; 8];
+        for (material, pieces) in Landscape::new(&house).surface(roof, 0.0) {
+            for piece in &pieces {
+                for triangle in &piece.triangles {
+                    let [a, b, c] = triangle.map(|corner| piece.positions[corner as usize]);
+                    let [u, v] =
+                        [b, c].map(|end| [0, 1, 2].map(|axis| f64::from(end[axis] - a[axis])));
+                    let cross =
+                        [1, 2, 0].map(|i: usize| u[i] * v[(i + 1) % 3] - u[(i + 1) % 3] * v[i]);
+                    areas[usize::from(material)] +=
+                        cross.iter().map(|x| x * x).sum::<f64>().sqrt() / 2.0;
+                }
+            }
+        }
+        areas
+    };
+    // Each tile is a third of a slope, √2 × 3 / 2 long, one tile wide.
+    let tile = 2.0_f64.sqrt() / 2.0;
+    let areas = area(0.5);
+    assert!(
+        (areas[usize::from(other)] - 2.0 * 5.0 * tile).abs() < 1e-5,
+        "{areas:?}"
+    );
+    assert!((areas[4] - 2.0 * 7.0 * tile).abs() < 1e-5, "{areas:?}");
+}
+
 /// Rule 8: edges separate adjacent houses.
 #[test]
 fn edges_separate_houses() {

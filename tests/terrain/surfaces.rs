@@ -247,6 +247,40 @@ fn surfaces_look_like_their_maps() {
     }
 }
 
+/// The map with a second material for some of its roofs' tiles.
+fn with_patterned_roofs(mut map: Map, seed: u64) -> Map {
+    let mut random = fastrand::Rng::with_seed(seed);
+    map.tiles.push(Tile::Red);
+    let other = map.tiles.len() as u8 - 1;
+    for cell in &mut map.cells {
+        if map.tiles[usize::from(*cell)] == Tile::Red && random.u8(..3) == 0 {
+            *cell = other;
+        }
+    }
+    map
+}
+
+#[test]
+fn patterned_roofs_look_as_drawn_and_are_closed() {
+    for seed in 0..1500 {
+        let world = with_patterned_roofs(World::random(seed).draw().map, seed);
+        if !world.cells.contains(&4) {
+            continue;
+        }
+        let name = format!("landscape {seed}");
+        assert_closed(&world, 0.5, 0.0, &name);
+        assert_closed(&world, 0.7, 0.3, &name);
+        assert_no_faces_back_to_back(&world, 0.5, 0.0, &name);
+        if Landscape::new(&world).ambiguities().is_empty() {
+            assert_seen_as_drawn(&world, &name);
+        }
+    }
+    for seed in 0..300 {
+        let scribble = with_patterned_roofs(scribble(seed), seed);
+        assert_closed(&scribble, 0.7, 0.0, &format!("scribble {seed}"));
+    }
+}
+
 /// Checks a landscape and a scribble for each seed, with these bevels.
 fn for_each_map(seeds: u64, bevels: [f64; 2], check: impl Fn(&Map, f64, f64, &str)) {
     let [of_landscape, of_scribble] = bevels;

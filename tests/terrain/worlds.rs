@@ -280,7 +280,7 @@ pub(crate) fn scribble(seed: u64) -> Map {
 
 /// A map as text: a letter per cell.
 pub(crate) fn picture(map: &Map) -> String {
-    let letters = [' ', 'g', 'b', 'w', 'R', 'B'];
+    let letters = [' ', 'g', 'b', 'w', 'R', 'B', 'r'];
     let rows = map.cells.chunks(map.columns);
     let line =
         |row: &[u8]| -> String { row.iter().map(|look| letters[usize::from(*look)]).collect() };
