@@ -306,6 +306,39 @@ fn bevelled_surfaces_are_closed() {
     for_each_map(200, [0.25, 0.4], assert_closed);
 }
 
+/// Landscapes side by side, so that the map is wider than the stripes that are meshed at once.
+fn wide(seed: u64) -> Map {
+    let maps: Vec<Map> = (0..9)
+        .map(|part| World::random(seed * 9 + part).draw().map)
+        .collect();
+    let columns = maps.iter().map(|map| map.columns).sum();
+    let rows = maps.iter().map(|map| map.rows).max().unwrap_or(0);
+    let mut wide = Map::empty(columns, rows);
+    let mut left = 0;
+    for map in maps {
+        for cell in 0..map.cells.len() {
+            let (column, row) = (cell % map.columns, cell / map.columns);
+            let at = wide.index(left + column, row);
+            wide.cells[at] = map.cells[cell];
+            wide.edges[at] = map.edges[cell];
+        }
+        left += map.columns;
+    }
+    wide
+}
+
+#[test]
+fn wide_surfaces_are_closed() {
+    for seed in 0..40 {
+        let map = wide(seed);
+        assert!(map.columns > 64);
+        for bevel in [0.0, 0.3] {
+            assert_closed(&map, 0.5, bevel, &format!("wide {seed}"));
+            assert_no_faces_back_to_back(&map, 0.5, bevel, &format!("wide {seed}"));
+        }
+    }
+}
+
 #[test]
 fn no_faces_lie_back_to_back() {
     for_each_map(300, [0.0; 2], assert_no_faces_back_to_back);

@@ -62,7 +62,7 @@ const ANY: f64 = 1.0;
 /// rust, and everything greyish, dark or pale. Fitted on half of the colours of common palettes.
 #[rustfmt::skip]
 const NAMES: &[Colors] = &[
-    colors(Named::Tile(Tile::Green), [118.0, 168.0], [0.3, 0.93], [0.07, ANY]),
+    colors(Named::Tile(Tile::Green), [118.0, 168.0], [0.3, 0.93], [0.055, ANY]),
     // Olive green, as far as it is not lime.
     colors(Named::Tile(Tile::Green), [110.0, 118.0], [0.3, 0.7], [0.07, ANY]),
     colors(Named::Tile(Tile::Blue), [212.0, 276.0], [0.27, 0.84], [0.07, ANY]),
@@ -79,7 +79,7 @@ const NAMES: &[Colors] = &[
     colors(Named::Tile(Tile::Red), [12.0, 24.0], [0.38, 0.66], [0.14, 0.165]),
     colors(Named::Tile(Tile::Red), [26.0, 30.0], [0.385, 0.46], [0.15, 0.165]),
     colors(Named::Tile(Tile::Beige), [50.0, 100.0], [0.82, 0.985], [0.03, 0.085]),
-    colors(Named::Sand, [50.0, 90.0], [0.72, 0.82], [0.05, 0.13]),
+    colors(Named::Sand, [50.0, 90.0], [0.72, 0.82], [0.04, 0.13]),
 ];
 
 /// The name of an sRGB colour, if it is clear. The default colours of the tiles are.

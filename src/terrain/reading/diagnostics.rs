@@ -132,6 +132,10 @@ impl AmbiguityKind {
                 format!("this group hangs in the air: its height is {needed}, but {drawn} brown tiles are drawn below it"),
                 "draw as many brown tiles as it is high, or draw an edge where another group begins".into(),
             ),
+            Self::Uneven { most, taken: 0, columns } => (
+                format!("a few of the {columns} columns of this group's lower border have up to {most} brown tiles, and the others none, so the group is as high as what is below it"),
+                format!("draw no brown tiles there, or draw {most} in a quarter of the columns to lift the group"),
+            ),
             Self::Uneven { most, taken, columns } => (
                 format!("a few of the {columns} columns of this group's front have up to {most} brown tiles, so the group is only {taken} high, and there the front goes on below what it stands on"),
                 format!("draw at most {taken} brown tiles everywhere, or draw {most} in a quarter of the columns to lift the group"),

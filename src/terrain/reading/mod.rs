@@ -84,6 +84,19 @@ pub struct TileSource {
     pub rows: Range<usize>,
 }
 
+impl TileSource {
+    /// Adds the cells of another piece of the shape.
+    fn extend(&mut self, columns: Range<usize>, rows: Range<usize>) {
+        let wider = |one: &Range<usize>, other: Range<usize>| match one.is_empty() {
+            true => other,
+            false if other.is_empty() => one.clone(),
+            false => one.start.min(other.start)..one.end.max(other.end),
+        };
+        self.columns = wider(&self.columns, columns);
+        self.rows = wider(&self.rows, rows);
+    }
+}
+
 impl Layer {
     /// The bounds of the grid, drawing units.
     pub fn bounds(&self) -> [DVec2; 2] {
@@ -201,15 +214,18 @@ impl Reading<'_> {
             return nothing(true);
         }
         let items = content.items(drawing, &grid, &mut paints, diagnostics)?;
-        let sources = items.iter().map(|(shape, item)| {
+        let mut sources: Vec<TileSource> = Vec::with_capacity(items.len());
+        for (shape, item) in &items {
             let [columns, rows] = item.reach(&grid).map(|[from, to]| from..to);
-            TileSource {
-                shape: *shape,
-                columns,
-                rows,
+            match sources.last_mut().filter(|last| last.shape == *shape) {
+                Some(last) => last.extend(columns, rows),
+                None => sources.push(TileSource {
+                    shape: *shape,
+                    columns,
+                    rows,
+                }),
             }
-        });
-        let sources: Vec<TileSource> = sources.collect();
+        }
         let items: Vec<_> = items.into_iter().map(|(_, item)| item).collect();
         let is_complete = items.len() == content.painted();
         let canvas = Canvas::new(grid, items, &paints);
@@ -229,7 +245,7 @@ impl Reading<'_> {
         edges::read(&grid, &strokes, &mut edges);
         let strays = edges::strays(&grid, &strokes, &cells);
         legends.iter().for_each(|legend| used[*legend] = true);
-        sand::walls(&mut cells, &edges, grid.columns, &mut materials);
+        sand::walls(&mut cells, &edges, &sources, grid.columns, &mut materials);
         let map = Map {
             columns: grid.columns,
             rows: grid.rows,

@@ -225,6 +225,31 @@ fn sand_is_ground_unless_a_roof_lies_over_it() {
 }
 
 #[test]
+fn a_road_of_sand_is_no_wall() {
+    let road = |road: &str| {
+        let layer = only(&island(&format!(
+            "{}{}{}{road}",
+            rect(0.0, 0.0, 50.0, 50.0, GREEN),
+            rect(10.0, 0.0, 20.0, 10.0, COLORS[3]),
+            rect(10.0, 10.0, 20.0, 10.0, "#d2b48c"),
+        )));
+        drawn(&layer)
+    };
+    let stroke = r##"<path d="M15 45V25H35" fill="none" stroke="#d2b48c" stroke-width="7"/>"##;
+    let rows = ["grrgg", "ghhgg", "ggggg", "ggggg", "ggggg"];
+    assert_eq!(road(stroke), rows);
+    // Walls that are drawn tile by tile, or in rows, are whole.
+    let tiles = [10.0, 20.0].map(|x| rect(x, 20.0, 10.0, 10.0, "#d2b48c"));
+    let rows = ["grrgg", "ghhgg", "ghhgg", "ggggg", "ggggg"];
+    assert_eq!(road(&rect(10.0, 20.0, 20.0, 10.0, "#d2b48c")), rows);
+    let wall = tiles
+        .clone()
+        .map(|tile| tile.replace("y=\"20\"", "y=\"10\""))
+        .concat();
+    assert_eq!(road(&(wall + &tiles.concat())), rows);
+}
+
+#[test]
 fn layers_without_tiles_and_huge_grids_are_reported() {
     let codes = |svg: &str| -> Vec<String> {
         let (layers, told) = read_svg(svg);
