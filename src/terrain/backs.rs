@@ -1,7 +1,8 @@
 //! Hidden ground (rule 10): where a drawing hides whether there is ground, and there is some on both sides, the ground goes on.
 //!
-//! Each column has *gaps*: ranges of depth without any block. A gap that has ground to its left and right at its depth, or else
-//! behind and in front of it, is filled up to the lower of the two, as far as nothing of the filling would be seen in the drawing.
+//! Each column has *gaps*: ranges of depth without any block that stands on the ground or lower; what hangs leaves a gap below it. A gap
+//! that has ground to its left and right at its depth, or else behind and in front of it, is filled up to the lower of the two, as far as
+//! nothing of the filling would be seen in the drawing.
 
 use std::ops::Range;
 
@@ -59,19 +60,17 @@ pub(super) fn backs(context: &MapContext) -> Vec<Vec<Block>> {
         return vec![];
     }
     // What is beside a gap is beside its continuation in the next column too.
-    for (side, order) in [
-        (0, Box::new(1..columns) as Box<dyn Iterator<Item = usize>>),
-        (1, Box::new((0..columns.saturating_sub(1)).rev())),
-    ] {
-        for column in order {
-            let before = if side == 0 { column - 1 } else { column + 1 };
-            let passed = common(&found[before].beside[side], &found[column].gaps);
-            let here = &mut found[column].beside[side];
-            here.extend(passed);
-            here.sort_unstable_by_key(|ground| ground.z);
-            here.truncate(context.grid.rows);
-        }
-    }
+    let mut pass_on = |side: usize, from: usize, to: usize| {
+        let passed = common(&found[from].beside[side], &found[to].gaps);
+        let here = &mut found[to].beside[side];
+        here.extend(passed);
+        here.sort_unstable_by_key(|ground| ground.z);
+        here.truncate(context.grid.rows);
+    };
+    (1..columns).for_each(|column| pass_on(0, column - 1, column));
+    (1..columns)
+        .rev()
+        .for_each(|column| pass_on(1, column, column - 1));
     let columns = found.into_par_iter().enumerate();
     columns
         .map_init(Solids::default, |solids, (number, column)| {
@@ -126,10 +125,10 @@ fn gaps_of(context: &MapContext, columns: Range<usize>, lowest: i32) -> Vec<Gaps
     found
 }
 
-/// The ground of a column from back to front, without houses.
+/// The ground of a column from back to front, without houses, and without what hangs.
 fn ground(solids: &Solids) -> Vec<Ground> {
     let mut blocks: Vec<&Block> = solids.blocks[..solids.grounds].iter().collect();
-    blocks.retain(|block| block.z[0] < block.z[1]);
+    blocks.retain(|block| block.z[0] < block.z[1] && block.y[0] <= 0);
     blocks.sort_unstable_by_key(|block| block.z[0]);
     let mut bounds: Vec<i32> = blocks.iter().flat_map(|block| block.z).collect();
     bounds.sort_unstable();
@@ -173,13 +172,16 @@ fn ground(solids: &Solids) -> Vec<Ground> {
     list
 }
 
-/// The ranges of depth in a column without any block that something drawn could hide. `lowest` is the lowest height of the map.
+/// The ranges of depth in a column without any block, except those that hang, that something drawn could hide. `lowest` is the lowest
+/// height of the map.
 fn gaps(solids: &Solids, lowest: i32) -> Vec<[i32; 2]> {
     let drawn = |view: &&View| view.visible != Visible::Nothing;
     let Some(first) = solids.views.iter().find(drawn) else {
         return vec![];
     };
-    let mut blocks: Vec<[i32; 2]> = solids.blocks.iter().map(|block| block.z).collect();
+    let blocks = solids.blocks.iter().enumerate();
+    let blocks = blocks.filter(|(at, block)| *at >= solids.grounds || block.y[0] <= 0);
+    let mut blocks: Vec<[i32; 2]> = blocks.map(|(_, block)| block.z).collect();
     blocks.sort_unstable();
     let mut gaps = vec![];
     let mut from = first.start + lowest;

@@ -173,10 +173,6 @@ impl Collected {
 
     /// Water at the map's border is open water at ground level (rule 7), unless the map shows it falling there.
     fn border(mut self, grid: &Grid, groups: &Groups) -> Self {
-        #[expect(
-            clippy::iter_over_hash_type,
-            reason = "a set does not depend on the order"
-        )]
         let falling: FxHashSet<u32> = self
             .strong
             .keys()

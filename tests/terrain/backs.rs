@@ -126,3 +126,24 @@ fn ground_goes_on_behind_a_block() {
         [[[1, 3], [0, 0]], [[3, 4], [0, 3]], [[3, 5], [0, 0]]]
     );
 }
+
+/// Land that hangs over water, because its shore has no front in some columns: the water goes on below it, without a hole.
+#[test]
+fn water_goes_on_below_what_hangs() {
+    let island = "
+        w w w w w
+        w g g g w
+        w g g g w
+        w w b w w
+        w w w w w";
+    let land = Landscape::new(&map(island));
+    assert_eq!(land.top(1, 1), Some(1));
+    let blocks = blocks(island, 1);
+    let is_water = |z: i32| {
+        let mut here = blocks
+            .iter()
+            .filter(|[depth, _]| depth[0] <= z && z < depth[1]);
+        here.any(|[_, y]| *y == [0, 0])
+    };
+    assert!((0..5).all(is_water), "{blocks:?}");
+}

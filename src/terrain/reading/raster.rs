@@ -366,8 +366,7 @@ impl<'a> Majority<'a> {
         if most.1 * 2 > places * places {
             return most.0;
         }
-        // Per name, and for transparency, the number of places, and the commonest code.
-        let mut named: Vec<(Option<Named>, usize, (usize, Option<Code>))> = vec![];
+        let mut named: Vec<Share> = vec![];
         for (code, count) in &self.counts {
             let name = match code {
                 None => None,
@@ -382,16 +381,29 @@ impl<'a> Majority<'a> {
                     }
                 }
             };
-            match named.iter_mut().find(|(known, ..)| *known == name) {
-                Some((_, all, best)) => {
-                    (*all, *best) = (*all + count, (*best).max((*count, *code)))
+            let best = (*count, *code);
+            match named.iter_mut().find(|share| share.name == name) {
+                Some(share) => {
+                    share.places += count;
+                    share.best = share.best.max(best);
                 }
-                None => named.push((name, *count, (*count, *code))),
+                None => named.push(Share {
+                    name,
+                    places: *count,
+                    best,
+                }),
             }
         }
-        let best = named
-            .into_iter()
-            .max_by_key(|(name, count, _)| (*count, *name));
-        best.map_or(most.0, |(_, _, (_, code))| code)
+        let best = named.iter().max_by_key(|share| (share.places, share.name));
+        best.map_or(most.0, |share| share.best.1)
     }
+}
+
+/// The places of a cell whose colours have one name.
+struct Share {
+    /// `None` for transparent places.
+    name: Option<Named>,
+    places: usize,
+    /// How many of them have the commonest code, and that code.
+    best: (usize, Option<Code>),
 }
