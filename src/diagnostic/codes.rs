@@ -391,14 +391,17 @@ codes! {
     PlainPaint = "W311", "paint shown as its mean colour";
 
     /// A tile is more than a tenth of a tile off the grid. Each cell of the grid becomes whatever is drawn at its
-    /// centre, so such a tile can become larger or smaller than it is drawn, or vanish.
+    /// centre, so such a tile can become larger or smaller than it is drawn, or vanish. The fix writes the size, and
+    /// moves the layer to the place, that fit all borders best. The same warning names what is drawn but is not in
+    /// the map: a stroke that runs across tiles, and a shape that covers the centre of no tile.
     ///
     /// ```text
     /// squares of 18 in a group with Island$Tiles 16
     /// ```
     ///
-    /// Write the size that the tiles are drawn with, or move them onto the grid. In Inkscape, use a grid with that
-    /// spacing and with its origin at a multiple of the size, and turn on snapping.
+    /// Apply the fix, or write the size that the tiles are drawn with, or move them onto the grid. In Inkscape, use a
+    /// grid with that spacing and with its origin at a multiple of the size, and turn on snapping. For decoration,
+    /// write the string `*` beside it.
     OffGrid = "W312", "tiles off the grid";
     /// A tile layer has no tiles: nothing in its group is painted, or nothing covers the centre of a cell.
     ///

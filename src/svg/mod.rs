@@ -140,6 +140,8 @@ pub struct Group {
     pub kind: GroupKind,
     /// The rectangle that it is clipped to, user units, if its clip is one: minimum and maximum corner.
     pub frame: Option<(DVec2, DVec2)>,
+    /// Whether neither it nor what it is in has a `transform`, so that its coordinates are those of the drawing.
+    pub is_untransformed: bool,
     /// Its element.
     pub element: Element,
 }

@@ -118,9 +118,17 @@ impl<'a> Walk<'a, '_> {
             None => around,
             Some(kind) => {
                 let element = element(node, self.prepared);
+                let is_moved = node.has_attribute("transform")
+                    || node
+                        .attribute("style")
+                        .is_some_and(|style| style.contains("transform"))
+                    || !(kind == GroupKind::Root || node.tag_name().name() == "g");
+                let around_is_moved =
+                    parent.is_some_and(|parent| !self.groups[parent].is_untransformed);
                 self.groups.push_and_get_key(Group {
                     parent: around,
                     kind,
+                    is_untransformed: !is_moved && !around_is_moved,
                     frame: self.frames.get(&node.id()).copied(),
                     element,
                 })

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::constraints::{Constraints, STRIPE};
+use super::constraints::{Constraints, STRIPE, Uneven};
 use super::grid::Grid;
 use super::groups::{GroupKind, Groups};
 use super::houses::House;
@@ -34,6 +34,15 @@ pub enum AmbiguityKind {
         /// Rows that its height requires.
         needed: i32,
     },
+    /// A few columns of a group's front have more rows than the others: they go on below what the group stands on.
+    Uneven {
+        /// The most rows that are drawn.
+        most: i32,
+        /// The height that was taken.
+        taken: i32,
+        /// All columns of this front.
+        columns: usize,
+    },
     /// A wall's colour without a roof, or a roof's without a wall: read as a top.
     Plain(Tile),
     /// A house hides tiles that are drawn: its roof or its wall is no rectangle, and nothing nearer covers the rest.
@@ -52,6 +61,22 @@ pub(super) fn ambiguities(context: &MapContext, constraints: &Constraints) -> Ve
     let mut ambiguities = vec![];
     unconstrained(grid, groups, levels, &mut ambiguities);
     hanging(grid, groups, levels, &mut ambiguities);
+    let rise = |uneven: &&Uneven| {
+        let [upper, lower] = [uneven.taken.upper, uneven.taken.lower];
+        levels.level[upper as usize] - levels.level[lower as usize]
+    };
+    // Another constraint may have given the height that they show.
+    let uneven = constraints.uneven.iter();
+    let uneven = uneven.filter(|uneven| rise(uneven) < uneven.more.rise);
+    ambiguities.extend(uneven.map(|uneven| Ambiguity {
+        kind: AmbiguityKind::Uneven {
+            most: uneven.more.rise,
+            taken: uneven.taken.rise,
+            columns: uneven.taken.columns,
+        },
+        cell: [uneven.more.first[1], uneven.more.first[0]],
+        cells: uneven.more.columns,
+    }));
     for (first, cells) in &groups.plain {
         ambiguities.push(Ambiguity {
             kind: AmbiguityKind::Plain(grid.tile(*first)),

@@ -1,10 +1,9 @@
 //! Height constraints: by how much one surface is higher than another, as read from the columns.
 
 use std::cmp::{Ordering, Reverse};
-use std::hash::Hash;
 
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::column::{Below, Column};
 use super::grid::Grid;
@@ -26,12 +25,26 @@ pub(super) struct HeightConstraint {
     pub(super) first: [usize; 2],
 }
 
+/// A few columns of a pair show more rows of front than its constraint says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Uneven {
+    /// The constraint, with the number of all columns of the pair.
+    pub(super) taken: HeightConstraint,
+    /// The columns that show more, with the most rows that one of them shows.
+    pub(super) more: HeightConstraint,
+}
+
+/// A pair of surfaces has the largest rise that one in so many of its columns shows.
+const SHARE: usize = 4;
+
 #[derive(Debug, Default)]
 pub(super) struct Constraints {
     /// Those between a surface and what is visible right below it or below its front; one a pair. Strongest first.
     pub(super) strong: Vec<HeightConstraint>,
     /// Those that are only likely. Strongest first.
     pub(super) weak: Vec<HeightConstraint>,
+    /// Pairs of which a few columns show more than the constraint, in the order of their first cells.
+    pub(super) uneven: Vec<Uneven>,
     /// Per surface with pits the rows of front of its deepest one. A pit is a front between parts of one surface.
     pub(super) pits: FxHashMap<u32, i32>,
     /// Row and column of the first pit.
@@ -40,7 +53,7 @@ pub(super) struct Constraints {
 
 #[derive(Debug, Default)]
 struct Collected {
-    strong: FxHashMap<(u32, u32), HeightConstraint>,
+    strong: FxHashMap<(u32, u32, i32), HeightConstraint>,
     weak: FxHashMap<(u32, u32, i32), HeightConstraint>,
     pits: FxHashMap<u32, i32>,
     pit: Option<[usize; 2]>,
@@ -69,20 +82,12 @@ impl Constraints {
 
 impl Collected {
     fn strong(&mut self, constraint: HeightConstraint) {
-        add(
-            &mut self.strong,
-            (constraint.upper, constraint.lower),
-            constraint,
-        );
+        add(&mut self.strong, constraint);
     }
 
     fn weak(&mut self, constraint: HeightConstraint) {
         if constraint.upper != constraint.lower {
-            add(
-                &mut self.weak,
-                (constraint.upper, constraint.lower, constraint.rise),
-                constraint,
-            );
+            add(&mut self.weak, constraint);
         }
     }
 
@@ -168,25 +173,38 @@ impl Collected {
 
     /// Water at the map's border is open water at ground level (rule 7), unless the map shows it falling there.
     fn border(mut self, grid: &Grid, groups: &Groups) -> Self {
+        let falling: FxHashSet<u32> = self
+            .strong
+            .keys()
+            .filter(|key| key.1 == GROUND)
+            .map(|key| key.0)
+            .collect();
         let surfaces = groups.surfaces.iter().enumerate().skip(1);
         for (index, surface) in surfaces.filter(|(_, surface)| surface.water && surface.at_border) {
             let [column, row] = grid.place(surface.first);
             let upper = index as u32;
-            self.strong
-                .entry((upper, GROUND))
-                .or_insert(HeightConstraint {
+            if !falling.contains(&upper) {
+                self.strong(HeightConstraint {
                     upper,
                     lower: GROUND,
                     rise: 0,
                     columns: 1,
                     first: [row, column],
                 });
+            }
         }
         self
     }
 
     fn sorted(self, groups: &Groups) -> Constraints {
-        let mut strong: Vec<HeightConstraint> = self.strong.into_values().collect();
+        let mut shown: Vec<HeightConstraint> = self.strong.into_values().collect();
+        shown.par_sort_unstable_by_key(|c| (c.upper, c.lower, Reverse(c.rise)));
+        let pairs =
+            shown.chunk_by(|one, other| (one.upper, one.lower) == (other.upper, other.lower));
+        let pairs = pairs.map(HeightConstraint::of_pair);
+        let (mut strong, uneven): (Vec<HeightConstraint>, Vec<Option<Uneven>>) = pairs.unzip();
+        let mut uneven: Vec<Uneven> = uneven.into_iter().flatten().collect();
+        uneven.sort_unstable_by_key(|uneven| (uneven.more.first, uneven.more.lower));
         let mut weak: Vec<HeightConstraint> = self.weak.into_values().collect();
         let mut all = vec![0_usize; groups.surfaces.len()];
         for constraint in &strong {
@@ -210,29 +228,53 @@ impl Collected {
         Constraints {
             strong,
             weak,
+            uneven,
             pits: self.pits,
             pit: self.pit,
         }
     }
 }
 
-/// Adds a constraint, merged with an earlier one of the same key.
-fn add<Key: Eq + Hash>(
-    constraints: &mut FxHashMap<Key, HeightConstraint>,
-    key: Key,
+/// Adds a constraint to others, by pair and rise.
+fn add(
+    constraints: &mut FxHashMap<(u32, u32, i32), HeightConstraint>,
     constraint: HeightConstraint,
 ) {
-    let known = constraints.entry(key);
+    let known = constraints.entry((constraint.upper, constraint.lower, constraint.rise));
     known
         .and_modify(|known| known.join(&constraint))
         .or_insert(constraint);
 }
 
 impl HeightConstraint {
-    /// Merges two constraints of a pair. The largest rise counts: where the map shows less, the upper surface hangs.
+    /// Counts the columns of another constraint of the pair.
     fn join(&mut self, other: &Self) {
-        self.rise = self.rise.max(other.rise);
         self.columns += other.columns;
         self.first = self.first.min(other.first);
+    }
+
+    /// The constraint of a pair from what its columns show, largest rise first: the largest that at least a quarter of the columns
+    /// show or exceed. Where the map shows less, the upper surface hangs; where it shows more, the front goes on below.
+    fn of_pair(shown: &[Self]) -> (Self, Option<Uneven>) {
+        let mut taken = shown[0];
+        let all: usize = shown.iter().map(|one| one.columns).sum();
+        let mut more: Option<Self> = None;
+        let mut columns = 0;
+        for one in shown {
+            columns += one.columns;
+            if columns * SHARE >= all {
+                taken.rise = one.rise;
+                break;
+            }
+            more = Some(match more {
+                Some(mut more) => {
+                    more.join(one);
+                    more
+                }
+                None => *one,
+            });
+        }
+        shown[1..].iter().for_each(|one| taken.join(one));
+        (taken, more.map(|more| Uneven { taken, more }))
     }
 }

@@ -1,6 +1,9 @@
 //! Groups: tiles of one kind that are connected through sides without an edge.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::grid::Grid;
+use super::hidden_houses::HiddenHouse;
 use super::map::Tile;
 use crate::regions::{connected, join, root};
 
@@ -56,13 +59,17 @@ pub(super) struct Groups {
     pub(super) houses: usize,
     /// Groups that are read as tops although their colour is that of a house: the first cell and the number of cells of each.
     pub(super) plain: Vec<(usize, usize)>,
+    /// Roofs whose walls may be hidden.
+    pub(super) hidden: Vec<HiddenHouse>,
 }
 
 impl Groups {
-    pub(super) fn new(grid: &Grid) -> Self {
+    /// The groups of a map. Roofs without walls whose first cell passes the test `is_plain` are tops in any case.
+    pub(super) fn new(grid: &Grid, is_plain: impl Fn(usize) -> bool) -> Self {
         let (labels, firsts) = components(grid);
         let mut groups = Joined::new(grid, labels, &firsts);
         groups.join_houses();
+        groups.find_hidden(is_plain);
         groups.join_tops();
         groups.finish()
     }
@@ -94,6 +101,8 @@ struct Joined<'a> {
     parents: Vec<u32>,
     /// Per group whether it is part of a house.
     housed: Vec<bool>,
+    /// The roofs whose walls may be hidden, each with the groups of ground and water behind and beside it.
+    hidden: BTreeMap<u32, BTreeSet<u32>>,
 }
 
 impl<'a> Joined<'a> {
@@ -104,6 +113,7 @@ impl<'a> Joined<'a> {
             firsts,
             parents: (0..firsts.len() as u32).collect(),
             housed: vec![false; firsts.len()],
+            hidden: BTreeMap::new(),
         }
     }
 
@@ -124,6 +134,57 @@ impl<'a> Joined<'a> {
                 self.housed[roof as usize] = true;
                 self.housed[wall as usize] = true;
                 join(&mut self.parents, roof, wall);
+            }
+        }
+    }
+
+    /// Finds the roofs without walls that may have a wall behind something nearer (rule 9): below all of their columns is ground,
+    /// water or a roof, and none of that is also behind or beside them, as it is around a path or a plaza.
+    fn find_hidden(&mut self, is_plain: impl Fn(usize) -> bool) {
+        let rows = self.grid.rows;
+        let is_roof = |groups: &Self, label: usize| {
+            groups.tile(label) == Tile::Red
+                && !groups.housed[label]
+                && !is_plain(groups.firsts[label])
+        };
+        if !(1..self.firsts.len()).any(|label| is_roof(self, label)) {
+            return;
+        }
+        /// What is around a roof and below it; `None` if there is no surface below one of its columns.
+        type Sides = (BTreeSet<u32>, Option<BTreeSet<u32>>);
+        let mut roofs: BTreeMap<u32, Sides> = BTreeMap::new();
+        for (cell, label) in self.labels.iter().enumerate() {
+            if !is_roof(self, *label as usize) {
+                continue;
+            }
+            let (around, below) = roofs
+                .entry(*label)
+                .or_insert_with(|| (BTreeSet::new(), Some(BTreeSet::new())));
+            let row = cell % rows;
+            let is_surface =
+                |other: &u32| matches!(self.tile(*other as usize), Tile::Green | Tile::Blue);
+            let sides = [
+                (row > 0).then(|| cell - 1),
+                cell.checked_sub(rows),
+                Some(cell + rows).filter(|cell| *cell < self.labels.len()),
+            ];
+            let sides = sides.into_iter().flatten().map(|cell| self.labels[cell]);
+            around.extend(sides.filter(is_surface));
+            let next = (row + 1 < rows).then(|| self.labels[cell + 1]);
+            match next {
+                Some(next) if next == *label => {}
+                Some(next) if is_surface(&next) || self.tile(next as usize) == Tile::Red => {
+                    below.iter_mut().for_each(|below| {
+                        below.insert(next);
+                    });
+                }
+                _ => *below = None,
+            }
+        }
+        for (label, (around, below)) in roofs {
+            if below.is_some_and(|below| below.is_disjoint(&around)) {
+                self.housed[label as usize] = true;
+                self.hidden.insert(label, around);
             }
         }
     }
@@ -229,8 +290,24 @@ impl<'a> Joined<'a> {
             .into_iter()
             .map(|label: usize| (self.firsts[label], areas[label]));
         let plain = plain.collect();
+        let hidden = self.hidden.iter().filter_map(|(label, around)| {
+            let around = around
+                .iter()
+                .filter_map(|around| match kinds[*around as usize] {
+                    GroupKind::Surface(surface) => Some(surface),
+                    _ => None,
+                });
+            let around: BTreeSet<u32> = around.collect();
+            Some(HiddenHouse {
+                house: kinds[*label as usize].house()?,
+                first: self.firsts[*label as usize],
+                around: around.into_iter().collect(),
+            })
+        });
+        let hidden = hidden.collect();
         Groups {
             labels: self.labels,
+            hidden,
             kinds,
             surfaces,
             houses: houses as usize,

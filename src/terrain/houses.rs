@@ -10,6 +10,7 @@ use super::constraints::STRIPE;
 use super::grid::Grid;
 use super::groups::{GroupKind, Groups};
 use super::levels::Levels;
+use super::solids::Block;
 
 /// A house, in tiles.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,6 +27,8 @@ pub(super) struct House {
     pub(super) front: i32,
     /// The material of its roof, and that of its walls.
     pub(super) materials: [u8; 2],
+    /// The ground under it where its foot is hidden everywhere.
+    pub(super) under: Option<Block>,
     /// Whether its foot is visible somewhere: no other house hides it.
     stands: bool,
 }
@@ -148,6 +151,7 @@ fn in_column(
             depth,
             front: segment.end + base,
             materials: [material; 2],
+            under: None,
             stands: !is_roof && !matches!(column.below(index).1, Below::House(_)),
         };
         found.push((house, part));

@@ -1,10 +1,14 @@
 //! The landscape of a map: heights and houses, from which its surface is built.
 
+use rustc_hash::FxHashSet;
+
 use super::ambiguities::{self, Ambiguity};
+use super::backs;
 use super::constraints::Constraints;
 use super::flush;
 use super::grid::Grid;
 use super::groups::{GroupKind, Groups};
+use super::hidden_houses;
 use super::houses;
 use super::levels::Levels;
 use super::map::{Map, Tile};
@@ -60,24 +64,32 @@ impl Landscape {
     /// Computes the height of everything on a map, in time linear in its cells. Never fails: ambiguities are decided by the
     /// rules (see [`ambiguities`](Self::ambiguities)).
     pub fn new(map: &Map) -> Self {
-        let grid = Grid::new(map);
-        let groups = Groups::new(&grid);
-        let constraints = Constraints::read(&grid, &groups);
-        let levels = Levels::new(&groups, &constraints);
-        let houses = houses::measure(&grid, &groups, &levels);
-        let context = MapContext {
-            flush: flush::flush(&grid, &groups, &levels),
-            earth: commonest(map, Tile::Brown),
-            houses_of: houses::by_stripe(&houses, map.columns),
-            grid,
-            groups,
-            levels,
-            houses,
+        let mut refused: FxHashSet<usize> = FxHashSet::default();
+        let beige = commonest(map, Tile::Beige);
+        let mut tries = 0;
+        let (mut context, constraints) = loop {
+            let is_plain = |first: usize| tries == 2 || refused.contains(&first);
+            let (mut context, constraints) = measured(map, is_plain);
+            // A roof that cannot be a hidden house is ground of its colour, which may change the heights of others.
+            let found = hidden_houses::measure(&mut context, beige);
+            if found.is_empty() {
+                break (context, constraints);
+            }
+            refused.extend(found);
+            tries += 1;
         };
+        context.backs = backs::backs(&context);
         Self {
             context,
             constraints,
         }
+    }
+
+    /// The landscape without the hidden ground of rule 10, to compare them.
+    #[must_use]
+    pub fn without_backs(mut self) -> Self {
+        self.context.backs.clear();
+        self
     }
 
     /// The height of the top that is drawn in a cell: ground or water; `None` where there is none.
@@ -170,6 +182,27 @@ impl Landscape {
     pub fn surface(&self, roof: f64, bevel: f64) -> Vec<(u8, Vec<Surface>)> {
         surface::surface(&self.context, roof, bevel)
     }
+}
+
+/// The heights of a map, without hidden ground and without the size of hidden houses. Roofs without walls whose first cell passes
+/// the test `is_plain` are ground.
+fn measured(map: &Map, is_plain: impl Fn(usize) -> bool) -> (MapContext, Constraints) {
+    let grid = Grid::new(map);
+    let groups = Groups::new(&grid, is_plain);
+    let constraints = Constraints::read(&grid, &groups);
+    let levels = Levels::new(&groups, &constraints);
+    let houses = houses::measure(&grid, &groups, &levels);
+    let context = MapContext {
+        flush: flush::flush(&grid, &groups, &levels),
+        earth: commonest(map, Tile::Brown),
+        houses_of: houses::by_stripe(&houses, map.columns),
+        grid,
+        groups,
+        levels,
+        houses,
+        backs: vec![],
+    };
+    (context, constraints)
 }
 
 /// The commonest material of a kind of tile.

@@ -4,11 +4,13 @@
 //! at height y that is visible at row r lies at z = r + y.
 
 mod ambiguities;
+mod backs;
 mod column;
 mod constraints;
 mod flush;
 mod grid;
 mod groups;
+mod hidden_houses;
 mod houses;
 mod landscape;
 mod levels;

@@ -105,3 +105,22 @@ impl Occlusion {
         }
     }
 }
+
+/// The first row from `row` on in which a wall at z would be seen; beyond the drawing it would be.
+pub(super) fn wall_seen(views: &[View], row: i32, z: i32) -> i32 {
+    let start = views.partition_point(|view| view.end <= row);
+    let mut row = row;
+    for view in &views[start..] {
+        let hides = match view.visible {
+            Visible::Nothing => false,
+            // The point of the wall in a row is hidden by a top that is farther to the front there.
+            Visible::Top(level) | Visible::Roof(level) => row.max(view.start) + level >= z,
+            Visible::Front(plane) => plane >= z,
+        };
+        if view.start > row || !hides {
+            break;
+        }
+        row = view.end;
+    }
+    row
+}

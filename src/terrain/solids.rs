@@ -38,6 +38,8 @@ pub(super) struct MapContext {
     pub(super) flush: Vec<Option<i32>>,
     /// The material of earth where none is drawn.
     pub(super) earth: Option<u8>,
+    /// Per column the ground that the drawing hides (rule 10); empty before it is known, and if there is none.
+    pub(super) backs: Vec<Vec<Block>>,
 }
 
 /// The blocks of a column and what is visible of them, in reused lists.
@@ -50,6 +52,8 @@ pub(super) struct Solids {
     pub(super) views: Vec<View>,
     /// In no order; they may overlap.
     pub(super) blocks: Vec<Block>,
+    /// How many of the blocks, from the first, are ground and not houses.
+    pub(super) grounds: usize,
     /// Per segment the z of its block's back.
     backs: Vec<i32>,
     hidden: Occlusion,
@@ -78,6 +82,14 @@ impl Solids {
             }
             self.hidden.push(&self.views, index);
         }
+        let houses = context.houses_of[number / STRIPE].iter();
+        let houses = houses.map(|house| &context.houses[*house as usize]);
+        let houses = houses.filter(|house| house.walls.contains(&(number as i32)));
+        self.blocks.extend(houses.filter_map(|house| house.under));
+        if let Some(backs) = context.backs.get(number) {
+            self.blocks.extend(backs);
+        }
+        self.grounds = self.blocks.len();
         self.walls(context);
     }
 

@@ -2,6 +2,8 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::print_stdout, reason = "what was measured is told")]
 
+mod backs;
+mod byhand;
 mod drawn;
 mod letters;
 mod rules;

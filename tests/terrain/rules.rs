@@ -467,6 +467,46 @@ fn a_house_stands_on_its_hill() {
     );
 }
 
+/// Rule 8: a roof in several colours has them where they are drawn, on both of its slopes.
+#[test]
+fn roofs_have_the_materials_of_their_tiles() {
+    let mut house = map("
+        R R R R
+        R R R R
+        R R R R
+        B B B B");
+    house.tiles.push(okoshi::internals::terrain::Tile::Red);
+    let other = house.tiles.len() as u8 - 1;
+    // The middle row, and the last tile of the eaves.
+    house.cells[4..8].fill(other);
+    house.cells[11] = other;
+    let area = |roof: f64| {
+        let mut areas = [0.0_f64; 8];
+        for (material, pieces) in Landscape::new(&house).surface(roof, 0.0) {
+            for piece in &pieces {
+                for triangle in &piece.triangles {
+                    let [a, b, c] = triangle.map(|corner| piece.positions[corner as usize]);
+                    let [u, v] =
+                        [b, c].map(|end| [0, 1, 2].map(|axis| f64::from(end[axis] - a[axis])));
+                    let cross =
+                        [1, 2, 0].map(|i: usize| u[i] * v[(i + 1) % 3] - u[(i + 1) % 3] * v[i]);
+                    areas[usize::from(material)] +=
+                        cross.iter().map(|x| x * x).sum::<f64>().sqrt() / 2.0;
+                }
+            }
+        }
+        areas
+    };
+    // Each tile is a third of a slope, √2 × 3 / 2 long, one tile wide.
+    let tile = 2.0_f64.sqrt() / 2.0;
+    let areas = area(0.5);
+    assert!(
+        (areas[usize::from(other)] - 2.0 * 5.0 * tile).abs() < 1e-5,
+        "{areas:?}"
+    );
+    assert!((areas[4] - 2.0 * 7.0 * tile).abs() < 1e-5, "{areas:?}");
+}
+
 /// Rule 8: edges separate adjacent houses.
 #[test]
 fn edges_separate_houses() {
@@ -514,6 +554,61 @@ fn remaining_tiles_are_built_too() {
         [0, 1, 2].map(|axis| high[axis] - low[axis]),
         [2.0, 3.0, 1.0]
     );
+}
+
+/// Rule 9: a roof behind a hill is that of a house whose wall the hill hides; on a plaza it is not.
+#[test]
+fn houses_may_stand_behind_hills() {
+    let hill = "
+        . R R . R R .
+        g R R g R R g
+        :-     -
+        g g g g B B g
+        g g g g|g g g
+        b b b b g g g
+        g g g g g g g";
+    let land = Landscape::new(&map(hill));
+    assert_eq!(notes(hill), []);
+    let built: Vec<HouseInfo> = land.houses().collect();
+    let house = HouseInfo {
+        base: 0,
+        width: 2,
+        depth: 2,
+        height: 1,
+    };
+    assert_eq!(built, [house; 2]);
+    let plaza = "
+        g g g g
+        g R R g
+        g g g g
+        b b b b";
+    assert!(matches!(notes(plaza)[..], [AmbiguityKind::Plain(_)]));
+}
+
+/// Rule 3: of the fronts between two surfaces, the longest that at least a quarter of the columns show.
+#[test]
+fn a_shore_that_is_thicker_in_one_column_does_not_lift_the_island() {
+    let shore = "
+        w w w w w w w w
+        w g g g g g g w
+        w g g g g g g w
+        w b b b b b b w
+        w w w b w w w w
+        w w w w w w w w";
+    let land = Landscape::new(&map(shore));
+    assert_eq!(land.top(1, 1), Some(1));
+    assert_eq!(
+        notes(shore),
+        [AmbiguityKind::Uneven {
+            most: 2,
+            taken: 1,
+            columns: 6
+        }]
+    );
+    // Two of six are more than a quarter: these are the posts of a bridge.
+    let bridge = shore.replace("w w w b w w w w", "w b w b w w w w");
+    assert_eq!(Landscape::new(&map(&bridge)).top(1, 1), Some(2));
+    assert_eq!(notes(&bridge), []);
 }
 
 /// Rule 3: groups without a connection are put on the ground, with a note.

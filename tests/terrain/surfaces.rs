@@ -44,13 +44,13 @@ fn assert_reconstructed(seeds: Range<u64>) {
 }
 
 /// The corners of a triangle, in tiles from the map's top left.
-type Triangle = [[f64; 3]; 3];
+pub(crate) type Triangle = [[f64; 3]; 3];
 
 /// A triangle with its material.
-type Shown = (u8, Triangle);
+pub(crate) type Shown = (u8, Triangle);
 
 /// All triangles of a landscape.
-fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
+pub(crate) fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
     let middle = [map.columns as f64 / 2.0, 0.0, map.rows as f64 / 2.0];
     let mut shown = vec![];
     for (look, pieces) in land.surface(roof, bevel) {
@@ -70,10 +70,9 @@ fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
     shown
 }
 
-/// The material that is visible at the middle of each cell, where a point (x, y, z) appears at column x and row z − y.
-fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
-    // Slightly off the middle, which is on the diagonals of squares.
-    const SPOT: [f64; 2] = [0.47, 0.56];
+/// What is visible at a spot of each cell, where a point (x, y, z) appears at column x and row z − y: how near it is, y + z, and its
+/// material.
+pub(crate) fn looked_at(map: &Map, triangles: &[Shown], spot: [f64; 2]) -> Vec<(f64, u8)> {
     let mut nearest = vec![(f64::NEG_INFINITY, 0); map.cells.len()];
     for (look, corners) in triangles {
         let flat = corners.map(|[x, y, z]| [x, z - y]);
@@ -93,7 +92,7 @@ fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
         let ((left, right), (top, bottom)) = (bounds(0), bounds(1));
         for row in top..bottom.min(map.rows) {
             for column in left..right.min(map.columns) {
-                let spot = [column as f64 + SPOT[0], row as f64 + SPOT[1]];
+                let spot = [column as f64 + spot[0], row as f64 + spot[1]];
                 let weights = [
                     cross(flat[1], flat[2], spot) / area,
                     cross(flat[2], flat[0], spot) / area,
@@ -117,13 +116,15 @@ fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
             }
         }
     }
-    nearest.into_iter().map(|(_, look)| look).collect()
+    nearest
 }
 
 /// Fails with the cells of a map that do not look as drawn.
 fn assert_seen_as_drawn(map: &Map, name: &str) {
     let land = Landscape::new(map);
-    let seen = looked_at(map, &triangles(map, &land, 0.5, 0.0));
+    // Slightly off the middle, which is on the diagonals of squares.
+    let seen = looked_at(map, &triangles(map, &land, 0.5, 0.0), [0.47, 0.56]);
+    let seen: Vec<u8> = seen.into_iter().map(|(_, look)| look).collect();
     let wrong: Vec<_> = (0..map.cells.len())
         .filter(|cell| map.tile(*cell) != Tile::None && seen[*cell] != map.cells[*cell])
         .map(|cell| (cell % map.columns, cell / map.columns))
@@ -246,6 +247,40 @@ fn surfaces_look_like_their_maps() {
     }
 }
 
+/// The map with a second material for some of its roofs' tiles.
+fn with_patterned_roofs(mut map: Map, seed: u64) -> Map {
+    let mut random = fastrand::Rng::with_seed(seed);
+    map.tiles.push(Tile::Red);
+    let other = map.tiles.len() as u8 - 1;
+    for cell in &mut map.cells {
+        if map.tiles[usize::from(*cell)] == Tile::Red && random.u8(..3) == 0 {
+            *cell = other;
+        }
+    }
+    map
+}
+
+#[test]
+fn patterned_roofs_look_as_drawn_and_are_closed() {
+    for seed in 0..1500 {
+        let world = with_patterned_roofs(World::random(seed).draw().map, seed);
+        if !world.cells.contains(&4) {
+            continue;
+        }
+        let name = format!("landscape {seed}");
+        assert_closed(&world, 0.5, 0.0, &name);
+        assert_closed(&world, 0.7, 0.3, &name);
+        assert_no_faces_back_to_back(&world, 0.5, 0.0, &name);
+        if Landscape::new(&world).ambiguities().is_empty() {
+            assert_seen_as_drawn(&world, &name);
+        }
+    }
+    for seed in 0..300 {
+        let scribble = with_patterned_roofs(scribble(seed), seed);
+        assert_closed(&scribble, 0.7, 0.0, &format!("scribble {seed}"));
+    }
+}
+
 /// Checks a landscape and a scribble for each seed, with these bevels.
 fn for_each_map(seeds: u64, bevels: [f64; 2], check: impl Fn(&Map, f64, f64, &str)) {
     let [of_landscape, of_scribble] = bevels;
@@ -269,6 +304,39 @@ fn surfaces_are_closed() {
 #[test]
 fn bevelled_surfaces_are_closed() {
     for_each_map(200, [0.25, 0.4], assert_closed);
+}
+
+/// Landscapes side by side, so that the map is wider than the stripes that are meshed at once.
+fn wide(seed: u64) -> Map {
+    let maps: Vec<Map> = (0..9)
+        .map(|part| World::random(seed * 9 + part).draw().map)
+        .collect();
+    let columns = maps.iter().map(|map| map.columns).sum();
+    let rows = maps.iter().map(|map| map.rows).max().unwrap_or(0);
+    let mut wide = Map::empty(columns, rows);
+    let mut left = 0;
+    for map in maps {
+        for cell in 0..map.cells.len() {
+            let (column, row) = (cell % map.columns, cell / map.columns);
+            let at = wide.index(left + column, row);
+            wide.cells[at] = map.cells[cell];
+            wide.edges[at] = map.edges[cell];
+        }
+        left += map.columns;
+    }
+    wide
+}
+
+#[test]
+fn wide_surfaces_are_closed() {
+    for seed in 0..40 {
+        let map = wide(seed);
+        assert!(map.columns > 64);
+        for bevel in [0.0, 0.3] {
+            assert_closed(&map, 0.5, bevel, &format!("wide {seed}"));
+            assert_no_faces_back_to_back(&map, 0.5, bevel, &format!("wide {seed}"));
+        }
+    }
 }
 
 #[test]

@@ -195,13 +195,34 @@ impl World {
         })
     }
 
+    /// The cells of the plan that the drawing does not show, although something is drawn where they would be seen: column, z
+    /// from the drawing's first row, and the height of the ground or water there; `None` where there is nothing.
+    pub(crate) fn hidden(&self) -> Vec<([i32; 2], Option<i32>)> {
+        let [low, high] = self.bounds();
+        let places = (0..self.depth).flat_map(|z| (0..self.columns).map(move |x| (x, z)));
+        let hidden = places.filter_map(|(x, z)| {
+            let height = match self.at(x, z) {
+                Some((_, Top::Roof(..))) => return None,
+                place => place.map(|(height, _)| height),
+            };
+            let sight = self.sight(x, z - height.unwrap_or(0), [low, high])?;
+            let shows = sight.look == GREEN || sight.look == BLUE;
+            let is_seen = shows && Some(sight.height) == height;
+            (!is_seen).then_some(([x, z + high], height))
+        });
+        hidden.collect()
+    }
+
+    /// The lowest and the highest top, including the ground at 0.
+    fn bounds(&self) -> [i32; 2] {
+        let heights = self.places.iter().flatten().map(|(height, _)| *height);
+        let high = heights.clone().max().unwrap_or(0);
+        [heights.min().unwrap_or(0).min(0), high]
+    }
+
     /// The map: with edges wherever heights or faces of neighbours differ.
     pub(crate) fn draw(&self) -> Drawn {
-        let heights = self.places.iter().flatten().map(|(height, _)| *height);
-        let (low, high) = (
-            heights.clone().min().unwrap_or(0).min(0),
-            heights.max().unwrap_or(0),
-        );
+        let [low, high] = self.bounds();
         let rows = self.depth + high;
         let sights: Vec<Option<Sight>> = (-high..self.depth)
             .flat_map(|row| (0..self.columns).map(move |x| (x, row)))
@@ -259,7 +280,7 @@ pub(crate) fn scribble(seed: u64) -> Map {
 
 /// A map as text: a letter per cell.
 pub(crate) fn picture(map: &Map) -> String {
-    let letters = [' ', 'g', 'b', 'w', 'R', 'B'];
+    let letters = [' ', 'g', 'b', 'w', 'R', 'B', 'r'];
     let rows = map.cells.chunks(map.columns);
     let line =
         |row: &[u8]| -> String { row.iter().map(|look| letters[usize::from(*look)]).collect() };

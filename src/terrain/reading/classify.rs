@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap;
 
+use super::colors::Named;
 use super::materials::{Meaning, Paints, TileMaterial};
 use super::raster::{Canvas, Code, NOTHING, paint_of};
 use crate::svg::PaintKey;
@@ -127,7 +128,7 @@ fn material_per_paint(
     }
     let mut classification = Classification::new();
     // Sorted by kind and paint, so that the order of materials does not depend on the cells.
-    let mut drawn: BTreeMap<(Tile, PaintKey, u64), Vec<(Code, Meaning)>> = BTreeMap::new();
+    let mut drawn: BTreeMap<(Named, PaintKey, u64), Vec<(Code, Meaning)>> = BTreeMap::new();
     for (code, tally) in all {
         let meaning = paints.meaning(code);
         classification.legends.extend(meaning.legend);
@@ -135,23 +136,23 @@ fn material_per_paint(
             Some(paint) => paints.list[paint].key.clone(),
             None => PaintKey::Solid(meaning.color),
         };
-        match meaning.tile {
+        match meaning.named {
             None => classification.unclear.push((code, tally)),
-            Some(Tile::None) => {}
-            Some(tile) => {
-                let same = drawn.entry((tile, key, meaning.opacity.to_bits()));
+            Some(Named::Tile(Tile::None)) => {}
+            Some(named) => {
+                let same = drawn.entry((named, key, meaning.opacity.to_bits()));
                 same.or_default().push((code, meaning));
             }
         }
     }
     let mut material_of: FxHashMap<Code, u8> = FxHashMap::default();
-    for ((tile, key, _), same) in drawn {
+    for ((named, key, _), same) in drawn {
         // A pixel and a shape may have the same colour.
         let Some((code, meaning)) = same.first() else {
             continue;
         };
         let color = meaning.color.map(f64::from);
-        let material = paints.material(tile, meaning.legend, color, meaning.opacity);
+        let material = paints.material(named, meaning.legend, color, meaning.opacity);
         let is_plain = material.texture.is_none() && !material.is_tinted;
         let is_server = matches!(key, PaintKey::Server(_));
         classification
@@ -182,11 +183,11 @@ fn material_per_kind(
     paints: &Paints<'_>,
     mut cells: Vec<u8>,
 ) -> Classification {
-    const KINDS: usize = Tile::DRAWN.len();
+    const KINDS: usize = Named::ALL.len();
     let number = |meaning: Meaning| -> u8 {
-        let Some(kind) = Tile::DRAWN
+        let Some(kind) = Named::ALL
             .iter()
-            .position(|tile| Some(*tile) == meaning.tile)
+            .position(|named| Some(*named) == meaning.named)
         else {
             return 0;
         };
@@ -194,7 +195,7 @@ fn material_per_kind(
         legend.map_or(kind + 1, |legend| KINDS + 1 + legend) as u8
     };
     let bands = canvas.bands(&mut cells, |band, cells| {
-        let mut known: FxHashMap<Code, (u8, Option<Tile>)> = FxHashMap::default();
+        let mut known: FxHashMap<Code, (u8, bool)> = FxHashMap::default();
         let mut sums = vec![Sum::default(); 256];
         let mut legends: BTreeMap<usize, ()> = BTreeMap::new();
         let mut unclear: FxHashMap<Code, Tally> = FxHashMap::default();
@@ -206,12 +207,12 @@ fn material_per_kind(
                 if known.len() > MAX_CACHED {
                     known.clear();
                 }
-                let (material, tile) = *known.entry(*code).or_insert_with(|| {
+                let (material, is_unclear) = *known.entry(*code).or_insert_with(|| {
                     let meaning = paints.meaning(*code);
                     legends.extend(meaning.legend.map(|legend| (legend, ())));
-                    (number(meaning), meaning.tile)
+                    (number(meaning), meaning.named.is_none())
                 });
-                if tile.is_none() && (unclear.len() < MAX_UNCLEAR || unclear.contains_key(code)) {
+                if is_unclear && (unclear.len() < MAX_UNCLEAR || unclear.contains_key(code)) {
                     unclear.entry(*code).or_default().add(cell + offset);
                 }
                 cells[place + offset] = material;
@@ -248,15 +249,15 @@ fn material_per_kind(
     {
         let legend = index.checked_sub(KINDS + 1);
         let color = sum.color.map(|channel| channel as f64 / sum.count as f64);
-        let tile = match legend {
-            Some(_) => sum.tile,
-            None => Tile::DRAWN[index - 1],
+        let named = match legend {
+            Some(_) => sum.named,
+            None => Named::ALL[index - 1],
         };
         table[index] = classification.materials.len() as u8;
         let opacity = sum.opacity / sum.count as f64;
         classification
             .materials
-            .push(paints.material(tile, legend, color, opacity));
+            .push(paints.material(named, legend, color, opacity));
     }
     for cell in &mut cells {
         *cell = table[usize::from(*cell)];
@@ -270,7 +271,7 @@ struct Sum {
     color: [u64; 3],
     opacity: f64,
     count: u64,
-    tile: Tile,
+    named: Named,
 }
 
 impl Sum {
@@ -279,7 +280,7 @@ impl Sum {
         (0..3).for_each(|channel| self.color[channel] += u64::from(color[channel]));
         self.opacity += opacity;
         if self.count == 0 {
-            self.tile = paints.meaning(code).tile.unwrap_or_default();
+            self.named = paints.meaning(code).named.unwrap_or_default();
         }
         self.count += 1;
     }
@@ -288,7 +289,7 @@ impl Sum {
         (0..3).for_each(|channel| self.color[channel] += other.color[channel]);
         self.opacity += other.opacity;
         if self.count == 0 {
-            self.tile = other.tile;
+            self.named = other.named;
         }
         self.count += other.count;
     }

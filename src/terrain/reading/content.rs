@@ -4,19 +4,24 @@ use glam::DVec2;
 use rustc_hash::FxHashSet;
 use typed_index_collections::{TiVec, ti_vec};
 
+use super::colors::Named;
+use super::edges::NEAR;
 use super::grid::Grid;
 use super::materials::{Painted, Paints};
 use super::raster::{Item, MAX_PAINTS, Picture, paint_code};
 use crate::bind::{Bindings, LayerId, PartKind, StringHolder};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::bounds;
+use crate::geometry::{Outline, Polygon, bounds};
 use crate::lang::ast::Annotation;
-use crate::svg::{Drawing, LARGE, PictureSource, ShapeId, StrokeSource};
+use crate::svg::{Drawing, LARGE, Paint, PictureSource, ShapeId, StrokeSource};
+use crate::terrain::Tile;
 
 /// The largest number of pixels of all pictures of a layer.
 const MAX_PIXELS: usize = 1 << 28;
 /// The largest number of cells that the bounding boxes of a layer's shapes may cover, summed.
 const MAX_COVERED: u64 = 1 << 34;
+/// How wide a stroke in the colour of a tile is paint, and not an edge, tiles.
+const ROAD: f64 = 0.5;
 /// For pictures that are SVG: the smallest and the largest number of pixels along the longer side, and the preferred number a
 /// tile, which is odd so that one pixel is in the middle.
 const SVG_SIDE: [u32; 3] = [1024, 8192, 3];
@@ -27,6 +32,8 @@ pub(super) struct Content {
     /// Filled shapes and pictures, each with its bounding box, drawing units.
     pub(super) fills: Vec<(ShapeId, [DVec2; 2])>,
     pub(super) strokes: Vec<ShapeId>,
+    /// Strokes that are paint, each with its area and its bounding box.
+    pub(super) roads: Vec<(ShapeId, Outline, [DVec2; 2])>,
 }
 
 /// The content of each tile layer.
@@ -67,9 +74,41 @@ pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> TiVec<LayerId,
 }
 
 impl Content {
-    /// The bounding box of all fills.
+    /// Makes paint of the strokes that are wider than half a tile and have the colour of one: roads and streams.
+    pub(super) fn with_roads(mut self, drawing: &Drawing, size: f64, paints: &Paints<'_>) -> Self {
+        let mut roads = vec![];
+        self.strokes.retain(|index| {
+            let Some(stroke) = &drawing.shapes[*index].stroke else {
+                return false;
+            };
+            let Paint { key, color, .. } = &stroke.paint;
+            let is_tile = !matches!(
+                paints.named(key, *color).0,
+                None | Some(Named::Tile(Tile::None))
+            );
+            if !(is_tile && stroke.width() > size * ROAD) {
+                return true;
+            }
+            for outline in std::iter::once(stroke.outline()).chain(ends(stroke, size)) {
+                if let Some((low, high)) = bounds(&outline) {
+                    roads.push((*index, outline, [low, high]));
+                }
+            }
+            false
+        });
+        self.roads = roads;
+        self
+    }
+
+    /// How many items are painted.
+    pub(super) fn painted(&self) -> usize {
+        self.fills.len() + self.roads.len()
+    }
+
+    /// The bounding box of all that is painted.
     pub(super) fn bounds(&self) -> Option<[DVec2; 2]> {
-        let boxes = self.fills.iter().map(|(_, bounds)| *bounds);
+        let fills = self.fills.iter().map(|(_, bounds)| *bounds);
+        let boxes = fills.chain(self.roads.iter().map(|(_, _, bounds)| *bounds));
         boxes.reduce(|one, other| [one[0].min(other[0]), one[1].max(other[1])])
     }
 
@@ -85,25 +124,36 @@ impl Content {
     /// # Errors
     /// The layer exceeds a limit.
     pub(super) fn items<'a>(
-        &self,
+        &'a self,
         drawing: &'a Drawing,
         grid: &Grid,
         paints: &mut Paints<'a>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Result<Vec<(ShapeId, Item<'a>)>, Box<Diagnostic>> {
-        let mut items = Vec::with_capacity(self.fills.len());
+        let mut items = Vec::with_capacity(self.painted());
         let (mut pixels, mut painted) = (0_usize, 0_u64);
-        for (index, bounds) in &self.fills {
+        let fills = self
+            .fills
+            .iter()
+            .map(|(index, bounds)| (*index, None, *bounds));
+        let roads = self.roads.iter();
+        let roads = roads.map(|(index, outline, bounds)| (*index, Some(outline), *bounds));
+        let mut all: Vec<_> = fills.chain(roads).collect();
+        // A stroke is painted over the fill of its shape.
+        all.sort_by_key(|(index, road, _)| (*index, road.is_some()));
+        for (index, road, bounds) in &all {
             let shape = &drawing.shapes[*index];
             let too_much = |what: String| {
                 let help = "remove what is hidden, or use one picture with one pixel per tile";
                 Box::new(Diagnostic::new(Code::LimitPassed, shape.element.span, what).help(help))
             };
-            let item = match &shape.picture {
+            let stroke = road.and(shape.stroke.as_deref());
+            let item = match shape.picture.as_ref().filter(|_| road.is_none()) {
                 None => {
+                    let paint = stroke.map_or(&shape.paint, |stroke| &stroke.paint);
                     let paint = paints.index(Painted {
-                        key: &shape.paint.key,
-                        color: shape.paint.color,
+                        key: &paint.key,
+                        color: paint.color,
                         opacity: shape.opacity,
                         shape: *index,
                     });
@@ -112,7 +162,8 @@ impl Content {
                             "a tile layer has more than {MAX_PAINTS} paints"
                         )));
                     }
-                    Item::area(grid, &shape.outline, *bounds, paint_code(paint))
+                    let outline = road.unwrap_or(&shape.outline);
+                    Item::area(grid, outline, *bounds, paint_code(paint))
                 }
                 Some(source) => match picture(grid, source) {
                     Ok(mut picture) => {
@@ -147,6 +198,41 @@ impl Content {
         }
         Ok(items)
     }
+}
+
+/// Continuations of a stroke beyond its open ends, by as much as an edge may be off: a road that is drawn from the middle of a tile to
+/// the middle of another covers both.
+fn ends(stroke: &StrokeSource, size: f64) -> Vec<Outline> {
+    let mut lines: Vec<Vec<DVec2>> = vec![];
+    stroke.middle_line(size * NEAR / 4.0, |from, to| {
+        match lines.last_mut().filter(|line| line.last() == Some(&from)) {
+            Some(line) => line.push(to),
+            None => lines.push(vec![from, to]),
+        }
+    });
+    let open = lines.iter().filter(|line| line.first() != line.last());
+    let ends = open.flat_map(|line| {
+        [
+            [line[1], line[0]],
+            [line[line.len() - 2], line[line.len() - 1]],
+        ]
+    });
+    let ends = ends.filter_map(|[before, end]| {
+        let way = (end - before).try_normalize()?;
+        let [beyond, aside] = [way * size * NEAR, way.perp() * stroke.width() / 2.0];
+        // It overlaps the stroke, so that there is no seam.
+        let end = end - beyond;
+        let beyond = beyond * 2.0;
+        let ring = vec![
+            end - aside,
+            end + aside,
+            end + aside + beyond,
+            end - aside + beyond,
+        ];
+        let polygons = vec![Polygon { rings: vec![ring] }];
+        Some(Outline { polygons })
+    });
+    ends.collect()
 }
 
 fn picture<'a>(grid: &Grid, source: &PictureSource) -> Result<Picture<'a>, (Code, String)> {

@@ -5,13 +5,16 @@ use glam::DVec2;
 use super::Layer;
 use super::classify::Tally;
 use super::content::Content;
+use super::edges::Stray;
+use super::fit::{Borders, Fit};
 use super::grid::{Grid, rectangle};
 use super::materials::Paints;
 use super::raster::Code as Painted;
 use crate::bind::{Bindings, LayerId};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
+use crate::geometry::contains;
 use crate::source::Span;
-use crate::svg::{Drawing, PaintKey, ShapeId};
+use crate::svg::{Drawing, GroupKind, PaintKey, ShapeId};
 use crate::terrain::{AmbiguityKind, MAX_CELLS, Tile};
 
 /// The largest distance of tiles' borders from the grid, cells.
@@ -20,6 +23,8 @@ const OFF: f64 = 0.1;
 const MAX_COLORS: usize = 5;
 /// The largest number of ambiguities that are reported one by one.
 const MAX_AMBIGUITIES: usize = 12;
+/// The largest number of cells of a shape that are examined for whether it covers one of them.
+const MAX_EXAMINED: f64 = 16.0;
 /// The largest number of shapes that a diagnostic refers to.
 const MAX_SHOWN: usize = 3;
 
@@ -127,6 +132,14 @@ impl AmbiguityKind {
                 format!("this group hangs in the air: its height is {needed}, but {drawn} brown tiles are drawn below it"),
                 "draw as many brown tiles as it is high, or draw an edge where another group begins".into(),
             ),
+            Self::Uneven { most, taken: 0, columns } => (
+                format!("a few of the {columns} columns of this group's lower border have up to {most} brown tiles, and the others none, so the group is as high as what is below it"),
+                format!("draw no brown tiles there, or draw {most} in a quarter of the columns to lift the group"),
+            ),
+            Self::Uneven { most, taken, columns } => (
+                format!("a few of the {columns} columns of this group's front have up to {most} brown tiles, so the group is only {taken} high, and there the front goes on below what it stands on"),
+                format!("draw at most {taken} brown tiles everywhere, or draw {most} in a quarter of the columns to lift the group"),
+            ),
             Self::Plain(Tile::Red) => (
                 "a roof without a wall below it is read as ground of its colour".into(),
                 "draw beige tiles below the roof, or say what the colour means: `$Tile green`".into(),
@@ -232,7 +245,7 @@ pub(super) fn plain(drawing: &Drawing, paints: &Paints<'_>, list: &[usize]) -> V
     list.iter().filter_map(finding).collect()
 }
 
-/// Warns about tiles that are off the grid.
+/// Warns about tiles that are off the grid, with the grid that fits them if there is one.
 pub(super) fn off_grid(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -242,60 +255,177 @@ pub(super) fn off_grid(
 ) -> Option<Diagnostic> {
     let off = |p: DVec2| {
         let cells = grid.cells(p);
-        cells - cells.round()
+        (cells - cells.round()).abs().max_element()
     };
-    let mut count = 0;
-    let mut found: Vec<(ShapeId, DVec2)> = Vec::new();
-    // The offset that all of them have in common, if there is one.
-    let mut common: Option<Option<DVec2>> = None;
+    let (mut count, mut found) = (0, vec![]);
     for (shape, [low, high]) in &content.fills {
-        if rectangle(&drawing.shapes[*shape].outline).is_none() {
-            continue;
-        }
-        count += 1;
-        let [from, to] = [off(*low), off(*high)];
-        let alike = |one: DVec2, other: DVec2| {
-            // Offsets are equal modulo a cell.
-            let apart = one - other;
-            (apart - apart.round()).abs().max_element() < OFF / 10.0
-        };
-        common = Some(match common {
-            None => Some(from).filter(|from| alike(*from, to)),
-            Some(known) => known.filter(|known| alike(*known, from) && alike(*known, to)),
-        });
-        if from.abs().max(to.abs()).max_element() > OFF {
-            found.push((*shape, from));
+        if rectangle(&drawing.shapes[*shape].outline).is_some() {
+            count += 1;
+            found.extend((off(*low).max(off(*high)) > OFF).then_some(*shape));
         }
     }
-    let (_, first) = found.first()?;
-    let name = &bindings.layers[layer].name;
-    let message = match found.len() {
-        1 if count == 1 => format!("the shape in `{name}` is off the grid"),
-        off if off == count => format!("all {count} rectangles in `{name}` are off the grid"),
-        off => format!("{off} of {count} rectangles in `{name}` are off the grid"),
-    };
-    let help = match (found.len() == count, common.flatten()) {
-        (true, Some(_)) => {
-            let [x, y] = (-*first * grid.size)
-                .to_array()
-                .map(|d| (d * 100.0).round() / 100.0 + 0.0);
-            format!(
-                "move the whole layer by {x} to the right and {y} down; the grid begins at a multiple of the size"
-            )
+    let mut borders = Borders::default();
+    for (shape, _) in &content.fills {
+        for ring in drawing.shapes[*shape].outline.rings() {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter()
+                .zip(next)
+                .for_each(|(from, to)| borders.add(*from, *to));
         }
-        _ => format!(
+    }
+    for stroke in content.strokes(drawing) {
+        stroke.middle_line(grid.size * OFF, |from, to| borders.add(from, to));
+    }
+    let name = &bindings.layers[layer].name;
+    let message = match (found.len(), count) {
+        // Of other shapes, most borders must be off.
+        (0, _) if borders.agreement(grid)? > 0.0 => return None,
+        (0, _) => format!("the shapes in `{name}` are off the grid"),
+        (1, 1) => format!("the shape in `{name}` is off the grid"),
+        (off, all) if off == all => format!("all {count} rectangles in `{name}` are off the grid"),
+        (off, _) => format!("{off} of {count} rectangles in `{name}` are off the grid"),
+    };
+    let span = size_span(bindings, layer);
+    let mut finding = Diagnostic::new(Code::OffGrid, span, message);
+    finding = match borders.fit(grid) {
+        None => finding.help(format!(
             "write the size that they are drawn with in place of {}, or move them onto the grid: a cell becomes whatever is drawn at its centre",
             grid.size
-        ),
+        )),
+        Some(fit) => fitting(drawing, bindings, layer, grid.size, fit, finding),
     };
-    let mut finding =
-        Diagnostic::new(Code::OffGrid, size_span(bindings, layer), message).help(help);
-    for (shape, _) in found.iter().take(MAX_SHOWN) {
+    for shape in found.iter().take(MAX_SHOWN) {
         let element = &drawing.shapes[*shape].element;
         finding = finding.related(
             element.span,
             "this one is off by more than a tenth of a tile",
         );
+    }
+    Some(finding)
+}
+
+/// Adds the help and the fix that make the grid fit.
+fn fitting(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    layer: LayerId,
+    written: f64,
+    Fit { size, shift }: Fit,
+    mut finding: Diagnostic,
+) -> Diagnostic {
+    let span = size_span(bindings, layer);
+    let [x, y] = shift.to_array();
+    let is_moved = shift.abs().max_element() > OFF * size.unwrap_or(written);
+    let moving = format!("move the whole layer by {x} to the right and {y} down");
+    let (help, title) = match (size, is_moved) {
+        (Some(size), false) => (
+            format!("write the size that fits its borders best, `Tiles {size}`"),
+            format!("Write `Tiles {size}`"),
+        ),
+        (Some(size), true) => (
+            format!(
+                "write the size that fits its borders best, `Tiles {size}`, and {moving}; the grid begins at a multiple of the size"
+            ),
+            format!("Write `Tiles {size}` and move the layer onto the grid"),
+        ),
+        (None, _) => (
+            format!("{moving}; the grid begins at a multiple of the size"),
+            "Move the layer onto the grid".to_owned(),
+        ),
+    };
+    let group = &drawing.groups[bindings.layers[layer].group];
+    let mut edits: Vec<Edit> = size
+        .map(|size| Edit {
+            span,
+            text: format!("Tiles {size}"),
+        })
+        .into_iter()
+        .collect();
+    let can_move = group.is_untransformed && group.kind != GroupKind::Root;
+    if is_moved && can_move {
+        edits.push(Edit {
+            span: Span::at(group.element.span.end),
+            text: format!(" transform=\"translate({x} {y})\""),
+        });
+    }
+    if !is_moved || can_move {
+        finding.fixes.push(Fix {
+            title,
+            edits,
+            safe: false,
+        });
+    }
+    finding.help(help)
+}
+
+/// Warns about strokes that are no edges.
+pub(super) fn stray(
+    drawing: &Drawing,
+    layer: &Layer,
+    content: &Content,
+    strays: &[Stray],
+) -> Option<Diagnostic> {
+    let shape = |stray: &Stray| &drawing.shapes[content.strokes[stray.stroke]].element;
+    let first = strays.first()?;
+    let mut cells: Vec<usize> = strays.iter().map(|stray| stray.cell).collect();
+    cells.truncate(MAX_SHOWN);
+    let cells = cells_named(layer.map.columns, &cells, strays.len());
+    let what = match strays.len() {
+        1 => "a stroke is no edge: it runs".to_owned(),
+        count => format!("{count} strokes are no edges: they run"),
+    };
+    let message = format!(
+        "`{}`: {what} across tiles, more than a quarter of a tile from the lines between them: {cells}",
+        layer.name
+    );
+    let mut finding = Diagnostic::new(Code::OffGrid, shape(first).span, message).help(
+        "draw edges along the lines between tiles; for what is no edge, write the string `*` beside it",
+    );
+    for stray in strays.iter().take(MAX_SHOWN).skip(1) {
+        finding = finding.related(shape(stray).span, "and this one");
+    }
+    Some(finding)
+}
+
+/// Warns about shapes that are too small or too thin for the map.
+pub(super) fn idle(
+    drawing: &Drawing,
+    layer: &Layer,
+    grid: &Grid,
+    content: &Content,
+) -> Option<Diagnostic> {
+    let misses = |(index, [low, high]): &&(ShapeId, [DVec2; 2])| {
+        let outline = &drawing.shapes[*index].outline;
+        if drawing.shapes[*index].picture.is_some() || rectangle(outline).is_some() {
+            return false;
+        }
+        // The cells whose middles are in its bounding box.
+        let [first, past] = [*low, *high].map(|p| (grid.cells(p) - 0.5).ceil());
+        let count = (past - first).max(DVec2::ZERO);
+        count.x * count.y <= MAX_EXAMINED
+            && (0..count.x as usize * count.y as usize).all(|at| {
+                let (x, y) = (at % count.x as usize, at / count.x as usize);
+                let middle = first + DVec2::new(x as f64, y as f64) + 0.5;
+                !contains(outline, grid.origin + middle * grid.size)
+            })
+    };
+    let idle: Vec<&(ShapeId, [DVec2; 2])> = content.fills.iter().filter(misses).collect();
+    let element = |index: usize| &drawing.shapes[idle[index].0].element;
+    let message = match idle.len() {
+        0 => return None,
+        1 => format!(
+            "a shape in `{}` covers the centre of no tile, so it is not in the map",
+            layer.name
+        ),
+        count => format!(
+            "{count} shapes in `{}` cover the centre of no tile, so they are not in the map",
+            layer.name
+        ),
+    };
+    let mut finding = Diagnostic::new(Code::OffGrid, element(0).span, message)
+        .help("draw what is a tile larger; for decoration, write the string `*` beside it");
+    for index in 1..idle.len().min(MAX_SHOWN) {
+        finding = finding.related(element(index).span, "and this one");
     }
     Some(finding)
 }

@@ -6,8 +6,8 @@ use super::grid::Grid;
 use crate::svg::StrokeSource;
 use crate::terrain::{EDGE_BELOW, EDGE_RIGHT};
 
-/// The largest distance of a stroke from its grid line, cells.
-const NEAR: f64 = 0.1;
+/// The largest distance of a stroke from its grid line, cells: a quarter, so that what is drawn by hand counts.
+pub(super) const NEAR: f64 = 0.25;
 /// How much of a cell's side must be covered, in sixteenths: half of it.
 const COVERED: u32 = 8;
 /// The number of places on a side that are tested.
@@ -113,4 +113,109 @@ impl Sides {
             at = end;
         }
     }
+}
+
+/// A stroke that is no edge for a part of its way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Stray {
+    /// Its index among the strokes.
+    pub(super) stroke: usize,
+    /// The first cell that it crosses.
+    pub(super) cell: usize,
+}
+
+/// The distance of the places of a stroke that are looked at, cells.
+const STRIDE: f64 = 1.0 / 8.0;
+/// How much of a stroke must be stray, cells.
+const STRAY: f64 = 0.5;
+/// How many places are looked at for each cell of the map, and for each stroke.
+const PLACES_LOOKED_AT: usize = 64;
+
+/// The strokes that run across cells, too far from the lines between them, for half a cell or more. Where the cells on both sides are
+/// of different materials, such as along the border of a shape, nothing is lost, and where there are none.
+pub(super) fn strays(grid: &Grid, strokes: &[&StrokeSource], cells: &[u8]) -> Vec<Stray> {
+    let mut left = (cells.len() + strokes.len()).saturating_mul(PLACES_LOOKED_AT);
+    let mut strays = vec![];
+    for (index, stroke) in strokes.iter().enumerate() {
+        let (mut lost, mut first) = (0.0, None);
+        stroke.middle_line(grid.size * NEAR / 4.0, |from, to| {
+            let Some([from, to]) = clipped(grid, grid.cells(from), grid.cells(to)) else {
+                return;
+            };
+            let way = to - from;
+            let places = (way.length() / STRIDE).ceil().max(1.0) as usize;
+            if places > left {
+                left = 0;
+                return;
+            }
+            left -= places;
+            for place in 0..places {
+                let at = from + way * ((place as f64 + 0.5) / places as f64);
+                let off = (at - at.round()).abs();
+                // Upright lines must be near upright ones, level lines near level ones, and slanted ones near any.
+                let slanted = way.x.abs().min(way.y.abs()) * 2.0 > way.x.abs().max(way.y.abs());
+                let off = match way.x.abs() > way.y.abs() {
+                    _ if slanted => off.min_element(),
+                    true => off.y,
+                    false => off.x,
+                };
+                if off > NEAR
+                    && let Some(cell) = alike(grid, cells, at)
+                {
+                    lost += way.length() / places as f64;
+                    first.get_or_insert(cell);
+                }
+            }
+        });
+        if lost >= STRAY
+            && let Some(cell) = first
+        {
+            strays.push(Stray {
+                stroke: index,
+                cell,
+            });
+        }
+    }
+    strays
+}
+
+/// The part of a line on the map, if there is one.
+fn clipped(grid: &Grid, from: DVec2, to: DVec2) -> Option<[DVec2; 2]> {
+    let (way, extent) = (to - from, grid.extent());
+    let (mut start, mut end) = (0.0_f64, 1.0_f64);
+    for axis in 0..2 {
+        let ends = [
+            -from[axis] / way[axis],
+            (extent[axis] - from[axis]) / way[axis],
+        ];
+        if way[axis] == 0.0 {
+            if !(0.0..=extent[axis]).contains(&from[axis]) {
+                return None;
+            }
+            continue;
+        }
+        start = start.max(ends[0].min(ends[1]));
+        end = end.min(ends[0].max(ends[1]));
+    }
+    // Written so that NaN is no line.
+    (start < end).then(|| [from + way * start, from + way * end])
+}
+
+/// The cell at a place, if it is painted, and its four neighbours have the same material.
+fn alike(grid: &Grid, cells: &[u8], at: DVec2) -> Option<usize> {
+    let extent = [grid.columns, grid.rows];
+    let [column, row] = [0, 1].map(|axis| (at[axis].max(0.0) as usize).min(extent[axis] - 1));
+    let cell = row * grid.columns + column;
+    let material = cells[cell];
+    let around = [
+        (column > 0).then(|| cell - 1),
+        (column + 1 < grid.columns).then_some(cell + 1),
+        (row > 0).then(|| cell - grid.columns),
+        (row + 1 < grid.rows).then(|| cell + grid.columns),
+    ];
+    let same = around
+        .into_iter()
+        .flatten()
+        .all(|other| cells[other] == material);
+    (material != 0 && same).then_some(cell)
 }

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::colors;
+use super::colors::{self, Named};
 use super::raster::{Code, paint_of, pixel_of};
 use crate::bind::{Bindings, LayerId, MaterialFactors, StringId};
 use crate::source::Span;
@@ -22,6 +22,8 @@ pub struct TileMaterial {
     pub is_tinted: bool,
     /// Index of the legend of their paint.
     pub legend: Option<usize>,
+    /// Whether they are ground because their colour is that of sand.
+    pub is_sand: bool,
 }
 
 /// An image on tiles.
@@ -49,6 +51,7 @@ impl TileMaterial {
             texture: None,
             is_tinted: false,
             legend: None,
+            is_sand: false,
         }
     }
 }
@@ -68,7 +71,7 @@ pub(super) struct Painted<'a> {
 #[derive(Clone, Copy)]
 pub(super) struct Meaning {
     /// `None` if it is not clear.
-    pub(super) tile: Option<Tile>,
+    pub(super) named: Option<Named>,
     pub(super) legend: Option<usize>,
     pub(super) color: [u8; 3],
     pub(super) opacity: f64,
@@ -115,21 +118,26 @@ impl<'a> Paints<'a> {
         }
     }
 
+    /// What tiles of a paint are, if that is clear, and the index of their legend; `color` is the paint's mean.
+    pub(super) fn named(&self, key: &PaintKey, color: [u8; 3]) -> (Option<Named>, Option<usize>) {
+        let legend = self.legends.get(key).copied();
+        let attributes = self.bindings.tile_attributes(self.layer, legend);
+        let named = match attributes.tile() {
+            Some(word) => Some(Named::Tile(tile(word))),
+            None => colors::named(color),
+        };
+        (named, legend)
+    }
+
     /// The meaning of a code other than [`NOTHING`](super::raster::NOTHING).
     pub(super) fn meaning(&self, code: Code) -> Meaning {
         let (color, opacity) = self.appearance(code);
-        let legend = match paint_of(code) {
-            Some(paint) => self.legends.get(self.list[paint].key),
-            None => self.legends.get(&PaintKey::Solid(color)),
-        };
-        let legend = legend.copied();
-        let attributes = self.bindings.tile_attributes(self.layer, legend);
-        let tile = match attributes.tile() {
-            Some(word) => Some(tile(word)),
-            None => colors::kind(color),
+        let (named, legend) = match paint_of(code) {
+            Some(paint) => self.named(self.list[paint].key, color),
+            None => self.named(&PaintKey::Solid(color), color),
         };
         Meaning {
-            tile,
+            named,
             legend,
             color,
             opacity,
@@ -139,7 +147,7 @@ impl<'a> Paints<'a> {
     /// The material of tiles that are drawn in `color`, sRGB from 0 to 255.
     pub(super) fn material(
         &self,
-        tile: Tile,
+        named: Named,
         legend: Option<usize>,
         color: [f64; 3],
         opacity: f64,
@@ -149,7 +157,8 @@ impl<'a> Paints<'a> {
         let [r, g, b] = color.map(|channel| channel / 255.0);
         let texture = attributes.texture();
         TileMaterial {
-            tile,
+            tile: named.tile(),
+            is_sand: named == Named::Sand,
             factors: attributes.material_factors([r, g, b, opacity], set_color),
             texture: texture.map(|texture| TileTexture {
                 link: texture.value.to_owned(),

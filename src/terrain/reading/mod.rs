@@ -1,16 +1,20 @@
 //! Tile maps read from drawings.
 //!
-//! Invariant: the kind of a cell is that of the front-most paint at its middle; two cells have an edge between them if a stroke
-//! runs along their common side.
+//! Invariant: the kind of a cell is that of the front-most paint at its middle, and of a picture's commonest paint within it; two cells
+//! have an edge between them if a stroke runs along their common side. What is drawn and is neither is reported.
 
 mod classify;
 mod colors;
 mod content;
 mod diagnostics;
 mod edges;
+mod fit;
 mod grid;
 mod materials;
+#[cfg(test)]
+mod palettes;
 mod raster;
+mod sand;
 #[cfg(test)]
 mod tests;
 
@@ -78,6 +82,19 @@ pub struct TileSource {
     pub columns: Range<usize>,
     /// Rows.
     pub rows: Range<usize>,
+}
+
+impl TileSource {
+    /// Adds the cells of another piece of the shape.
+    fn extend(&mut self, columns: Range<usize>, rows: Range<usize>) {
+        let wider = |one: &Range<usize>, other: Range<usize>| match one.is_empty() {
+            true => other,
+            false if other.is_empty() => one.clone(),
+            false => one.start.min(other.start)..one.end.max(other.end),
+        };
+        self.columns = wider(&self.columns, columns);
+        self.rows = wider(&self.rows, rows);
+    }
 }
 
 impl Layer {
@@ -183,6 +200,8 @@ impl Reading<'_> {
                 drawing, bindings, index, holds,
             ))))
         };
+        let mut paints = Paints::new(bindings, index);
+        let content = &content.clone().with_roads(drawing, size, &paints);
         let Some(bounds) = content.bounds() else {
             return nothing(false);
         };
@@ -194,23 +213,25 @@ impl Reading<'_> {
         if grid.columns == 0 || grid.rows == 0 {
             return nothing(true);
         }
-        let mut paints = Paints::new(bindings, index);
         let items = content.items(drawing, &grid, &mut paints, diagnostics)?;
-        let sources = items.iter().map(|(shape, item)| {
+        let mut sources: Vec<TileSource> = Vec::with_capacity(items.len());
+        for (shape, item) in &items {
             let [columns, rows] = item.reach(&grid).map(|[from, to]| from..to);
-            TileSource {
-                shape: *shape,
-                columns,
-                rows,
+            match sources.last_mut().filter(|last| last.shape == *shape) {
+                Some(last) => last.extend(columns, rows),
+                None => sources.push(TileSource {
+                    shape: *shape,
+                    columns,
+                    rows,
+                }),
             }
-        });
-        let sources: Vec<TileSource> = sources.collect();
+        }
         let items: Vec<_> = items.into_iter().map(|(_, item)| item).collect();
-        let is_complete = items.len() == content.fills.len();
-        let canvas = Canvas::new(grid, items);
+        let is_complete = items.len() == content.painted();
+        let canvas = Canvas::new(grid, items, &paints);
         let Classification {
-            cells,
-            materials,
+            mut cells,
+            mut materials,
             unclear,
             legends,
             plain,
@@ -220,8 +241,11 @@ impl Reading<'_> {
         drop(canvas);
         let is_empty = materials.len() == 1 && unclear.is_empty();
         let mut edges = vec![0; cells.len()];
-        edges::read(&grid, &content.strokes(drawing), &mut edges);
+        let strokes = content.strokes(drawing);
+        edges::read(&grid, &strokes, &mut edges);
+        let strays = edges::strays(&grid, &strokes, &cells);
         legends.iter().for_each(|legend| used[*legend] = true);
+        sand::walls(&mut cells, &edges, &sources, grid.columns, &mut materials);
         let map = Map {
             columns: grid.columns,
             rows: grid.rows,
@@ -249,6 +273,8 @@ impl Reading<'_> {
         diagnostics.extend(diagnostics::off_grid(
             drawing, bindings, index, &grid, content,
         ));
+        diagnostics.extend(diagnostics::stray(drawing, &layer, content, &strays));
+        diagnostics.extend(diagnostics::idle(drawing, &layer, &grid, content));
         if too_many_legends {
             let message =
                 "so many paints are used that not every legend's attributes can be heeded";

@@ -1,4 +1,5 @@
-//! Rasterises a layer at one pixel a cell, without anti-aliasing: the paint at the middle of each cell.
+//! Rasterises a layer at one pixel a cell, without anti-aliasing: the paint of shapes at the middle of each cell, and what most pixels of
+//! a picture are there.
 //!
 //! Bands of rows are drawn on all cores, so that the whole layer is never in memory as a picture.
 
@@ -6,8 +7,11 @@ use glam::{DAffine2, DVec2};
 use image::{DynamicImage, GenericImageView as _};
 use rayon::prelude::*;
 use resvg::tiny_skia::{BlendMode, FillRule, Mask, Paint, Path, PathBuilder, PixmapMut, Transform};
+use rustc_hash::FxHashMap;
 
+use super::colors::Named;
 use super::grid::{Grid, rectangle};
+use super::materials::Paints;
 use crate::geometry::Outline;
 
 /// The paint of a cell, as a pixel of an internal picture. The last byte gives the meaning of the others: 0 nothing; 255 the
@@ -21,6 +25,10 @@ pub(super) const MAX_PAINTS: usize = 1 << 24;
 
 /// Cells in a band.
 const BAND: usize = 1 << 20;
+/// The largest number of places along a cell's side at which a picture is looked at.
+const MAX_PLACES: f64 = 9.0;
+/// The largest number of colours whose names are remembered in a section.
+const MAX_NAMES: usize = 1 << 16;
 /// The side of what is drawn at once, cells: the rasteriser's arithmetic is exact up to that size.
 const SECTION: usize = 4096;
 
@@ -101,6 +109,7 @@ impl<'a> Item<'a> {
 pub(super) struct Canvas<'a> {
     grid: Grid,
     items: Vec<Item<'a>>,
+    paints: &'a Paints<'a>,
     /// Per band the items that overlap it, back-most first.
     bands: Vec<Vec<u32>>,
     /// Rows in a band.
@@ -108,7 +117,7 @@ pub(super) struct Canvas<'a> {
 }
 
 impl<'a> Canvas<'a> {
-    pub(super) fn new(grid: Grid, items: Vec<Item<'a>>) -> Self {
+    pub(super) fn new(grid: Grid, items: Vec<Item<'a>>, paints: &'a Paints<'a>) -> Self {
         let height = (BAND / grid.columns.max(1)).clamp(1, SECTION);
         let mut bands = vec![Vec::new(); grid.rows.div_ceil(height)];
         for (index, item) in items.iter().enumerate() {
@@ -122,6 +131,7 @@ impl<'a> Canvas<'a> {
         Self {
             grid,
             items,
+            paints,
             bands,
             height,
         }
@@ -186,7 +196,7 @@ impl Band<'_> {
                 size: [width, self.rows],
             };
             for item in self.items {
-                section.draw(&self.canvas.items[*item as usize], &self.canvas.grid);
+                section.draw(&self.canvas.items[*item as usize], self.canvas);
             }
             for (row, codes) in codes.chunks(width).enumerate() {
                 let place = row * columns + left;
@@ -204,7 +214,8 @@ struct BandSection<'a> {
 }
 
 impl BandSection<'_> {
-    fn draw(&mut self, item: &Item<'_>, grid: &Grid) {
+    fn draw(&mut self, item: &Item<'_>, canvas: &Canvas<'_>) {
+        let grid = &canvas.grid;
         let [left, top] = self.corner;
         let [width, height] = self.size;
         let [columns, rows] = item.reach(grid);
@@ -249,6 +260,7 @@ impl BandSection<'_> {
                     mask.fill_path(&path, FillRule::EvenOdd, false, Transform::identity());
                     Some(mask)
                 });
+                let mut most = Majority::new(picture, canvas.paints);
                 for row in rows {
                     for column in columns.clone() {
                         let at = row * width + column;
@@ -257,8 +269,8 @@ impl BandSection<'_> {
                             Some(None) => false,
                             None => true,
                         };
-                        let middle = DVec2::new((left + column) as f64, (top + row) as f64) + 0.5;
-                        if is_visible && let Some(code) = picture.at(middle) {
+                        let corner = DVec2::new((left + column) as f64, (top + row) as f64);
+                        if is_visible && let Some(code) = most.of_cell(corner) {
                             self.codes[at] = code;
                         }
                     }
@@ -307,4 +319,91 @@ impl Picture<'_> {
         let opacity = 1 + (self.opacity.clamp(0.0, 1.0) * 253.0).round() as u8;
         (alpha > 127).then_some([r, g, b, opacity])
     }
+}
+
+/// Finds what most pixels of a cell are.
+struct Majority<'a> {
+    picture: &'a Picture<'a>,
+    paints: &'a Paints<'a>,
+    /// How many places along each side of a cell are looked at: no more than it has pixels.
+    places: usize,
+    names: FxHashMap<Code, Option<Named>>,
+    /// The codes of a cell, each with its number of places; `None` where the picture is transparent.
+    counts: Vec<(Option<Code>, usize)>,
+}
+
+impl<'a> Majority<'a> {
+    fn new(picture: &'a Picture<'a>, paints: &'a Paints<'a>) -> Self {
+        let axes = picture.to_pixels.matrix2;
+        let pixels = axes.x_axis.length().min(axes.y_axis.length());
+        Self {
+            picture,
+            paints,
+            // A pixel's border may lie a little off the cell's.
+            places: (pixels + 1e-6).floor().clamp(1.0, MAX_PLACES) as usize,
+            names: FxHashMap::default(),
+            counts: vec![],
+        }
+    }
+
+    /// The code of a cell with this corner: the commonest of the name that most of its places have. Colours without a name, such as those
+    /// of soft borders, count only where there are no others. `None` if most of it is transparent.
+    fn of_cell(&mut self, corner: DVec2) -> Option<Code> {
+        self.counts.clear();
+        let places = self.places;
+        for place in 0..places * places {
+            let place = DVec2::new((place % places) as f64, (place / places) as f64);
+            let code = self.picture.at(corner + (place + 0.5) / places as f64);
+            match self.counts.iter_mut().find(|(known, _)| *known == code) {
+                Some((_, count)) => *count += 1,
+                None => self.counts.push((code, 1)),
+            }
+        }
+        let most = self
+            .counts
+            .iter()
+            .max_by_key(|(code, count)| (*count, *code))?;
+        if most.1 * 2 > places * places {
+            return most.0;
+        }
+        let mut named: Vec<Share> = vec![];
+        for (code, count) in &self.counts {
+            let name = match code {
+                None => None,
+                Some(code) => {
+                    if self.names.len() > MAX_NAMES {
+                        self.names.clear();
+                    }
+                    let name = self.names.entry(*code);
+                    match *name.or_insert_with(|| self.paints.meaning(*code).named) {
+                        None => continue,
+                        name => name,
+                    }
+                }
+            };
+            let best = (*count, *code);
+            match named.iter_mut().find(|share| share.name == name) {
+                Some(share) => {
+                    share.places += count;
+                    share.best = share.best.max(best);
+                }
+                None => named.push(Share {
+                    name,
+                    places: *count,
+                    best,
+                }),
+            }
+        }
+        let best = named.iter().max_by_key(|share| (share.places, share.name));
+        best.map_or(most.0, |share| share.best.1)
+    }
+}
+
+/// The places of a cell whose colours have one name.
+struct Share {
+    /// `None` for transparent places.
+    name: Option<Named>,
+    places: usize,
+    /// How many of them have the commonest code, and that code.
+    best: (usize, Option<Code>),
 }

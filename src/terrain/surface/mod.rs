@@ -24,6 +24,7 @@ use bevel::{Bevel, Lines};
 use corners::Corners;
 use greedy::Rect;
 use mesh::Mesh;
+use roofs::{Gable, Roof};
 
 /// The triangles of all solids: per material the parts of its surface, in tiles, about the map's middle at height 0.
 /// `factor` is the ratio of a roof's height to its depth, `radius` the radius of bevels.
@@ -39,12 +40,29 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
         .map(|stripe| faces::faces(context, columns(stripe)))
         .collect();
     let roofed = |house: &&House| house.depth > 0 && !house.roof.is_empty();
-    let houses: Vec<&House> = context.houses.iter().filter(roofed).collect();
-    let eaves: Vec<[i32; 3]> = houses
+    let numbers = (0..).zip(&context.houses);
+    let (numbers, houses): (Vec<u32>, Vec<&House>) =
+        numbers.filter(|(_, house)| roofed(house)).unzip();
+    let mut eaves: Vec<[i32; 3]> = houses
         .iter()
         .flat_map(|house| roofs::eaves(house))
         .collect();
     let gables = roofs::gables(&houses, &rects, factor);
+    let mut tiles: Vec<Option<Vec<Vec<u8>>>> = numbers
+        .par_iter()
+        .map(|number| roofs::tiles(context, *number))
+        .collect();
+    let has_tiles = tiles.iter().any(Option::is_some);
+    for ((tiles, gables), house) in tiles.iter_mut().zip(&gables).zip(&houses) {
+        // Roofs that share a gable share the corners on it.
+        if has_tiles && tiles.is_none() && gables.contains(&Gable::Shared) {
+            let row = vec![house.materials[0]; house.roof.len()];
+            *tiles = Some(vec![row; house.depth as usize]);
+        }
+        if tiles.is_some() {
+            eaves.extend(roofs::eaves_between(house));
+        }
+    }
     let (lines, mut squares) = if radius > 0.0 {
         (Lines::new(rects.iter().flatten()), vec![vec![]; stripes])
     } else {
@@ -83,8 +101,14 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
         })
         .collect();
     let mut roof = mesh();
-    for (house, gables) in houses.into_iter().zip(gables) {
-        roofs::roof(&mut roof, &corners, house, factor, gables);
+    for ((house, gables), tiles) in houses.into_iter().zip(gables).zip(tiles) {
+        let one = Roof {
+            house,
+            factor,
+            gables,
+            tiles,
+        };
+        one.add(&mut roof, &corners);
     }
     made.push(roof.finish());
     let mut surfaces: Vec<(u8, Vec<Surface>)> =

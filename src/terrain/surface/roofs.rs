@@ -4,7 +4,9 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
+use super::super::groups::GroupKind;
 use super::super::houses::House;
+use super::super::solids::MapContext;
 use super::corners::Corners;
 use super::greedy::{Facing, Rect};
 use super::mesh::Mesh;
@@ -115,49 +117,135 @@ pub(super) fn eaves(house: &House) -> [[i32; 3]; 4] {
     ]
 }
 
-/// Adds a roof: two slopes and its left and right gables. `factor` is the ratio of the ridge's height to the depth.
-pub(super) fn roof(
-    mesh: &mut Mesh,
-    corners: &Corners,
-    house: &House,
-    factor: f64,
-    gables: [Gable; 2],
-) {
-    let depth = f64::from(house.depth);
-    let rise = factor * depth;
-    let y = f64::from(house.eaves());
-    let middle = f64::from(house.front) - depth / 2.0;
-    let [near_left, near_right, far_right, far_left] = eaves(house);
-    let inset = gables.map(|gable| if gable == Gable::Touched { HIP } else { 0.0 });
-    let ridge = |x: i32| {
-        let x = if x == house.roof.start {
-            f64::from(x) + inset[0]
+/// The materials of a roof that is drawn in several: per row from the eaves up those of its columns. `None` if it is drawn in one.
+pub(super) fn tiles(context: &MapContext, number: u32) -> Option<Vec<Vec<u8>>> {
+    let (grid, house) = (&context.grid, &context.houses[number as usize]);
+    let eaves = house.front - house.eaves();
+    let material = |row: i32, column: i32| {
+        let cell = column as usize * grid.rows + row.max(0) as usize;
+        let is_own = row >= 0 && context.groups.kind(cell) == GroupKind::Roof(number);
+        if is_own {
+            grid.cells[cell]
         } else {
-            f64::from(x) - inset[1]
+            house.materials[0]
+        }
+    };
+    let rows = (1..=house.depth).map(|up| {
+        let columns = house.roof.clone();
+        columns.map(|column| material(eaves - up, column)).collect()
+    });
+    let rows: Vec<Vec<u8>> = rows.collect();
+    let is_plain = rows
+        .iter()
+        .flatten()
+        .all(|material| *material == house.materials[0]);
+    (!is_plain).then_some(rows)
+}
+
+/// The points of a roof's eaves between its corners, where its tiles meet.
+pub(super) fn eaves_between(house: &House) -> impl Iterator<Item = [i32; 3]> {
+    let y = steps::step(house.eaves());
+    let sides = [house.back(), house.front];
+    let columns = house.roof.start + 1..house.roof.end;
+    columns.flat_map(move |x| sides.map(|z| [x, y, z]))
+}
+
+/// A roof to be built.
+pub(super) struct Roof<'a> {
+    pub(super) house: &'a House,
+    /// The ratio of the ridge's height to the depth.
+    pub(super) factor: f64,
+    /// How it ends at its left and right.
+    pub(super) gables: [Gable; 2],
+    /// The materials of its tiles (see [`tiles`]); `None` if its slopes are whole.
+    pub(super) tiles: Option<Vec<Vec<u8>>>,
+}
+
+impl Roof<'_> {
+    /// The columns at which the ridge ends.
+    fn inset(&self) -> [f64; 2] {
+        let inset = |gable: Gable| if gable == Gable::Touched { HIP } else { 0.0 };
+        self.gables.map(inset)
+    }
+
+    /// A point of the ridge.
+    fn ridge(&self, x: i32) -> [f64; 3] {
+        let house = self.house;
+        let depth = f64::from(house.depth);
+        let [left, right] = self.inset();
+        let x = match x {
+            x if x == house.roof.start => f64::from(x) + left,
+            x if x == house.roof.end => f64::from(x) - right,
+            x => f64::from(x),
         };
-        [x, y + rise, middle]
-    };
-    let slope = (depth / 2.0).hypot(rise);
-    let line = |from: [i32; 3], to: [i32; 3]| {
-        let mut points = vec![from];
-        corners.between(None, from, to, |point| points.push(point));
-        points.push(to);
-        points
-    };
-    let material = house.materials[0];
-    let [up, out] = [(depth / 2.0 / slope) as f32, (rise / slope) as f32];
-    for (eave, normal) in [
-        (line(near_left, near_right), [0.0, up, out]),
-        (line(far_right, far_left), [0.0, up, -out]),
-    ] {
+        let y = f64::from(house.eaves()) + self.factor * depth;
+        [x, y, f64::from(house.front) - depth / 2.0]
+    }
+
+    /// A point of a slope: `up` of the roof's rows above the eaves at z.
+    fn on_slope(&self, x: i32, up: i32, z: i32) -> [f64; 3] {
+        let eave = steps::place([x, steps::step(self.house.eaves()), z]);
+        let share = f64::from(up) / f64::from(self.house.depth);
+        let ridge = self.ridge(x);
+        match up {
+            0 => eave,
+            up if up == self.house.depth => ridge,
+            _ => [0, 1, 2].map(|axis| eave[axis] + (ridge[axis] - eave[axis]) * share),
+        }
+    }
+
+    /// Adds two slopes, and the left and right gables.
+    pub(super) fn add(&self, mesh: &mut Mesh, corners: &Corners) {
+        let house = self.house;
+        let depth = f64::from(house.depth);
+        let rise = self.factor * depth;
+        let slope = (depth / 2.0).hypot(rise);
+        let [near_left, near_right, far_right, far_left] = eaves(house);
+        let line = |from: [i32; 3], to: [i32; 3]| {
+            let mut points = vec![from];
+            corners.between(None, from, to, |point| points.push(point));
+            points.push(to);
+            points
+        };
+        let [up, out] = [(depth / 2.0 / slope) as f32, (rise / slope) as f32];
+        for (from, to, normal) in [
+            (near_left, near_right, [0.0, up, out]),
+            (far_right, far_left, [0.0, up, -out]),
+        ] {
+            match &self.tiles {
+                None => self.slope(mesh, &line(from, to), normal, slope),
+                Some(tiles) => self.tiled(mesh, [from, to], normal, slope, tiles),
+            }
+        }
+        for (end, base, out) in [
+            (0, line(far_left, near_left), -1.0),
+            (1, line(near_right, far_right), 1.0),
+        ] {
+            if self.gables[end] == Gable::Shared {
+                continue;
+            }
+            let inset = self.inset()[end];
+            let length = rise.hypot(inset);
+            // Of a roof without height, a gable has no area.
+            let [out, up] = if length > 0.0 {
+                [out * rise / length, inset / length]
+            } else {
+                [out, 0.0]
+            };
+            self.gable(mesh, &base, [out as f32, up as f32, 0.0]);
+        }
+    }
+
+    /// Adds a whole slope over an eave: a fan about the first end of the ridge covers the eave, and one more triangle the rest.
+    fn slope(&self, mesh: &mut Mesh, eave: &[[i32; 3]], normal: [f32; 3], slope: f64) {
         let [first, last] = [eave[0], eave[eave.len() - 1]];
         let uv = |x: f64, v: f64| [if normal[2] < 0.0 { -x } else { x }, v];
-        let top = |x: i32| (ridge(x), uv(ridge(x)[0], 0.0));
+        let top = |x: i32| (self.ridge(x), uv(self.ridge(x)[0], 0.0));
         let foot = |point: &[i32; 3]| {
             let place = steps::place(*point);
             (place, uv(place[0], slope))
         };
-        // A fan about the first end of the ridge covers the eave, and one more triangle the rest of the slope.
+        let material = self.house.materials[0];
         let mut fan = vec![top(first[0])];
         fan.extend(eave.iter().map(foot));
         mesh.fan(material, normal, &fan);
@@ -167,25 +255,59 @@ pub(super) fn roof(
             &[top(first[0]), foot(&last), top(last[0])],
         );
     }
-    for (end, base, out) in [
-        (0, line(far_left, near_left), -1.0),
-        (1, line(near_right, far_right), 1.0),
-    ] {
-        if gables[end] == Gable::Shared {
-            continue;
+
+    /// Adds a slope tile by tile. `ends` are those of its eave.
+    fn tiled(
+        &self,
+        mesh: &mut Mesh,
+        [from, to]: [[i32; 3]; 2],
+        normal: [f32; 3],
+        slope: f64,
+        tiles: &[Vec<u8>],
+    ) {
+        let step = (to[0] - from[0]).signum();
+        for (up, row) in (0..).zip(tiles) {
+            for (column, material) in (self.house.roof.start..).zip(row) {
+                // The corner from which the eave runs on.
+                let x = if step > 0 { column } else { column + 1 };
+                let corners = [(x, up), (x + step, up), (x + step, up + 1), (x, up + 1)];
+                let corners = corners.map(|(x, up)| {
+                    let place = self.on_slope(x, up, from[2]);
+                    let v = slope * (1.0 - f64::from(up) / f64::from(self.house.depth));
+                    (place, [if step < 0 { -place[0] } else { place[0] }, v])
+                });
+                mesh.fan(*material, normal, &corners);
+            }
         }
-        let length = rise.hypot(inset[end]);
-        // Of a roof without height, a gable has no area.
-        let [out, up] = if length > 0.0 {
-            [out * rise / length, inset[end] / length]
+    }
+
+    /// Adds a gable over its base, which runs from one eave to the other.
+    fn gable(&self, mesh: &mut Mesh, base: &[[i32; 3]], normal: [f32; 3]) {
+        let wall = self.house.materials[1];
+        let corner = |[x, y, z]: [f64; 3]| ([x, y, z], [z, -y]);
+        let [first, last] = [base[0], base[base.len() - 1]];
+        // The slopes' tiles have corners on its sides.
+        let rows = if self.tiles.is_some() {
+            self.house.depth
         } else {
-            [out, 0.0]
+            1
         };
-        let normal = [out as f32, up as f32, 0.0];
-        let wall = house.materials[1];
-        let place = |[x, y, z]: [f64; 3]| ([x, y, z], [z, -y]);
-        let mut fan = vec![place(ridge(base[0][0]))];
-        fan.extend(base.iter().map(|point| place(steps::place(*point))));
+        let at = |end: [i32; 3], row: i32| {
+            let up = if row == rows { self.house.depth } else { row };
+            corner(self.on_slope(first[0], up, end[2]))
+        };
+        let mut fan = vec![at(first, 1)];
+        fan.extend(base.iter().map(|point| corner(steps::place(*point))));
+        if rows > 1 {
+            fan.push(at(last, 1));
+        }
         mesh.fan(wall, normal, &fan);
+        for row in 1..rows {
+            let mut quad = vec![at(first, row), at(last, row), at(last, row + 1)];
+            if row + 1 < rows {
+                quad.push(at(first, row + 1));
+            }
+            mesh.fan(wall, normal, &quad);
+        }
     }
 }
