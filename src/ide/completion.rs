@@ -21,7 +21,7 @@ use crate::lang::keyword::colors::COLORS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::vocabulary::{AXES, FUNCTIONS, STRINGS};
-use crate::lang::keyword::{AttributeString, Keyword, Status};
+use crate::lang::keyword::{AttributeString, Keyword};
 use crate::lang::quoting::NamePlace;
 use crate::lang::{self, is_name_char, is_word_char, normalize, parameter_at};
 use crate::source::{Span, Text};
@@ -252,17 +252,12 @@ impl Cursor<'_> {
                 keyword => drop(given.insert(keyword)),
             }
         }
-        // Keywords that are built come first; the others have no effect yet, and their detail says so.
-        let mut keywords: Vec<Keyword> = Keyword::ALL.to_vec();
-        keywords
-            .retain(|keyword| keyword.row().allowed.permits(holder) && !given.contains(keyword));
-        keywords.sort_by_key(|keyword| keyword.row().status == Status::Planned);
-        keywords
-            .into_iter()
+        Keyword::built()
+            .filter(|keyword| keyword.row().allowed.permits(holder) && !given.contains(keyword))
             .map(|keyword| {
                 let row = keyword.row();
                 Proposal {
-                    detail: format!("{}{}", row.summary, row.status.remark()),
+                    detail: row.summary.to_owned(),
                     page: Some(keyword.name()),
                     snippet: filled(keyword.name(), &example_arguments(keyword))
                         .map(|snippet| self.escape(&snippet)),

@@ -150,18 +150,8 @@ const fn flag(letter: char, summary: &'static str) -> Flag {
 pub enum Status {
     /// It has an effect.
     Built,
-    /// It is read and checked, but has no effect yet.
+    /// It is read and checked, but has no effect yet: no list shows it, and no proposal.
     Planned,
-}
-
-impl Status {
-    /// A remark behind a summary.
-    pub fn remark(self) -> &'static str {
-        match self {
-            Self::Built => "",
-            Self::Planned => " (no effect yet)",
-        }
-    }
 }
 
 /// In which strings an attribute is allowed.
@@ -224,6 +214,12 @@ impl Allowed {
 }
 
 impl Keyword {
+    /// The keywords that have an effect.
+    pub fn built() -> impl Iterator<Item = Self> {
+        let all = Self::ALL.iter().copied();
+        all.filter(|keyword| keyword.row().status == Status::Built)
+    }
+
     /// The keyword called `name`, ignoring case.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL
@@ -237,16 +233,14 @@ impl Keyword {
         matches!(self, Self::Limited | Self::Perform)
     }
 
-    /// The keyword that `word` is probably a misspelling of, and their edit distance.
+    /// The keyword with an effect that `word` is probably a misspelling of, and their edit distance.
     pub fn nearest(word: &str) -> Option<(Self, usize)> {
         let lower = word.to_ascii_lowercase();
         let letters = lower.chars().take(32).count();
         if letters >= 32 {
             return None;
         }
-        Self::ALL
-            .iter()
-            .copied()
+        Self::built()
             .filter_map(|keyword| {
                 let name = keyword.name().to_ascii_lowercase();
                 // A third of the letters, as in `nearest_word`, but of the shorter word: a short word

@@ -8,9 +8,9 @@ mod textmate;
 use std::fmt::Write as _;
 
 use super::explain::{keyword, kind, paragraphs, sentence};
+use super::keyword::Keyword;
 use super::keyword::kinds::KINDS;
 use super::keyword::vocabulary::{FUNCTIONS, STRINGS};
-use super::keyword::{Keyword, Status};
 use crate::diagnostic::{Code, Severity};
 
 pub use ebnf::ebnf;
@@ -59,9 +59,9 @@ pub fn reference() -> String {
     }
     out.push_str("\n## Attributes\n\n");
     out.push_str(&keyword_table());
-    for each in Keyword::ALL {
+    for each in Keyword::built() {
         out.push('\n');
-        out.push_str(&deeper(&keyword(*each)));
+        out.push_str(&deeper(&keyword(each)));
     }
     out.push_str("\n## Shapes\n\n| kind | meaning |\n|---|---|\n");
     for each in &KINDS {
@@ -107,23 +107,19 @@ pub fn diagnostics(report: impl Fn(Code) -> Option<String>) -> String {
     out
 }
 
-/// The table of keywords, for the README and the reference.
+/// The table of the keywords that have an effect, for the README and the reference.
 pub fn keyword_table() -> String {
     let mut out = String::from("| keyword | where | meaning | default |\n|---|---|---|---|\n");
-    for keyword in Keyword::ALL {
+    for keyword in Keyword::built() {
         let row = keyword.row();
         let usages: Vec<_> = keyword
             .usages()
             .iter()
             .map(|usage| format!("`{}`", usage.replace('|', "\\|")))
             .collect();
-        let later = match row.status {
-            Status::Built => "",
-            Status::Planned => " *(no effect yet)*",
-        };
         let _ = writeln!(
             out,
-            "| {} | {} | {}{later} | {} |",
+            "| {} | {} | {} | {} |",
             usages.join("<br>"),
             row.allowed.name(),
             row.summary,

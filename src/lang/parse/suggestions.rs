@@ -37,7 +37,7 @@ pub(in crate::lang) fn unknown_keyword(
     let owner = owner_of(found);
     if let (None, Some((keyword, _))) = (owner, Keyword::nearest(found)) {
         let diagnostic = did_you_mean(diagnostic, text, &range, keyword.name());
-        let names = Keyword::ALL.iter().map(|keyword| keyword.name());
+        let names = Keyword::built().map(Keyword::name);
         return if has_one_near_word(found, names) {
             diagnostic.safe()
         } else {
