@@ -22,6 +22,7 @@ mod shape;
 mod shapes;
 #[doc(hidden)]
 pub mod stages;
+mod stops;
 #[cfg(test)]
 mod tests;
 mod turn;

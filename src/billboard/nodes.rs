@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine2, DQuat, DVec2, DVec3};
+use glam::{DAffine2, DQuat, DVec2, DVec3, Vec3};
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::character::{Character, RegionMesh, RegionModel};
 use super::paints::Paint;
 use super::pieces::{Coat, Cover, pieces};
+use super::stops::Stops;
 use crate::bind::{Bindings, PartId};
 use crate::scene::{
     AlphaMode, Animation, Interpolation, Material, MaterialId, Mesh, NewNode, Node, NodeId,
@@ -21,6 +22,9 @@ use crate::svg::Drawing;
 const SECONDS: f64 = 1.0;
 /// Keys of the clip for 45°, the first not counted.
 const KEYS: f64 = 8.0;
+
+/// Keys closer than this share of the way between two views are one.
+const LEAST_STEP: f64 = 1e-6;
 
 /// The materials of regions.
 pub(crate) struct RegionMaterials<'a> {
@@ -138,12 +142,15 @@ pub(crate) fn add(
     let middle = character.frames[ViewId::FIRST].center;
     let layer = &bindings.layers[character.layers[ViewId::FIRST]];
     let string = bindings.strings[layer.string].text.as_str();
+    let regions = character.regions.iter();
+    let mut shapes = regions.flat_map(|region| &region.shapes);
+    let stops = Stops::new(&character.turn, shapes.all(Option::is_some));
     let root = scene.add(NewNode {
         node: Node {
             name: character.name.clone(),
             translation: world.point(DVec3::new(middle.x, -middle.y, 0.0)),
             rotation: world.rotation,
-            view_dependent: Some(ViewDependent::Turn(character.turn.clone())),
+            view_dependent: Some(ViewDependent::Turn(stops.turn.clone())),
             provenance: Some(Provenance {
                 element: drawing.groups[layer.group].element.id.clone(),
                 string: Some(string.to_owned()),
@@ -154,16 +161,16 @@ pub(crate) fn add(
         parent: None,
     });
     let scale = character.frames[ViewId::FIRST].height * world.scale;
-    let at_first = character.turn.weights(character.turn.views[ViewId::FIRST]);
+    let at_first = stops.turn.weights(stops.turn.views[ViewId::FIRST]);
     let node_of = |region: &RegionModel| {
         let places = region.positions.iter().map(|place| *place * scale);
-        let places: TiVec<ViewId, DVec3> = places.collect();
-        let translation = character.turn.position(&at_first, &places);
+        let places = stops.places(&places.collect::<TiVec<ViewId, DVec3>>());
+        let translation = stops.turn.position(&at_first, &places);
         let string = region
             .part
             .and_then(|part| bindings.parts[part].string)
             .map(|string| bindings.strings[string].text.as_str().to_owned());
-        let mesh = mesh(character, region, scale, materials, scene);
+        let mesh = mesh(character, &stops, region, scale, materials, scene);
         scene.add(NewNode {
             node: Node {
                 name: region.name.clone(),
@@ -182,18 +189,22 @@ pub(crate) fn add(
         })
     };
     let nodes: Vec<NodeId> = character.regions.iter().map(node_of).collect();
-    scene.animations.push(clip(character, &nodes, scale));
+    scene
+        .animations
+        .push(clip(character, &stops, &nodes, scale));
 }
 
-/// The mesh of a region, with a morph target for each view but the first.
+/// The mesh of a region, with a morph target for each view but the first, and for each stop.
 fn mesh(
     character: &Character,
+    stops: &Stops,
     region: &RegionModel,
     scale: f64,
     materials: &mut RegionMaterials<'_>,
     scene: &mut Scene,
 ) -> Mesh {
     let heights: TiVec<ViewId, f64> = character.frames.iter().map(|frame| frame.height).collect();
+    let shows = stops.show(|view| region.shapes[view].is_some());
     let mut primitives: Vec<Primitive> = Vec::new();
     for part in &region.meshes {
         let RegionMesh {
@@ -205,25 +216,35 @@ fn mesh(
         let covers: Vec<Cover> = covers.map(|paint| materials.cover(paint, scene)).collect();
         for piece in pieces(morph, paints, &covers, &character.turn.between, &heights) {
             let morph = &*piece.morph;
-            let placed = |view: ViewId| {
+            let placed = |(view, points): (ViewId, &Vec<DVec2>)| -> Vec<DVec3> {
                 let [right, up, _] = view_axes(character.turn.views[view]);
                 let place = region.positions[view];
                 let middle = DVec2::new(place.dot(right), place.dot(up));
                 let frame = &character.frames[view];
                 let height = (lift + piece.lifts[view]) * scale;
-                morph.points[view].iter().map(move |point| {
+                let point = |point: &DVec2| {
                     let point = (frame.on_screen(*point) - middle) * scale;
-                    point.extend(height).as_vec3()
-                })
+                    point.extend(height)
+                };
+                points.iter().map(point).collect()
             };
-            let base: Vec<_> = placed(ViewId::FIRST).collect();
-            let target = |view: ViewId| {
-                let offsets = placed(view).zip(&base).map(|(point, base)| point - *base);
-                offsets.map(|offset| offset.to_array()).collect()
+            let in_views: TiVec<ViewId, Vec<DVec3>> =
+                morph.points.iter_enumerated().map(placed).collect();
+            let base = &in_views[ViewId::FIRST];
+            let base: Vec<Vec3> = base.iter().map(|point| point.as_vec3()).collect();
+            let target = |at: ViewId| {
+                // What a stop does not show is a point at its place.
+                let size = if shows[at] { 1.0 } else { 0.0 };
+                let size = DVec3::new(size, size, 1.0);
+                let points = base.iter().enumerate().map(|(index, base)| {
+                    let point = stops.mixed(at, |view| in_views[view][index]) * size;
+                    (point.as_vec3() - *base).to_array()
+                });
+                points.collect()
             };
             let mut surface = Surface {
                 normals: vec![[0.0, 0.0, 1.0]; base.len()],
-                targets: character.frames.keys().skip(1).map(target).collect(),
+                targets: stops.turn.views.keys().skip(1).map(target).collect(),
                 triangles: morph.triangles.clone(),
                 positions: base.into_iter().map(|point| point.to_array()).collect(),
                 ..Surface::default()
@@ -244,17 +265,21 @@ fn mesh(
 
 /// The clip in which a character turns through its views, as a viewer in front of the first one sees it. `nodes` are those of its
 /// regions.
-fn clip(character: &Character, nodes: &[NodeId], scale: f64) -> Animation {
+fn clip(character: &Character, stops: &Stops, nodes: &[NodeId], scale: f64) -> Animation {
     let views = &character.turn.views;
     let mut directions = vec![views[ViewId::FIRST]];
     let mut times = vec![0.0];
-    for pair in views.raw.windows(2) {
-        let [from, to] = [pair[0], pair[1]].map(DVec2::from);
+    for (first, second) in views.keys().zip(views.keys().skip(1)) {
+        let [from, to] = [first, second].map(|view| DVec2::from(views[view]));
         let degrees = (to - from).length();
         let keys = (degrees / 45.0 * KEYS).ceil().max(1.0);
         let start = times.last().copied().unwrap_or_default();
-        for key in 1..=keys as usize {
-            let share = key as f64 / keys;
+        let mut shares: Vec<f64> = (1..=keys as usize).map(|key| key as f64 / keys).collect();
+        // Between keys everything is linear.
+        shares.extend(stops.between(first, second));
+        shares.sort_by(f64::total_cmp);
+        shares.dedup_by(|next, last| *next - *last < LEAST_STEP);
+        for share in shares {
             directions.push(from.lerp(to, share).to_array());
             times.push(start + share * degrees / 45.0 * SECONDS);
         }
@@ -263,16 +288,13 @@ fn clip(character: &Character, nodes: &[NodeId], scale: f64) -> Animation {
         times: times.into_iter().map(|time| time as f32).collect(),
         interpolation: Interpolation::Linear,
     });
-    let weights: Vec<TiVec<ViewId, f64>> = directions
-        .iter()
-        .map(|d| character.turn.weights(*d))
-        .collect();
+    let weights: Vec<TiVec<ViewId, f64>> =
+        directions.iter().map(|d| stops.turn.weights(*d)).collect();
     let mut tracks = Vec::new();
     for (region, node) in character.regions.iter().zip(nodes) {
         let node = *node;
-        let place = |weights: &TiVec<ViewId, f64>| {
-            character.turn.position(weights, &region.positions) * scale
-        };
+        let places = stops.places(&region.positions);
+        let place = |weights: &TiVec<ViewId, f64>| stops.turn.position(weights, &places) * scale;
         tracks.push(Track {
             node,
             timing: Arc::clone(&timing),

@@ -21,7 +21,7 @@ use crate::disk::is_standard_stream;
 use crate::export;
 use crate::ide::{Subject, Which};
 use crate::lang::keyword::Keyword;
-use crate::report::{Reasons, Undo, describe_character, figures, inspection_json};
+use crate::report::{Fit, MatchedBy, Reasons, Undo, describe_character, figures, inspection_json};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
@@ -208,6 +208,15 @@ fn regions(loaded: &Loaded, character: &Character, numbers: Numbers) -> Vec<[Str
             Numbers::AsInPicture => format!("{} {}", index + 1, region.name),
         };
         let mut what = members.join(" – ");
+        if let Some(Fit {
+            similarity,
+            cost,
+            by: MatchedBy::ColorAndPlace,
+        }) = Fit::of(character, track)
+        {
+            let scores = format!("similarity {similarity:.2}, cost {cost:.2}");
+            what = format!("{what}; matched by colour and place, {scores}");
+        }
         if let Some(paints) = region.paints_in_views() {
             let paints: Vec<String> = paints.raw.into_iter().flatten().collect();
             what = format!("{what}; painted {}", paints.join(" – "));

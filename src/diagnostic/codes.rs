@@ -510,8 +510,8 @@ codes! {
     /// Draw the character from another side, in a layer or group of its own, and write the string with the angles there, for example
     /// `Boy$View 45 0`.
     UnusableView = "W323", "view that cannot be used";
-    /// A region of a character was drawn in one of its views, but nothing in the other views looks like the same thing. On the
-    /// way to another view it shrinks to nothing. Often it is hidden there, or its colour differs, or it is far away from where
+    /// A region of a character was drawn in one of its views, but nothing in the other views looks like the same thing. Within
+    /// 15° of its view it shrinks to nothing. Often it is hidden in the others, or its colour differs, or it is far away from where
     /// it was expected.
     ///
     /// ```text

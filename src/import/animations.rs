@@ -74,6 +74,7 @@ impl Clip {
             {
                 let at = |curve: &Curve<1>| curve.at(time, lerp)[0] as f32;
                 *weights = animated.weights.iter().map(at).collect();
+                pose.is_shaped[animated.node] = true;
             }
         }
         pose

@@ -83,6 +83,8 @@ pub struct Pose {
     pub(super) locals: TiVec<NodeId, DMat4>,
     /// Per node the weights of its mesh's morph targets.
     pub(super) weights: TiVec<NodeId, Vec<f32>>,
+    /// Per node whether a clip sets them: then a region is where the clip says, too, whatever the viewer's direction.
+    pub(super) is_shaped: TiVec<NodeId, bool>,
     /// Towards the viewer in the world; if `None`, nothing follows the viewer.
     towards: Option<DVec3>,
 }
@@ -104,6 +106,7 @@ impl Geometry {
         Pose {
             locals: self.nodes.iter().map(|node| node.local).collect(),
             weights: self.nodes.iter().map(|node| node.weights.clone()).collect(),
+            is_shaped: ti_vec![false; self.nodes.len()],
             towards: None,
         }
     }
@@ -113,7 +116,8 @@ impl Geometry {
         self.nodes.iter().any(|node| node.view_dependent.is_some())
     }
 
-    /// The pose with each character turned to the viewer: where its regions are, and the weights of their morph targets.
+    /// The pose with each character turned to the viewer: where its regions are, and the weights of their morph targets, unless a
+    /// clip sets them.
     fn turned(&self, pose: &Pose, towards: DVec3) -> Pose {
         let mut pose = pose.clone();
         let mut globals: TiVec<NodeId, DMat4> = ti_vec![DMat4::IDENTITY; self.nodes.len()];
@@ -132,7 +136,9 @@ impl Geometry {
                     pose.locals[*id] = local * seen.rotation;
                     characters[*id] = Some((turn, turn.weights(seen.direction)));
                 }
-                (Some(ViewDependent::Region(places)), Some((turn, weights))) => {
+                (Some(ViewDependent::Region(places)), Some((turn, weights)))
+                    if !pose.is_shaped[*id] =>
+                {
                     let place = turn.position(&weights, places);
                     pose.locals[*id] = DMat4::from_translation(place);
                     pose.weights[*id] = weights.iter().skip(1).map(|w| *w as f32).collect();

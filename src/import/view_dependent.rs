@@ -44,7 +44,7 @@ pub(super) fn read(node: &Node<'_>) -> Result<Option<ViewDependent>, ImportError
             .iter()
             .all(|angle| angle.is_finite());
         if count == 0
-            || count > MAX_VIEWS
+            || count > Turn::MOST_VIEWS
             || turn.between.is_empty()
             || !finite
             || !turn.between.iter().all(is_set)
@@ -68,9 +68,6 @@ pub(super) fn read(node: &Node<'_>) -> Result<Option<ViewDependent>, ImportError
     }
     Ok(None)
 }
-
-/// The largest number of views of a character.
-const MAX_VIEWS: usize = 256;
 
 #[derive(Deserialize)]
 struct TurnJson {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::billboard::{Character, RegionId, RegionModel, TrackId, ViewId};
+use crate::billboard::{Character, RegionId, RegionInView, RegionModel, Track, TrackId, ViewId};
 use crate::compile::Compiled;
 use crate::scene::view_axes;
 
@@ -28,11 +28,67 @@ pub(crate) struct BillboardRegion<'a> {
     pub numbers: Vec<Option<usize>>,
     /// The least similarity of its pairs (Kitamura, equation 4.1), 0 to 1; `None` for a region without a partner.
     pub similarity: Option<f64>,
+    /// The greatest cost of its pairs, by which they were chosen: 0 for a perfect one; `None` for a region without a partner.
+    pub cost: Option<f64>,
+    /// What its pairs were made by; `None` for a region without a partner.
+    pub matched_by: Option<MatchedBy>,
     /// Its position in the character's space, heights: its left, up, its front.
     pub position: [f64; 3],
     /// Per view what it is painted with; `None` where the view does not show it. Only of a region that does not look the same in all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub paints: Option<Vec<Option<String>>>,
+}
+
+/// What a region's pairs are made by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum MatchedBy {
+    /// All have the same name or label.
+    Name,
+    /// Colour, place, size, and what they lie on.
+    ColorAndPlace,
+}
+
+/// How well the regions that are taken for one fit each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Fit {
+    /// The least similarity of the pairs (Kitamura, equation 4.1), 0 to 1.
+    pub similarity: f64,
+    /// Their greatest cost, from 0; pairs above 3.5 are only made by names.
+    pub cost: f64,
+    /// What they were made by.
+    pub by: MatchedBy,
+}
+
+impl Fit {
+    /// That of a track; `None` if only one view shows it.
+    pub(crate) fn of(character: &Character, track: &Track) -> Option<Self> {
+        let name = |at: RegionInView| character.views[at.view].regions[at.id].name.as_ref();
+        let pairs = character.matching.pairs.iter();
+        let own = pairs.filter(|pair| track.regions[pair.second.view] == Some(pair.second.id));
+        let fits = own.map(|pair| {
+            let first = name(pair.first);
+            let by = if first.is_some() && first == name(pair.second) {
+                MatchedBy::Name
+            } else {
+                MatchedBy::ColorAndPlace
+            };
+            Self {
+                similarity: pair.similarity,
+                cost: pair.cost,
+                by,
+            }
+        });
+        fits.reduce(|a, b| Self {
+            similarity: a.similarity.min(b.similarity),
+            cost: a.cost.max(b.cost),
+            by: if a.by == b.by {
+                a.by
+            } else {
+                MatchedBy::ColorAndPlace
+            },
+        })
+    }
 }
 
 /// The characters of a drawing.
@@ -63,13 +119,14 @@ fn region<'a>(
         id.filter(|_| shape.picture.is_none())
     });
     let number = |region: &Option<RegionId>| Some(usize::from((*region)?) + 1);
-    let pairs = character.matching.pairs.iter();
-    let own = pairs.filter(|pair| track.regions[pair.second.view] == Some(pair.second.id));
+    let fit = Fit::of(character, track);
     BillboardRegion {
         name: &model.name,
         members: members.collect(),
         numbers: track.regions.iter().map(number).collect(),
-        similarity: own.map(|pair| pair.similarity).reduce(f64::min),
+        similarity: fit.map(|fit| fit.similarity),
+        cost: fit.map(|fit| fit.cost),
+        matched_by: fit.map(|fit| fit.by),
         position: model.positions[ViewId::FIRST].to_array(),
         paints: model.paints_in_views().map(|paints| paints.raw),
     }

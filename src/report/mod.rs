@@ -14,7 +14,7 @@ mod reasons;
 pub(crate) mod samples;
 mod terrain;
 
-pub(crate) use billboards::{Billboard, billboards, describe_character};
+pub(crate) use billboards::{Billboard, Fit, MatchedBy, billboards, describe_character};
 pub(crate) use clips::{Clip, clips};
 pub(crate) use figures::{Figure, figures};
 pub use findings::Findings;

@@ -51,6 +51,8 @@ impl Turn {
     /// What depths towards the viewer are multiplied by. Depths only decide what is in front: as they are, perspective would move
     /// the regions of a drawing apart.
     pub const FLATNESS: f64 = 0.25;
+    /// Programs have to read so many views.
+    pub const MOST_VIEWS: usize = 256;
 
     /// The weight of each view from a direction, degrees; they add up to 1.
     pub fn weights(&self, [theta, phi]: [f64; 2]) -> TiVec<ViewId, f64> {
@@ -102,7 +104,7 @@ impl Turn {
     }
 
     /// The views of a set in the plane of angles, the short way around from the first; `None` if one is missing.
-    fn corners(&self, set: &[ViewId]) -> Option<Vec<DVec2>> {
+    pub(crate) fn corners(&self, set: &[ViewId]) -> Option<Vec<DVec2>> {
         let first = short_way(self.views.get(*set.first()?)?[0]);
         let corner = |view: &ViewId| {
             let [theta, phi] = *self.views.get(*view)?;

@@ -27,7 +27,7 @@ type Color = [f64; 4];
 
 /// What a region is painted with.
 #[derive(Debug, Clone, Copy)]
-enum Paint {
+pub(super) enum Paint {
     Plain(Color),
     /// From the left to the right of the box around the region, without alpha.
     Gradient([Color; 2]),
@@ -66,10 +66,10 @@ impl Paint {
 }
 
 /// A region of a drawing: its outline, and its paint.
-type Region = (Outline, Paint);
+pub(super) type Region = (Outline, Paint);
 
 /// The drawing of a character from two sides, and the regions of both views, back-most first.
-fn drawing(seed: u64) -> (String, [Vec<Region>; 2]) {
+pub(super) fn drawing(seed: u64) -> (String, [Vec<Region>; 2]) {
     let shown = character(seed);
     let mut random = Random::new(seed ^ 0x5EED);
     let views = directions(seed).map(|direction| shown.true_view(direction));
