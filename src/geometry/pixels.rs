@@ -121,7 +121,7 @@ mod tests {
     #[test]
     fn long_borders_lose_nothing() {
         let (width, height) = (201, 150);
-        let is_solid = |x: u32, y: u32| x % 2 == 0 || y == height - 1;
+        let is_solid = |x: u32, y: u32| x.is_multiple_of(2) || y == height - 1;
         let borders = pixel_borders(width, height, is_solid);
         let [border] = &borders[..] else {
             panic!("a comb has one border");

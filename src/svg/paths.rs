@@ -75,7 +75,7 @@ impl StrokeSource {
         let mut ends = Vec::new();
         self.middle_line(self.tolerance, |from, to| ends.extend([from, to]));
         let half = self.width() / 2.0;
-        bounds_of(ends.into_iter()).map(|(low, high)| (low - half, high + half))
+        bounds_of(ends).map(|(low, high)| (low - half, high + half))
     }
 
     /// The middle of a single open line with round ends and no dashes, as of [`middle_line`](Self::middle_line).
