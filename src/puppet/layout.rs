@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::marks::PieceMark;
-use super::paper::{LEAST_MARGIN, Marked, Paper, Template, cut_out, rough_box};
+use super::paper::{LEAST_MARGIN, Marked, Paper, Template, TurnedBox, cut_out, rough_box};
 use super::pieces::PaperPiece;
 use crate::geometry::Outline;
 
@@ -48,8 +48,8 @@ pub(super) struct Task<'a> {
     pub(super) pieces: &'a [PaperPiece],
     /// Per piece what is drawn on it without holes, drawing units.
     pub(super) silhouettes: Vec<Outline>,
-    /// Per piece the sizes of the boxes around that, one for each way in which it may be turned.
-    pub(super) boxes: Vec<Vec<DVec2>>,
+    /// Per piece the boxes around that, one for each way in which it may be turned.
+    pub(super) boxes: Vec<Vec<TurnedBox>>,
     pub(super) marks: &'a [Option<PieceMark>],
     /// Per piece its holes: its own joint, then those of what it carries; drawing units.
     pub(super) holes: Vec<Vec<DVec2>>,
@@ -147,6 +147,7 @@ impl Task<'_> {
         Template {
             piece: &self.pieces[index],
             silhouette: &self.silhouettes[index],
+            boxes: &self.boxes[index],
             holes: &self.holes[index],
             marked: match self.marks[index] {
                 Some(_) => Marked::Yes,
@@ -194,9 +195,9 @@ impl Task<'_> {
 
     /// What the boxes of all pieces take at least, however they are turned.
     fn least_area(&self, scale: f64) -> f64 {
-        let boxes = self.boxes.iter().map(|sizes| {
-            let areas = sizes.iter().map(|size| {
-                let size = *size * scale + GAP + 2.0 * LEAST_MARGIN;
+        let boxes = self.boxes.iter().map(|turned| {
+            let areas = turned.iter().map(|turned| {
+                let size = turned.size() * scale + GAP + 2.0 * LEAST_MARGIN;
                 size.x * size.y
             });
             areas.fold(f64::INFINITY, f64::min)

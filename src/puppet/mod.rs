@@ -27,7 +27,7 @@ use instructions::Texts;
 use layout::{EDGE, GAP, Layout, Task};
 pub use marks::MarkOrigin;
 pub(crate) use marks::{PieceMark, marks};
-use paper::{box_sizes, without_holes};
+use paper::{boxes_turned, without_holes};
 pub use pieces::{PaperPiece, pieces};
 use sheet::Printed;
 
@@ -157,7 +157,7 @@ impl<'a> Puppet<'a> {
             .collect();
         let task = Task {
             pieces: &self.pieces,
-            boxes: silhouettes.iter().map(box_sizes).collect(),
+            boxes: silhouettes.iter().map(boxes_turned).collect(),
             silhouettes,
             marks: &self.marks,
             holes: (0..self.pieces.len())

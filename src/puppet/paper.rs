@@ -65,6 +65,8 @@ pub(super) struct Template<'a> {
     pub(super) piece: &'a PaperPiece,
     /// What is drawn on it without holes.
     pub(super) silhouette: &'a Outline,
+    /// The boxes around that.
+    pub(super) boxes: &'a [TurnedBox],
     /// The holes of joints that it has, its own first.
     pub(super) holes: &'a [DVec2],
     pub(super) marked: Marked,
@@ -117,7 +119,7 @@ pub(super) fn cut_out(template: &Template<'_>, scale: f64) -> Paper {
     }
     let outline = in_one_piece(without_holes(&union(&all)));
     Paper {
-        turn: turn(|turn| box_of(&outline, turn)),
+        turn: smallest(boxes_turned(&outline).iter().map(TurnedBox::sized)).0,
         outline,
         holes,
         mark,
@@ -133,17 +135,16 @@ pub(super) fn rough_box(template: &Template<'_>, scale: f64, widest: f64) -> DVe
         let mark = template.mark_at(scale, &template.drawn_at(scale), &holes);
         discs.push((mark, MARK + MARK_EDGE));
     }
-    let size = |turn: f64| {
-        let way = DVec2::from_angle(turn);
-        let (low, high) = bounds_turned(template.silhouette, turn);
-        let drawn = (low * scale - MARGIN, high * scale + MARGIN);
+    let sizes = template.boxes.iter().map(|TurnedBox { turn, low, high }| {
+        let way = DVec2::from_angle(*turn);
+        let drawn = (*low * scale - MARGIN, *high * scale + MARGIN);
         let (low, high) = discs.iter().fold(drawn, |(low, high), (at, radius)| {
             let at = way.rotate(*at);
             (low.min(at - *radius), high.max(at + *radius))
         });
-        high - low
-    };
-    let size = size(turn(size));
+        (*turn, high - low)
+    });
+    let (_, size) = smallest(sizes);
     if size.x > widest { size.yx() } else { size }
 }
 
@@ -326,28 +327,46 @@ fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
     bounds_of(points).unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY))
 }
 
-/// The size of the box around an outline that is turned by an angle.
-fn box_of(outline: &Outline, turn: f64) -> DVec2 {
-    let (low, high) = bounds_turned(outline, turn);
-    high - low
+/// The box around an outline that is turned.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TurnedBox {
+    /// Radians, from the right to below.
+    turn: f64,
+    low: DVec2,
+    high: DVec2,
 }
 
-/// The sizes of the boxes around what is drawn, however it is turned on the sheet.
-pub(super) fn box_sizes(outline: &Outline) -> Vec<DVec2> {
-    turns().map(|turn| box_of(outline, turn)).collect()
+impl TurnedBox {
+    pub(super) fn size(&self) -> DVec2 {
+        self.high - self.low
+    }
+
+    /// How far it is turned, and its size.
+    fn sized(&self) -> (f64, DVec2) {
+        (self.turn, self.size())
+    }
 }
 
-/// How far pieces may be turned on the sheet, radians.
-fn turns() -> impl Iterator<Item = f64> {
-    (-17..=18).map(|step| f64::from(step) * PI / 36.0)
+/// The boxes around an outline for each way in which a piece may be turned on the sheet.
+pub(super) fn boxes_turned(outline: &Outline) -> Vec<TurnedBox> {
+    let turns = (-17..=18).map(|step| f64::from(step) * PI / 36.0);
+    let boxes = turns.map(|turn| {
+        let (low, high) = bounds_turned(outline, turn);
+        TurnedBox { turn, low, high }
+    });
+    boxes.collect()
 }
 
-/// How far a piece is turned so that the box of this size around it is smallest: not at all where that gains little.
-fn turn(size: impl Fn(f64) -> DVec2) -> f64 {
-    let area = |turn: f64| size(turn).element_product();
-    let best = turns().min_by(|a, b| area(*a).total_cmp(&area(*b)));
-    let best = best.filter(|best| area(*best) < WORTH_TURNING * area(0.0));
-    best.unwrap_or(0.0)
+/// The smallest of the boxes around a piece, each with how far the piece is turned: that of the piece as it is drawn where turning it gains
+/// little.
+fn smallest(boxes: impl Iterator<Item = (f64, DVec2)>) -> (f64, DVec2) {
+    let area = |(_, size): &(f64, DVec2)| size.element_product();
+    let boxes: Vec<(f64, DVec2)> = boxes.collect();
+    let as_drawn = boxes.iter().find(|(turn, _)| *turn == 0.0);
+    let as_drawn = as_drawn.copied().unwrap_or_default();
+    let best = boxes.into_iter().min_by(|a, b| area(a).total_cmp(&area(b)));
+    let best = best.filter(|best| area(best) < WORTH_TURNING * area(&as_drawn));
+    best.unwrap_or(as_drawn)
 }
 
 #[cfg(test)]

@@ -37,33 +37,25 @@ impl Hand {
         let has =
             |column: usize, row: usize, edge: u8| map.edges[map.index(column, row)] & edge != 0;
         for column in 0..map.columns {
-            let mut row = 0;
-            while row < map.rows {
-                let start = row;
-                while row < map.rows && has(column, row, EDGE_RIGHT) {
-                    row += 1;
-                }
-                if row > start {
-                    lines += &self.line([column + 1, start], [column + 1, row]);
-                }
-                row += 1;
+            for [from, to] in stretches(map.rows, |row| has(column, row, EDGE_RIGHT)) {
+                lines += &self.line([column + 1, from], [column + 1, to]);
             }
         }
         for row in 0..map.rows {
-            let mut column = 0;
-            while column < map.columns {
-                let start = column;
-                while column < map.columns && has(column, row, EDGE_BELOW) {
-                    column += 1;
-                }
-                if column > start {
-                    lines += &self.line([start, row + 1], [column, row + 1]);
-                }
-                column += 1;
+            for [from, to] in stretches(map.columns, |column| has(column, row, EDGE_BELOW)) {
+                lines += &self.line([from, row + 1], [to, row + 1]);
             }
         }
         lines
     }
+}
+
+/// The stretches of numbers up to `count` for which something holds: the first of each, and the one behind it.
+fn stretches(count: usize, holds: impl Fn(usize) -> bool) -> Vec<[usize; 2]> {
+    let all: Vec<usize> = (0..count).filter(|at| holds(*at)).collect();
+    let stretches = all.chunk_by(|one, next| one + 1 == *next);
+    let ends = stretches.map(|stretch| [stretch[0], stretch[stretch.len() - 1] + 1]);
+    ends.collect()
 }
 
 /// The runs of equal cells in each row: first column, row, number of columns, and colour.

@@ -171,8 +171,8 @@ impl Lifting<'_> {
             } else {
                 MAX_RAISE * shape.height().max(self.arrangement.steps[index])
             };
-            let rises = by[1].min(self.rise(index, by[1], moved));
-            if rises <= most || shape.profile.is_open() {
+            let is_low = by[1] <= most || self.rise(index, by[1], moved) <= most;
+            if is_low || shape.profile.is_open() {
                 return Form::Raised(by);
             }
         }

@@ -12,7 +12,7 @@ use super::materials::Paints;
 use super::raster::Code as Painted;
 use crate::bind::{Bindings, LayerId};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
-use crate::geometry::contains;
+use crate::geometry::{contains, edges};
 use crate::source::Span;
 use crate::svg::{Drawing, GroupKind, PaintKey, ShapeId};
 use crate::terrain::{AmbiguityKind, MAX_CELLS, Tile};
@@ -266,12 +266,8 @@ pub(super) fn off_grid(
     }
     let mut borders = Borders::default();
     for (shape, _) in &content.fills {
-        for ring in drawing.shapes[*shape].outline.rings() {
-            let next = ring.iter().cycle().skip(1);
-            ring.iter()
-                .zip(next)
-                .for_each(|(from, to)| borders.add(*from, *to));
-        }
+        let edges = edges(&drawing.shapes[*shape].outline);
+        edges.for_each(|[from, to]| borders.add(from, to));
     }
     for stroke in content.strokes(drawing) {
         stroke.middle_line(grid.size * OFF, |from, to| borders.add(from, to));
@@ -378,13 +374,13 @@ pub(super) fn stray(
         "`{}`: {what} across tiles, more than a quarter of a tile from the lines between them: {cells}",
         layer.name
     );
-    let mut finding = Diagnostic::new(Code::OffGrid, shape(first).span, message).help(
+    let finding = Diagnostic::new(Code::OffGrid, shape(first).span, message).help(
         "draw edges along the lines between tiles; for what is no edge, write the string `*` beside it",
     );
-    for stray in strays.iter().take(MAX_SHOWN).skip(1) {
-        finding = finding.related(shape(stray).span, "and this one");
-    }
-    Some(finding)
+    Some(with_others(
+        finding,
+        strays.iter().map(|stray| shape(stray).span),
+    ))
 }
 
 /// Warns about shapes that are too small or too thin for the map.
@@ -422,10 +418,16 @@ pub(super) fn idle(
             layer.name
         ),
     };
-    let mut finding = Diagnostic::new(Code::OffGrid, element(0).span, message)
+    let finding = Diagnostic::new(Code::OffGrid, element(0).span, message)
         .help("draw what is a tile larger; for decoration, write the string `*` beside it");
-    for index in 1..idle.len().min(MAX_SHOWN) {
-        finding = finding.related(element(index).span, "and this one");
-    }
-    Some(finding)
+    let spans = (0..idle.len()).map(|index| element(index).span);
+    Some(with_others(finding, spans))
+}
+
+/// A finding with the first few of the other places that it is about; the first of these spans is its own.
+fn with_others(finding: Diagnostic, spans: impl Iterator<Item = Span>) -> Diagnostic {
+    let others = spans.take(MAX_SHOWN).skip(1);
+    others.fold(finding, |finding, span| {
+        finding.related(span, "and this one")
+    })
 }
