@@ -22,6 +22,8 @@ pub(crate) enum Work {
     ComparedCorners,
     /// Pairs of shapes that lie over one another.
     Overlaps,
+    /// Keys of clips: frames times parts that move.
+    Keys,
 }
 
 impl Work {
@@ -30,13 +32,14 @@ impl Work {
         match self {
             Self::Dashes => (5_000, 1),
             // A plate takes four of each point.
-            Self::Triangles => (500_000, 8),
+            Self::Triangles => (450_000, 8),
             Self::LeastTriangles => (600_000, 16),
             Self::UnaskedTriangles => (800_000, 0),
             Self::ClipPoints => (4_000_000, 32),
             // One outline of 4,096.
             Self::ComparedCorners => (1 << 15, 1),
             Self::Overlaps => (1 << 14, 1),
+            Self::Keys => (2_000_000, 8),
         }
     }
 }

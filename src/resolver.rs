@@ -4,7 +4,7 @@
 //! It stays there, by the rule of [`inside`], unless a person allows a larger folder.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use percent_encoding::percent_decode_str;
@@ -182,6 +182,41 @@ impl<'a> Recorder<'a> {
         let read = read.unwrap_or_else(PoisonError::into_inner).into_iter();
         read.map(|(link, content)| Dependency { link, content })
             .collect()
+    }
+}
+
+/// A resolver that records which links are read through it, and holds on to none of what they lead to.
+pub(crate) struct LinkList<'a> {
+    inner: &'a dyn Resolver,
+    links: Mutex<BTreeSet<String>>,
+}
+
+impl<'a> LinkList<'a> {
+    /// Records what is read from `inner`.
+    pub(crate) fn new(inner: &'a dyn Resolver) -> Self {
+        Self {
+            inner,
+            links: Mutex::default(),
+        }
+    }
+
+    /// All links that were read, as they were written, each once.
+    pub(crate) fn into_links(self) -> BTreeSet<String> {
+        let links = self.links.into_inner();
+        links.unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Resolver for LinkList<'_> {
+    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
+        let mut links = self.links.lock().unwrap_or_else(PoisonError::into_inner);
+        links.insert(link.to_owned());
+        drop(links);
+        self.inner.read(link)
+    }
+
+    fn siblings(&self, link: &str) -> Vec<String> {
+        self.inner.siblings(link)
     }
 }
 

@@ -124,12 +124,14 @@ fn built(
     if arguments.skin {
         loaded.compiled.scene = std::mem::take(&mut loaded.compiled.scene).skinned()?;
     }
+    let counts = Counts::of(&loaded);
+    loaded.keep_model();
     let written = write(drawing, output, &loaded, arguments)?;
     if arguments.stats {
         let times = [compiled, start.elapsed() - compiled];
-        text.push_str(&stats(&loaded, output, written, times));
+        text.push_str(&stats(&loaded, counts, output, written, times));
     } else if !common.quiet {
-        let summary = summary(&loaded, written);
+        let summary = summary(&loaded, counts, written);
         let _ = writeln!(text, "wrote {}: {summary}", output.display());
     }
     let outcome = loaded.outcome();
@@ -165,9 +167,25 @@ fn write(
     Ok(written)
 }
 
-fn summary(loaded: &Loaded, written: Written) -> String {
+/// What a drawing has, for what is said when its model is written.
+#[derive(Clone, Copy)]
+struct Counts {
+    parts: usize,
+    strings: usize,
+}
+
+impl Counts {
+    fn of(loaded: &Loaded) -> Self {
+        Self {
+            parts: part_count(&loaded.compiled),
+            strings: loaded.compiled.bindings.strings.len(),
+        }
+    }
+}
+
+fn summary(loaded: &Loaded, counts: Counts, written: Written) -> String {
     let scene = &loaded.compiled.scene;
-    let parts = counted(part_count(&loaded.compiled), "part");
+    let parts = counted(counts.parts, "part");
     let clips = match scene.animations.len() {
         0 => String::new(),
         count => format!(", {}", counted(count, "clip")),
@@ -181,16 +199,19 @@ fn summary(loaded: &Loaded, written: Written) -> String {
 }
 
 /// What was built and how long it took, one value per line.
-fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2]) -> String {
+fn stats(
+    loaded: &Loaded,
+    counts: Counts,
+    output: &Path,
+    written: Written,
+    times: [Duration; 2],
+) -> String {
     let scene = &loaded.compiled.scene;
     let milliseconds = |duration: Duration| format!("{:.1} ms", duration.as_secs_f64() * 1e3);
     let rows = [
         ("output", output.display().to_string()),
-        ("parts", part_count(&loaded.compiled).to_string()),
-        (
-            "strings",
-            loaded.compiled.bindings.strings.len().to_string(),
-        ),
+        ("parts", counts.parts.to_string()),
+        ("strings", counts.strings.to_string()),
         ("nodes", scene.nodes.len().to_string()),
         ("meshes", scene.meshes.len().to_string()),
         ("materials", scene.materials.len().to_string()),

@@ -55,6 +55,17 @@ impl Loaded {
         !self.compiled.has_errors() || (keep_going && !is_empty)
     }
 
+    /// Gives back the memory of all that writing the model does not need: of a drawing of very many parts, half of it.
+    pub(super) fn keep_model(&mut self) {
+        self.text = String::new();
+        self.compiled = Compiled {
+            scene: std::mem::take(&mut self.compiled.scene),
+            diagnostics: std::mem::take(&mut self.compiled.diagnostics),
+            dependencies: std::mem::take(&mut self.compiled.dependencies),
+            ..Compiled::default()
+        };
+    }
+
     pub(super) fn outcome(&self) -> Outcome {
         if self.compiled.has_errors() {
             Outcome::Errors

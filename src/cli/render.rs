@@ -16,7 +16,7 @@ use crate::render::{
     self, Clip, Model, ModelCamera, Options, Palette, PosedModel, RenderError, Sheet,
     TURNTABLE_SECONDS, write_png,
 };
-use crate::resolver::Recorder;
+use crate::resolver::LinkList;
 
 mod cameras;
 mod clips;
@@ -65,11 +65,11 @@ pub(super) fn run(arguments: &Render, common: Common) -> Result<Outcome, Failure
         outcome,
     } = model(arguments, common)?;
     let resolver = resolver(&arguments.drawing, &arguments.reading);
-    let recorder = Recorder::new(&resolver);
-    let model = render::read(&bytes, &recorder).map_err(|error| of_drawing(arguments, &error))?;
+    let links = LinkList::new(&resolver);
+    let model = render::read(&bytes, &links).map_err(|error| of_drawing(arguments, &error))?;
     drop(bytes);
-    let read = recorder.into_dependencies().into_iter();
-    let read = read.filter_map(|file| resolver.place(&file.link).ok());
+    let read = links.into_links().into_iter();
+    let read = read.filter_map(|link| resolver.place(&link).ok());
     let output = Destination {
         inputs: Inputs::of(&arguments.drawing).linking(linked.into_iter().chain(read)),
         naming: Naming::of(arguments.output.as_deref(), &path),

@@ -14,7 +14,7 @@ use crate::crash::{self, Crash};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
 use crate::figure::{Behind, FormInFigure, NodeDepth};
 use crate::memo::Memo;
-use crate::resolver::{Dependency, Recorder, Resolver};
+use crate::resolver::{Dependency, LinkList, Recorder, Resolver};
 use crate::rig;
 use crate::scene::Scene;
 use crate::source::Span;
@@ -185,7 +185,8 @@ impl Reading {
             mut diagnostics,
             dependencies,
         } = self;
-        let recorder = Recorder::new(resolver);
+        // Only their names are asked for: a motion file's text need not stay in memory beside its clip.
+        let links = LinkList::new(resolver);
         let bindings = bind::bind(&drawing, memo, &mut diagnostics);
         let Assembled {
             scene,
@@ -196,13 +197,11 @@ impl Reading {
             behind,
             forms,
             facings,
-        } = assemble::assemble(&drawing, &bindings, &recorder, memo, &mut diagnostics);
+        } = assemble::assemble(&drawing, &bindings, &links, memo, &mut diagnostics);
         bind::locate(&drawing, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
-        let dependencies = dependencies.into_iter().chain(recorder.into_dependencies());
-        let mut dependencies: Vec<String> = dependencies.map(|read| read.link).collect();
-        dependencies.sort();
-        dependencies.dedup();
+        let mut links = links.into_links();
+        links.extend(dependencies.into_iter().map(|read| read.link));
         Compiled {
             scene,
             bindings,
@@ -215,7 +214,7 @@ impl Reading {
             facings,
             drawing,
             diagnostics,
-            dependencies,
+            dependencies: links.into_iter().collect(),
         }
     }
 }

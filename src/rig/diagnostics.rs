@@ -13,7 +13,8 @@ use crate::retarget::{Matching, Problem};
 use crate::source::Span;
 
 use super::figures::FigureGroup;
-use super::{Context, MAX_KEYS, MAX_MATCHES};
+use super::keys::{Excess, SWING};
+use super::{Context, MAX_MATCHES};
 
 /// A file that cannot be read, or only its first `frames` complete frames.
 pub(super) fn broken_file(link: &str, error: &bvh::Error, frames: usize, span: Span) -> Diagnostic {
@@ -63,10 +64,24 @@ fn rounded(seconds: f64) -> f64 {
 }
 
 /// A drawing whose clips have too many keys.
-pub(super) fn too_many_keys(span: Span) -> Diagnostic {
-    let message = format!("the clips have more than {MAX_KEYS} keys together (frames times parts)");
-    let help =
-        "use shorter motions; `okoshi motion IN.bvh -o OUT.bvh --range 1:240` cuts a part out";
+pub(super) fn too_many_keys(excess: &Excess, span: Span) -> Diagnostic {
+    let Excess { keys, most, swings } = excess;
+    let counted = if *swings {
+        format!(
+            "frames times parts that move; a frame of one that swings counts {SWING} times more"
+        )
+    } else {
+        "frames times parts that move".to_owned()
+    };
+    let message = format!(
+        "the clips up to this one have {keys} keys ({counted}), and at most {most} are built"
+    );
+    let shorter = "use shorter motions: `from 0 to 20` behind a file plays its first 20 seconds";
+    let help = if *swings {
+        format!("{shorter}; or let fewer parts swing")
+    } else {
+        shorter.to_owned()
+    };
     Diagnostic::new(Code::LimitPassed, span, message).help(help)
 }
 

@@ -22,8 +22,8 @@ pub(crate) struct FigureGroup {
     pub parents: TiVec<FigurePartId, Option<FigurePartId>>,
     /// The part that carries the others.
     pub root: PartId,
-    /// The parts without a parent by their strings, each with the parts that it touches.
-    touching: Vec<(FigurePartId, Vec<FigurePartId>)>,
+    /// Per part without a parent by its string the parts that it touches; `None` for the others.
+    touching: TiVec<FigurePartId, Option<Vec<FigurePartId>>>,
 }
 
 impl FigureGroup {
@@ -34,12 +34,13 @@ impl FigureGroup {
 
     /// Whether a part has no parent by its string.
     pub(super) fn is_rooted(&self, part: FigurePartId) -> bool {
-        self.touching.iter().any(|(rooted, _)| *rooted == part)
+        self.touching[part].is_some()
     }
 
     /// The parts without a parent by their strings.
     pub(super) fn rooted(&self) -> impl Iterator<Item = FigurePartId> {
-        self.touching.iter().map(|(rooted, _)| *rooted)
+        let parts = self.touching.iter_enumerated();
+        parts.filter_map(|(part, touched)| touched.is_some().then_some(part))
     }
 
     /// The same figure with another root, which must be a part without a parent by its string.
@@ -47,8 +48,10 @@ impl FigureGroup {
         let Some(root) = self.parts.position(|own| *own == part) else {
             return self;
         };
-        for (root, _) in &self.touching {
-            self.parents[*root] = None;
+        for (parent, touched) in self.parents.iter_mut().zip(&self.touching) {
+            if touched.is_some() {
+                *parent = None;
+            }
         }
         let mut reached = ti_vec![false; self.parts.len()];
         reached[root] = true;
@@ -56,8 +59,7 @@ impl FigureGroup {
         let mut next = 0;
         while let Some(&at) = order.get(next) {
             next += 1;
-            let touched = self.touching.iter().find(|(root, _)| *root == at);
-            for &other in touched.into_iter().flat_map(|(_, others)| others) {
+            for &other in self.touching[at].iter().flatten() {
                 if !std::mem::replace(&mut reached[other], true) {
                     self.parents[other] = Some(at);
                     order.push(other);
@@ -145,10 +147,11 @@ fn group(
         .iter()
         .map(|part| bindings.parts[*part].parent.map(|parent| place[&parent]));
     let first = |tree: &usize| trees[*tree].parts[0];
-    let touching = members.iter().map(|tree| {
+    let mut touching = ti_vec![None; parts.len()];
+    for tree in members {
         let others = near[*tree].iter().map(|other| place[&first(other)]);
-        (place[&first(tree)], others.collect())
-    });
+        touching[place[&first(tree)]] = Some(others.collect());
+    }
     let size = |part: &PartId| area(&bindings.parts[*part].outline);
     // A head may be larger than the trunk of a stick figure.
     let may_carry = |part: &PartId| {
@@ -164,7 +167,7 @@ fn group(
     });
     let group = FigureGroup {
         parents: parents.collect(),
-        touching: touching.collect(),
+        touching,
         root: first(&members[0]),
         parts,
     };

@@ -14,6 +14,7 @@ mod figures;
 #[cfg(test)]
 mod fixtures;
 mod holding;
+mod keys;
 mod limbless;
 mod lying;
 mod measured;
@@ -56,6 +57,7 @@ pub use figure_clip::FigureClip;
 pub(crate) use figure_clip::{PartDrive, originals};
 pub(crate) use figures::FigureGroup;
 pub(crate) use figures::find as find_figures;
+use keys::Keys;
 use limbless::{Limbless, Misfit};
 use motion_files::MotionFiles;
 use moves::Roles;
@@ -65,9 +67,6 @@ pub(crate) use rigging::RestNode;
 use rigging::RestNodes;
 use tracks::AnimatedNodes;
 use turn::PlayedTurn;
-
-/// The most keys of all clips of a drawing: frames × parts.
-const MAX_KEYS: usize = 1 << 24;
 
 /// How often a figure is matched with a motion at most.
 const MAX_MATCHES: usize = 1 << 18;
@@ -159,7 +158,7 @@ pub(crate) fn add_clips(
         loose: BTreeMap::new(),
     };
     let (mut files, mut performances) = (MotionFiles::default(), Performances::default());
-    let (mut keys, mut matches) = (0_usize, 0_usize);
+    let (mut keys, mut matches) = (Keys::of(context.drawing.budget), 0_usize);
     for request in &requests {
         let is_single = request.turns.len() == 1;
         let mut motions = Vec::with_capacity(request.turns.len());
@@ -243,11 +242,8 @@ pub(crate) fn add_clips(
             let Some(first) = turns.first() else {
                 continue;
             };
-            let frames = turns.iter().map(PlayedTurn::length);
-            let frames = frames.fold(1, usize::saturating_add);
-            keys = keys.saturating_add(frames.saturating_mul(group.parts.len()));
-            if keys > MAX_KEYS {
-                diagnostics.push(diagnostics::too_many_keys(request.span));
+            if let Err(excess) = keys.add_turns(context, &turns) {
+                diagnostics.push(diagnostics::too_many_keys(&excess, request.span));
                 break;
             }
             let performance = builder.performance(request, &first.matched.group);
@@ -271,9 +267,8 @@ pub(crate) fn add_clips(
                 found
             });
             let frames = performance.as_ref().map_or(0, |found| found.plan.frames(0));
-            keys = keys.saturating_add(frames.saturating_mul(group.parts.len()));
-            if keys > MAX_KEYS {
-                diagnostics.push(diagnostics::too_many_keys(request.span));
+            if let Err(excess) = keys.add_performed(context, first, frames) {
+                diagnostics.push(diagnostics::too_many_keys(&excess, request.span));
                 break;
             }
             let requested = Requested {

@@ -90,8 +90,10 @@ pub(super) fn shade(
         triangles: vec![[0; 3]; triangles.len()],
         ..Surface::default()
     };
-    surface.positions.reserve(points.len());
-    surface.normals.reserve(points.len());
+    // Some points have several corners.
+    let corners_expected = points.len() + points.len() / 4;
+    surface.positions.reserve(corners_expected);
+    surface.normals.reserve(corners_expected);
     let split = |corner: u32| ((corner / 3) as usize, (corner % 3) as usize);
     let other = |corner: u32, step: usize| {
         let (triangle, i) = split(corner);

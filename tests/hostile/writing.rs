@@ -110,20 +110,36 @@ pub(crate) const KINDS: &[Kind] = &[
         name: "swings",
         full: 4000,
         small: 250,
-        make: |count| {
-            let one = |number: usize| {
-                let ([x, y], step) = grid(count, number);
-                let parent = match number.checked_sub(1) {
-                    Some(before) => format!("@n{before}"),
-                    None => String::new(),
-                };
-                format!(
-                    r#"<rect x="{:.1}" y="{:.1}" width="{step:.1}" height="{step:.1}"/><text x="{x:.1}" y="{y:.1}">n{number}{parent}$Swing 1</text>"#,
-                    x - step / 2.0,
-                    y - step / 2.0
-                )
-            };
-            page(&(text("%Motion walk") + &each(count, one)))
+        make: |count| page(&(text("%Motion walk") + &chain(count, "$Swing 1"))),
+    },
+    Kind {
+        name: "swings-for-minutes",
+        full: 480,
+        small: 5,
+        make: |seconds| page(&(text(&format!("%Motion walk {seconds}")) + &chain(60, "$Swing 1"))),
+    },
+    Kind {
+        name: "parts-that-follow-a-joint-for-minutes",
+        full: 480,
+        small: 5,
+        make: |seconds| {
+            page(&(text(&format!("%Motion walk {seconds}")) + &chain(500, "$Bone LeftUpLeg")))
         },
     },
 ];
+
+/// Parts in a grid, each of which hangs on the one before, with the same attributes.
+fn chain(count: usize, attributes: &str) -> String {
+    each(count, |number| {
+        let ([x, y], step) = grid(count, number);
+        let parent = match number.checked_sub(1) {
+            Some(before) => format!("@n{before}"),
+            None => String::new(),
+        };
+        format!(
+            r#"<rect x="{:.1}" y="{:.1}" width="{step:.1}" height="{step:.1}"/><text x="{x:.1}" y="{y:.1}">n{number}{parent}{attributes}</text>"#,
+            x - step / 2.0,
+            y - step / 2.0
+        )
+    })
+}
