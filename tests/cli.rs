@@ -100,7 +100,7 @@ fn stdin_and_stdout() {
         "error: a drawing from stdin is in no folder: name the output with -o",
     );
     let run = Run::of(room.pipe(&["check", "-"], BAD.as_bytes()));
-    run.ends(1, "--> <stdin>:3:42", "");
+    run.ends(1, "<stdin>:3:42, at the top of the page: error[E101]: `Shap` is not a keyword; write `Shape`\n", "");
     let run = Run::of(room.pipe(&["inspect", "-"], GOOD.as_bytes()));
     let size = "\nmodel 0.4 m high, 1.3 m wide, 0.141 m deep\n";
     assert!(run.out.ends_with(size), "{}", run.out);
@@ -462,7 +462,7 @@ fn quiet_and_verbose() {
     );
     room.run(&["build", "-q", "-v", "a.svg"])
         .ends(2, "", "cannot be used with");
-    // Many hints of a kind: the first is shown, and all with `-v`.
+    // Many hints of a kind: the first has a line, and each its own lines of the drawing with `-v`.
     let many: String = (0..31)
         .map(|i| {
             let x = 40 * i;
@@ -475,12 +475,11 @@ fn quiet_and_verbose() {
     let count = |run: Run, what: &str| run.err.matches(what).count();
     let usual = room.run(&["build", "many.svg"]);
     assert!(
-        usual
-            .err
-            .contains(" hint[H405]: `＄` is read as `$` (and 30 more)\n")
+        usual.err.contains(" hint[H405]: `＄` is read as `$`")
+            && usual.err.contains(" (and 30 more in line 5)\n")
             && usual
                 .err
-                .contains("\n`okoshi check -v` shows all in full\n"),
+                .contains("\n`okoshi check -v` shows all, each in its lines of the drawing\n"),
         "{}",
         usual.err
     );

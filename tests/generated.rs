@@ -173,7 +173,7 @@ fn shown(code: Code) -> String {
 fn not_utf8() -> String {
     let drawing = b"<svg xmlns=\"http://www.w3.org/2000/svg\"><text>F\xfc\xdfe@Body</text></svg>";
     let room = common::program::Room::with("drawing.svg", drawing);
-    let out = room.run(&["check", "drawing.svg"]).out;
+    let out = room.run(&["check", "-v", "drawing.svg"]).out;
     let (report, _count) = out.trim_end().rsplit_once("\n\n").expect("a report");
     report.to_owned()
 }

@@ -48,6 +48,7 @@ pub fn human(findings: Findings, style: Style) -> String {
 pub(super) struct Reports<'a> {
     page: Page<'a>,
     renderer: Renderer,
+    style: Style,
 }
 
 impl<'a> Reports<'a> {
@@ -62,6 +63,7 @@ impl<'a> Reports<'a> {
                 Style::Plain => Renderer::plain(),
                 Style::Colored => Renderer::styled(),
             },
+            style,
         }
     }
 
@@ -72,17 +74,28 @@ impl<'a> Reports<'a> {
         self.page.with_places(rendered, &shown, diagnostic.on_page) + "\n\n"
     }
 
-    /// A finding as one line, without line feed: `a.svg:14:3: hint[H402]: …`
+    /// A finding as one line, without line feed: place, cause and way out, such as
+    /// ``a.svg:14:3, in the middle of the page: error[E204]: there is no part named `Bdoy`; write `Body` ``.
     pub(super) fn line(&self, diagnostic: &Diagnostic) -> String {
         let (line, column) = self.place(diagnostic);
         let path = tame(self.page.path);
-        let (severity, code) = (diagnostic.severity().name(), diagnostic.code.id());
-        let words: Vec<&str> = diagnostic.message.split_whitespace().collect();
-        let message = words.join(" ");
-        format!(
-            "{path}:{line}:{column}: {severity}[{code}]: {}",
-            tame(&message)
-        )
+        let place = diagnostic.on_page;
+        let place = place.map_or(String::new(), |place| format!(", {place}"));
+        let kind = format!("{}[{}]", diagnostic.severity().name(), diagnostic.code.id());
+        let kind = match self.style {
+            Style::Plain => kind,
+            Style::Colored => format!("{}{kind}\x1b[0m", color(diagnostic.severity())),
+        };
+        let fix = diagnostic
+            .fixes
+            .first()
+            .map(|fix| uncapitalized(&fix.title));
+        let way_out = fix.or_else(|| Some(diagnostic.help.as_deref()?.to_owned()));
+        let way_out = way_out.map_or(String::new(), |way_out| format!("; {way_out}"));
+        let said = format!("{}{way_out}", diagnostic.message);
+        let words: Vec<&str> = said.split_whitespace().collect();
+        let said = words.join(" ");
+        format!("{path}:{line}:{column}{place}: {kind}: {}", tame(&said))
     }
 
     /// The line and column of a finding.
@@ -293,6 +306,22 @@ fn level(severity: Severity) -> Level<'static> {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
         Severity::Hint => Level::INFO.with_name(severity.name()),
+    }
+}
+
+/// A title within a sentence.
+fn uncapitalized(title: &str) -> String {
+    let mut letters = title.chars();
+    let first = letters.next().into_iter().flat_map(char::to_lowercase);
+    first.chain(letters).collect()
+}
+
+/// The escape sequence for the colour of a severity.
+fn color(severity: Severity) -> &'static str {
+    match severity {
+        Severity::Error => "\x1b[1;31m",
+        Severity::Warning => "\x1b[1;33m",
+        Severity::Hint => "\x1b[1;36m",
     }
 }
 

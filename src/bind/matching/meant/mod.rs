@@ -60,7 +60,7 @@ pub(super) fn find(
         let candidates = units.candidates(each, memo);
         let costs = |text: usize| {
             let candidates = candidates[text].iter();
-            candidates.map(|candidate| (candidate.unit, candidate.cost))
+            candidates.map(|candidate| (candidate.unit(), candidate.cost))
         };
         let assignment = assignment::cheapest(texts.len(), units.units.len(), UNBOUND, costs);
         let mut sum: usize = wanted.iter().sum();
@@ -136,7 +136,7 @@ fn share_out_rest(
 
 /// A unit among those that a text can have.
 fn candidate(candidates: &Candidates, unit: usize) -> Option<&Candidate> {
-    candidates.iter().find(|candidate| candidate.unit == unit)
+    candidates.iter().find(|candidate| candidate.unit() == unit)
 }
 
 fn cheapest<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Option<&'a Candidate> {
@@ -148,13 +148,13 @@ fn cheapest<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Option<&'a C
 fn rival(candidates: &[Candidates], assignment: &Assignment, text: usize) -> Option<usize> {
     let own = candidate(&candidates[text], assignment.column_of[text]?)?;
     let increase = |rival: &Candidate| {
-        let displaced = assignment.row_of[rival.unit].map_or(0.0, |other| {
+        let displaced = assignment.row_of[rival.unit()].map_or(0.0, |other| {
             let costs = &candidates[other];
             let can_have = |candidate: &&Candidate| {
-                candidate.unit == own.unit || assignment.row_of[candidate.unit].is_none()
+                candidate.unit() == own.unit() || assignment.row_of[candidate.unit()].is_none()
             };
             let next = cheapest(costs.iter().filter(can_have));
-            let now = candidate(costs, rival.unit);
+            let now = candidate(costs, rival.unit());
             let [next, now] =
                 [next, now].map(|found| found.map_or(f64::INFINITY, |found| found.cost));
             next - now
@@ -162,9 +162,9 @@ fn rival(candidates: &[Candidates], assignment: &Assignment, text: usize) -> Opt
         rival.cost - own.cost + displaced
     };
     let others = candidates[text].iter();
-    let others = others.filter(|candidate| candidate.unit != own.unit);
+    let others = others.filter(|candidate| candidate.unit() != own.unit());
     let (unit, least) = others
-        .map(|rival| (rival.unit, increase(rival)))
+        .map(|rival| (rival.unit(), increase(rival)))
         .min_by(|a, b| a.1.total_cmp(&b.1))?;
     (least + SHOWS * f64::from(own.shows_at) < UNCERTAIN).then_some(unit)
 }
@@ -179,10 +179,10 @@ fn opened(candidates: &[Candidates], assignment: &Assignment, units: &Units) -> 
         };
         let has = assignment.column_of[text].and_then(|unit| candidate(candidates, unit));
         let has = has.map_or(f64::INFINITY, |has| has.cost);
-        let is_taken = assignment.row_of[best.unit].is_some_and(|other| other != text);
-        let is_group = units.units[best.unit].members.len() > 1;
+        let is_taken = assignment.row_of[best.unit()].is_some_and(|other| other != text);
+        let is_group = units.units[best.unit()].members.len() > 1;
         if is_group && is_taken && has >= best.cost + OPENS {
-            opened.push(best.unit);
+            opened.push(best.unit());
         }
     }
     opened.sort_unstable();

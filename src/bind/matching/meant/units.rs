@@ -133,11 +133,19 @@ struct CandidatesKey {
 /// A unit that a text can have.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
-    pub(super) unit: usize,
+    /// Its number: small, because there are many candidates for each of very many texts.
+    unit: u32,
     /// What it costs, font sizes.
     pub(super) cost: f64,
     /// At how many of the text's points it shows.
     pub(super) shows_at: u8,
+}
+
+impl Candidate {
+    /// The number of the unit.
+    pub(super) fn unit(&self) -> usize {
+        self.unit as usize
+    }
 }
 
 /// The units that a text can have.
@@ -260,7 +268,7 @@ impl Units {
             let place = *places.entry(unit).or_insert(found.len());
             if place == found.len() {
                 found.push(Candidate {
-                    unit,
+                    unit: unit as u32,
                     cost,
                     shows_at: 0,
                 });
@@ -295,7 +303,7 @@ impl Units {
             }
         }
         budget::count(Step::Candidate, found.len());
-        found.retain(|found| self.units[found.unit].scope == Some(text.scope));
+        found.retain(|found| self.units[found.unit()].scope == Some(text.scope));
         for candidate in &mut found {
             candidate.cost += self.penalties(candidate, text, &points);
         }
@@ -304,7 +312,7 @@ impl Units {
 
     /// What a unit costs besides its distance.
     fn penalties(&self, candidate: &Candidate, text: &TextPlace, points: &[DVec2; 3]) -> f64 {
-        let unit = &self.units[candidate.unit];
+        let unit = &self.units[candidate.unit()];
         let em = text.em.0;
         let mut cost = 0.0;
         let lies_on = |point: &DVec2| {
