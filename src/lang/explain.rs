@@ -6,19 +6,28 @@ use super::keyword::kinds::{KINDS, Kind};
 use super::keyword::signature::{Form, Parameter, Takes};
 use super::keyword::vocabulary::{FUNCTIONS, STRINGS};
 use super::keyword::{Keyword, Status};
+use super::topics::{TOPICS, Topic};
 use crate::diagnostic::Code;
 
 /// The note on keywords that have no effect yet.
 const PLANNED: &str = "*This version reads and checks it, but it has no effect yet.*";
 
-/// The page on `word`: a keyword, a kind of `Shape`, or a diagnostic's code, ignoring case.
+/// The page on `word`: a keyword, a kind of `Shape`, a diagnostic's code, or a question of people who know none of them, ignoring
+/// case.
 ///
-/// A keyword has precedence over a kind of the same name.
+/// A keyword has precedence over a kind of the same name, and both over a question; a keyword without an effect comes last.
 pub(crate) fn page(word: &str) -> Option<String> {
-    Keyword::from_name(word)
+    let named = Keyword::from_name(word);
+    let (built, planned) = match named {
+        Some(keyword) if keyword.row().status == Status::Planned => (None, named),
+        _ => (named, None),
+    };
+    built
         .map(keyword)
         .or_else(|| super::keyword::kinds::from_name(word).map(kind))
+        .or_else(|| Topic::about(word).map(Topic::page))
         .or_else(|| Code::from_id(word).map(code))
+        .or_else(|| planned.map(keyword))
 }
 
 /// All words that have a page, but for keywords without an effect.
@@ -27,6 +36,7 @@ pub(crate) fn topics() -> impl Iterator<Item = &'static str> {
     let kinds = KINDS.iter().map(|kind| kind.name);
     keywords
         .chain(kinds)
+        .chain(TOPICS.iter().flat_map(Topic::all_words))
         .chain(Code::ALL.iter().map(|code| code.id()))
 }
 
@@ -162,8 +172,13 @@ pub(crate) fn overview() -> String {
     for row in &FUNCTIONS {
         let _ = writeln!(out, "- `{}`: {}", row.usage, row.summary);
     }
+    out.push_str("\n# Questions\n\n");
+    for topic in &TOPICS {
+        let words: Vec<&str> = topic.all_words().collect();
+        let _ = writeln!(out, "- {}", words.join(", "));
+    }
     out.push_str(
-        "\n`okoshi explain WORD` shows the page on a keyword, a kind, or a diagnostic's code.\n",
+        "\n`okoshi explain WORD` shows the page on a keyword, a kind, a word of a question, or a diagnostic's code.\n",
     );
     out
 }

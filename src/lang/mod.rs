@@ -23,6 +23,7 @@ pub(crate) mod motion;
 mod normalize;
 #[cfg(test)]
 mod tests;
+mod topics;
 
 pub use check::settings;
 pub(crate) use normalize::normalize;
