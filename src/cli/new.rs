@@ -15,7 +15,7 @@ impl Template {
     /// The drawing, as Inkscape saves it.
     fn drawing(self) -> &'static str {
         match self {
-            Self::Girl => include_str!("templates/girl.svg"),
+            Self::Girl => include_str!("../../examples/girl.svg"),
             Self::Boy => include_str!("templates/boy.svg"),
             Self::Dog => include_str!("templates/dog.svg"),
             Self::Dragon => include_str!("templates/dragon.svg"),

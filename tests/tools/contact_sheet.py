@@ -2,6 +2,7 @@
 
 import sys
 
+from palette import reduced
 from PIL import Image, ImageChops, ImageDraw, ImageFont
 
 CELL = 230
@@ -24,4 +25,4 @@ for at, (name, path) in enumerate(zip(names, sys.argv[3::2])):
     # All stand on one line.
     sheet.paste(picture, (x + (CELL - picture.width) // 2, y + CELL - BORDER - picture.height))
     draw.text((x + CELL // 2, y + CELL + LINE // 2 - 2), name, fill="#404040", font=font, anchor="mm")
-sheet.quantize(192).save(sys.argv[1], optimize=True)
+reduced(sheet).save(sys.argv[1], optimize=True)

@@ -13,7 +13,8 @@ okoshi=${OKOSHI:-target/release/okoshi}
 # name VIEW: a template's model from there.
 pictures=()
 while read -r name view; do
-  "$okoshi" render --quiet "src/cli/templates/$name.svg" -o "$room/$name.png" --size 720x720 --view="$view" --background "#ffffff"
+  "$okoshi" new --quiet "$room/$name" --template "$name"
+  "$okoshi" render --quiet "$room/$name.svg" -o "$room/$name.png" --size 720x720 --view="$view" --background "#ffffff"
   pictures+=("$name" "$room/$name.png")
 done <<'END'
 girl 28,10
