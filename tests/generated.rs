@@ -223,11 +223,3 @@ fn injection() {
         &reference::injection(),
     );
 }
-
-#[test]
-fn readme_table() {
-    let readme = fs::read_to_string(path("README.md")).expect("README.md");
-    let renewed =
-        reference::update_readme(&readme).expect("README.md has the markers of its table");
-    same("README.md", &renewed);
-}

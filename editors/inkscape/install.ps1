@@ -14,8 +14,11 @@ if ($inkscape) {
 }
 if (-not $Folder) { $Folder = Join-Path $env:APPDATA 'inkscape\extensions' }
 $target = Join-Path $Folder 'okoshi'
+# Starter drawings, which Inkscape offers under New from Template.
+$templates = Join-Path (Split-Path $Folder) 'templates\okoshi'
 
 if ($Uninstall) {
+    if (Test-Path $templates) { Remove-Item -Recurse -Force $templates }
     if (Test-Path $target) { Remove-Item -Recurse -Force $target; Write-Output "removed: $target" }
     else { Write-Output "nothing to remove: there is no $target" }
     exit 0
@@ -34,4 +37,15 @@ New-Item -ItemType Directory -Force $target | Out-Null
 Copy-Item (Join-Path $PSScriptRoot 'extension\*.inx'), (Join-Path $PSScriptRoot 'extension\*.py') $target
 [IO.File]::WriteAllText((Join-Path $target 'okoshi.path'), "$($program.Source)`n")
 Write-Output "installed: $target"
-Write-Output 'Restart Inkscape. Then File > Save As offers glTF, and the menu Extensions has Okoshi.'
+# An older program has no list.
+$list = (& $program.Source new --list 2>$null)
+if ($LASTEXITCODE -eq 0) {
+    if (Test-Path $templates) { Remove-Item -Recurse -Force $templates }
+    New-Item -ItemType Directory -Force $templates | Out-Null
+    foreach ($line in $list) {
+        $name = ($line -split ' ')[0]
+        & $program.Source new --quiet (Join-Path $templates $name) --template $name
+    }
+    Write-Output "installed: $templates"
+}
+Write-Output 'Restart Inkscape. Then File > Save As offers glTF, and the menu Extensions has Okoshi; File > New from Template offers the starter drawings.'

@@ -50,12 +50,14 @@ elif [ -z "$folder" ]; then
     "Edit → Preferences → System shows it as User extensions."
 fi
 target=$folder/okoshi
+# Starter drawings, which Inkscape offers under New from Template.
+templates=$(dirname "$folder")/templates/okoshi
 
 # ---- Uninstall
 
 if [ $uninstall = yes ]; then
   if [ -d "$target" ]; then
-    rm -rf -- "$target"
+    rm -rf -- "$target" "$templates"
     echo "removed: $target"
   else
     echo "nothing to remove: there is no $target"
@@ -89,6 +91,15 @@ for file in "$here"/extension/*.inx "$here"/extension/*.py; do
 done
 printf '%s\n' "$okoshi" > "$target/okoshi.path"
 echo "installed: $target"
+# An older program has no list.
+if "$okoshi" new --list > /dev/null 2>&1; then
+  rm -rf -- "$templates"
+  mkdir -p "$templates"
+  while read -r name _; do
+    "$okoshi" new --quiet "$templates/$name" --template "$name"
+  done < <("$okoshi" new --list)
+  echo "installed: $templates"
+fi
 
 # Debian's Inkscape lacks modules that its extensions need. Other builds contain a Python of their own.
 if [ -n "$inkscape" ] && system=$("$inkscape" --system-data-directory 2> /dev/null | tail -n 1) && [ -d "$system/extensions/inkex" ]; then
@@ -104,4 +115,4 @@ if [ -n "$inkscape" ] && system=$("$inkscape" --system-data-directory 2> /dev/nu
       fi ;;
   esac
 fi
-echo "Restart Inkscape. Then File → Save As offers glTF, and the menu Extensions has Okoshi."
+echo "Restart Inkscape. Then File → Save As offers glTF, and the menu Extensions has Okoshi; File → New from Template offers the starter drawings."

@@ -133,26 +133,48 @@ fn tolerance(text: &str) -> Result<f64, String> {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = NEW_EXAMPLES)]
 pub(super) struct New {
     /// The drawing's name; `.svg` is added if it is missing, `-` is stdout
-    #[arg(value_name = "NAME")]
-    pub(super) name: PathBuf,
+    #[arg(value_name = "NAME", required_unless_present = "list")]
+    pub(super) name: Option<PathBuf>,
     /// The drawing to start from
-    #[arg(short, long, value_name = "TEMPLATE", default_value = "human")]
+    #[arg(short, long, value_name = "TEMPLATE", default_value = "girl")]
     pub(super) template: Template,
+    /// List the templates; terminals that show pictures show them, too
+    #[arg(short, long, conflicts_with_all = ["name", "template"])]
+    pub(super) list: bool,
 }
+
+const NEW_EXAMPLES: &str = "\
+Examples:
+  okoshi new me                     writes me.svg, a girl who walks
+  okoshi new rex --template dragon  writes rex.svg
+  okoshi new --list                 lists the templates";
 
 /// The starter drawings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Template {
-    /// A person with arms and legs that can turn
-    Human,
-    /// A toy car, drawn from the side, with wheels on both sides
-    Car,
-    /// A landscape, drawn as a map of tiles: a hill, a pond, a house in the sea
-    Island,
-    /// A character that turns, drawn from two sides
+    /// A girl who walks; also `human`
+    #[value(alias = "human")]
+    Girl,
+    /// A boy who walks and waves
     Boy,
+    /// A dog who walks, drawn from the side
+    Dog,
+    /// A dragon who flies, drawn from the side
+    Dragon,
+    /// A robot who walks and dances
+    Robot,
+    /// A racing car whose wheels turn, drawn from the side; also `car`
+    #[value(alias = "car")]
+    RacingCar,
+    /// A landscape, drawn as a map of tiles: hills, houses and trees in the sea
+    Island,
+    /// A fox that turns, drawn from two sides
+    Turning,
+    /// A page with guides, and strings to copy
+    Empty,
 }
 
 /// The formats of models, with their descriptions.

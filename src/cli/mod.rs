@@ -25,6 +25,7 @@ mod puppet;
 mod render;
 pub(crate) mod report;
 pub(crate) mod sarif;
+mod terminal;
 mod track;
 mod watch;
 

@@ -1,35 +1,69 @@
 //! `okoshi new`
 
+use std::fmt::Write as _;
+use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum as _;
+
 use super::args::{Common, New, Template};
+use super::terminal::Protocol;
 use super::{Failure, Outcome, print_out};
 use crate::disk::{WriteError, is_standard_stream, write_new};
 
 impl Template {
-    /// The drawing, as Inkscape saved it.
+    /// The drawing, as Inkscape saves it.
     fn drawing(self) -> &'static str {
         match self {
-            Self::Human => include_str!("templates/human.svg"),
-            Self::Car => include_str!("templates/car.svg"),
+            Self::Girl => include_str!("../../examples/girl.svg"),
+            Self::Boy => include_str!("templates/boy.svg"),
+            Self::Dog => include_str!("templates/dog.svg"),
+            Self::Dragon => include_str!("templates/dragon.svg"),
+            Self::Robot => include_str!("templates/robot.svg"),
+            Self::RacingCar => include_str!("templates/racing-car.svg"),
             Self::Island => include_str!("templates/island.svg"),
-            Self::Boy => include_str!("../../examples/characters/boy.svg"),
+            Self::Turning => include_str!("templates/turning.svg"),
+            Self::Empty => include_str!("templates/empty.svg"),
         }
     }
 }
 
-/// Writes a starter drawing, and suggests the next commands.
+/// Their models side by side, in the order of the list, as a PNG: `tests/tools/starters.sh` makes it.
+const SHEET: &[u8] = include_bytes!("../../docs/starters.png");
+
+/// Writes a starter drawing, and suggests the next commands; or lists the drawings.
 pub(super) fn run(arguments: &New, common: Common) -> Result<Outcome, Failure> {
+    let Some(name) = &arguments.name else {
+        return Ok(list());
+    };
     let drawing = arguments.template.drawing();
-    if is_standard_stream(&arguments.name) {
+    if is_standard_stream(name) {
         return Ok(print_out(drawing));
     }
-    let path = named(&arguments.name)?;
+    let path = named(name)?;
     write_new(&path, drawing.as_bytes()).map_err(|error| explained(&error))?;
     if !common.quiet {
         eprint!("{}", next_steps(&path));
     }
     Ok(Outcome::Done)
+}
+
+/// Prints a line for each template, below a picture of all where the terminal shows pictures.
+fn list() -> Outcome {
+    let mut text = String::new();
+    if std::io::stdout().is_terminal()
+        && let Some(protocol) = Protocol::of_terminal(|name| std::env::var(name).ok())
+    {
+        text = protocol.show(SHEET);
+    }
+    for template in Template::value_variants() {
+        let value = template.to_possible_value();
+        let value = value.expect("no template is skipped");
+        let help = value.get_help().map(ToString::to_string);
+        let help = help.unwrap_or_default();
+        let _ = writeln!(text, "{:<12}{help}", value.get_name());
+    }
+    print_out(&text)
 }
 
 /// The file of the drawing: the name, with `.svg` appended unless it has that extension.

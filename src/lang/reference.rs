@@ -18,11 +18,6 @@ pub use textmate::{injection, textmate};
 
 const GENERATED: &str = "<!-- Generated from the keyword table: `OKOSHI_REWRITE=generated cargo test --test generated`. -->\n";
 
-/// The line before the README's table.
-pub const TABLE_START: &str = "<!-- keywords -->";
-/// The line after the README's table.
-pub const TABLE_END: &str = "<!-- /keywords -->";
-
 /// `docs/reference.md`: the whole language.
 pub fn reference() -> String {
     let mut out = format!("# Language reference\n\n{GENERATED}\n");
@@ -107,8 +102,8 @@ pub fn diagnostics(report: impl Fn(Code) -> Option<String>) -> String {
     out
 }
 
-/// The table of the keywords that have an effect, for the README and the reference.
-pub fn keyword_table() -> String {
+/// The table of the keywords that have an effect.
+fn keyword_table() -> String {
     let mut out = String::from("| keyword | where | meaning | default |\n|---|---|---|---|\n");
     for keyword in Keyword::built() {
         let row = keyword.row();
@@ -129,33 +124,10 @@ pub fn keyword_table() -> String {
     out
 }
 
-/// `readme` with its table of keywords updated; `None` if the markers of the table are missing.
-pub fn update_readme(readme: &str) -> Option<String> {
-    let (head, rest) = readme.split_once(TABLE_START)?;
-    let (_, tail) = rest.split_once(TABLE_END)?;
-    let table = keyword_table();
-    Some(format!("{head}{TABLE_START}\n{table}{TABLE_END}{tail}"))
-}
-
 /// A page of the manual with its heading two levels deeper, as a section of a larger page.
 fn deeper(page: &str) -> String {
     match page.strip_prefix("# ") {
         Some(rest) => format!("### {rest}"),
         None => page.to_owned(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_readme_keeps_its_text() {
-        let readme = "a\n<!-- keywords -->\nold\n<!-- /keywords -->\nb\n";
-        let updated = update_readme(readme).unwrap();
-        assert!(updated.starts_with("a\n<!-- keywords -->\n| keyword"));
-        assert!(updated.ends_with("|\n<!-- /keywords -->\nb\n"));
-        assert_eq!(update_readme(&updated), Some(updated.clone()));
-        assert_eq!(update_readme("nothing"), None);
     }
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Makes the gallery's pictures from all drawings in examples/: bash tests/tools/gallery.sh [NAME…]
 #
-# NAME is a drawing in examples/ without extension: human, shapes/cone. Each drawing gets gallery/NAME-drawing.png and
-# gallery/NAME-model.png in docs/; human, clockwork-dragon and island-textured also get NAME.png there, with both side by side, and
+# NAME is a drawing in examples/ without extension: girl, shapes/cone. Each drawing gets gallery/NAME-drawing.png and
+# gallery/NAME-model.png in docs/; island-textured also gets NAME.png there, with both side by side,
 # island gets terrain-on.png and terrain-off.png, its drawn look and true 3D, and characters/boy gets characters-matches.png, which of
 # its regions are pairs. Requires Inkscape for the drawings, okoshi for the
 # models, and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a folder to use instead of docs/.
@@ -37,7 +37,7 @@ while IFS= read -r drawing; do
     python3 tests/tools/thumbnail.py "$room/$flat-$side.png" "$out/gallery/$flat-$side.png"
   done
   case $name in
-    human | clockwork-dragon | island-textured)
+    island-textured)
       python3 tests/tools/side_by_side.py "$room/$flat-drawing.png" "$room/$flat-model.png" "$out/$flat.png" ;;
     characters/boy)
       "$okoshi" inspect --quiet "$drawing" --matches "$room/matches.png" > "$room/list.txt"

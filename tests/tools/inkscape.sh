@@ -68,6 +68,7 @@ if bash $install --nonsense > "$SCRATCH/log" 2>&1; then fail "accepted an unknow
 has "$SCRATCH/log" "--uninstall"
 bash $install --okoshi "$program" > "$SCRATCH/log"
 has "$SCRATCH/log" "installed: $place"
+[ -e "$INKSCAPE_PROFILE_DIR/templates/okoshi/dragon.svg" ] || fail "no templates"
 (cd "$place" && sha256sum ./*) > "$SCRATCH/first"
 touch "$place/okoshi_left_by_an_older_version.inx"
 bash $install --okoshi "$program" > "$SCRATCH/log"

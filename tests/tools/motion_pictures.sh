@@ -60,9 +60,9 @@ single robot-ja robot 40,8 2.0 2.35 200x240 8
 single stick stick -75,8 1.01 1.594 200x240 8
 single visitor visitor-greeting -55,8 1.75 3.1 150x190 10
 clip examples/motion/monkey.svg walk 35,8 200x240 8
-clip src/cli/templates/human.svg walk -75,8 130x170 10
-clip src/cli/templates/human.svg run -75,8 130x170 10
-clip src/cli/templates/human.svg dance 0,8 130x170 10
+clip src/cli/templates/boy.svg walk -75,8 130x170 10
+clip src/cli/templates/boy.svg run -75,8 130x170 10
+clip src/cli/templates/boy.svg dance 0,8 130x170 10
 clip examples/motion/dog.svg walk 8,8 160x120 8
 clip examples/motion/dog.svg run 8,8 160x120 8
 clip examples/motion/beetle.svg walk 8,12 160x120 8

@@ -2,6 +2,7 @@
 
 import sys
 
+from palette import reduced
 from PIL import Image, ImageChops
 
 HEIGHT = 420
@@ -23,4 +24,4 @@ drawing, model = trimmed(sys.argv[1]), trimmed(sys.argv[2])
 both = Image.new("RGB", (drawing.width + GAP + model.width, HEIGHT + 2 * GAP), "white")
 both.paste(drawing, (0, GAP))
 both.paste(model, (drawing.width + GAP, GAP))
-both.quantize(96).save(sys.argv[3], optimize=True)
+reduced(both).save(sys.argv[3], optimize=True)

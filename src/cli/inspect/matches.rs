@@ -20,7 +20,7 @@ pub(super) fn draw(loaded: &Loaded, path: &Path, arguments: &Inspect, common: Co
     let characters = &loaded.compiled.characters;
     if characters.is_empty() {
         return fail(format!(
-            "`{}` has no character that is drawn from two sides, so there is nothing to match: put each side into a layer of its own, and write `Boy$View 0 0` in one and `Boy$View 45 0` in the other; `okoshi new boy --template boy` writes an example",
+            "`{}` has no character that is drawn from two sides, so there is nothing to match: put each side into a layer of its own, and write `Boy$View 0 0` in one and `Boy$View 45 0` in the other; `okoshi new fox --template turning` writes an example",
             loaded.path
         ));
     }

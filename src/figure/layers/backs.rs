@@ -145,6 +145,13 @@ pub(super) fn backs(
         let [one, other] = [one, other].map(|shape| nodes.of_shape[shape]);
         is_one || nodes.hangs_on(one, other) || nodes.hangs_on(other, one)
     };
+    // What hangs on a shape moves by itself: a shirt is no part of an arm below it, nor a head of the hair around it.
+    let is_carried = |one: usize, by: usize| {
+        let [node, carrier] = [one, by].map(|shape| nodes.of_shape[shape]);
+        node != carrier
+            && nodes.hangs_on(node, carrier)
+            && !context.bindings.parts[shapes[one].main].is_automatic()
+    };
     let mut garments: Vec<Vec<Garment>> = vec![Vec::new(); shapes.len()];
     for (above, below) in overlaps.iter().enumerate() {
         let garment = &shapes[above];
@@ -154,7 +161,7 @@ pub(super) fn backs(
         for overlap in below {
             let on = overlap.below;
             let is_large = overlap.area >= LEAST * shapes[on].area;
-            if is_large && may_show_back[on] && is_kin(above, on) {
+            if is_large && may_show_back[on] && is_kin(above, on) && !is_carried(on, above) {
                 garments[on].push(Garment {
                     shape: above,
                     area: overlap.area,
@@ -166,7 +173,12 @@ pub(super) fn backs(
             let [volume, behind] = [garment.area, shapes[on].area];
             let is_alike = overlap.area >= BEHIND * volume && overlap.area >= BEHIND * behind;
             let is_free = !shapes[on].is_ink && !shapes[on].is_given && !shapes[on].is_near;
-            if is_alike && is_free && may_show_back[above] && is_kin(above, on) {
+            if is_alike
+                && is_free
+                && may_show_back[above]
+                && is_kin(above, on)
+                && !is_carried(above, on)
+            {
                 garments[above].push(Garment {
                     shape: on,
                     area: overlap.area,
