@@ -610,10 +610,14 @@ fn the_manual() {
     for code in okoshi::diagnostic::Code::ALL {
         room.run(&["explain", code.id()]).ends(0, code.title(), "");
     }
-    for keyword in okoshi::internals::lang::keyword::Keyword::ALL {
+    for keyword in okoshi::internals::lang::keyword::Keyword::built() {
         room.run(&["explain", keyword.name()])
             .ends(0, keyword.name(), "");
     }
+    // So can the words of people who do not know the keywords.
+    room.run(&["explain", "elbow"])
+        .ends(0, "# Joint\n\nA part turns where", "");
+    room.run(&["explain", "Walk"]).ends(0, "%Motion walk", "");
 }
 
 #[test]
