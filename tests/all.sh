@@ -347,6 +347,17 @@ gallery() {
   OKOSHI=$(realpath "$okoshi") python3 $tools/moving_picture.py "$target/gallery/girl.webp"
 }
 
+site() {
+  local status=0
+  need python3
+  need npm
+  python3 -c 'import ensurepip' 2> /dev/null || install "Python's venv" python3-venv
+  use_program
+  OKOSHI=$(realpath "$okoshi") SCRATCH=$target/site-tools bash $tools/site.sh "$target/site" || status=$?
+  [ $status != 77 ] || skip "the site's generator or its viewer of models cannot be fetched"
+  return $status
+}
+
 readme() {
   [ -f README.md ] || skip "there is no README.md"
   use_program
@@ -418,6 +429,7 @@ step licences licences
 step sides sides
 step gallery gallery
 step readme readme
+step site site
 end_aside
 
 printf '\n==== summary, %d s\n' $SECONDS
