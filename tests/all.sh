@@ -358,6 +358,14 @@ site() {
   return $status
 }
 
+packages() {
+  local tool
+  for tool in python3 npm objdump strip dpkg-deb curl; do need $tool; done
+  python3 -c 'import ensurepip' 2> /dev/null || install "Python's venv" python3-venv
+  use_program
+  OKOSHI=$(realpath "$okoshi") python3 $tools/release.py "$target/packages"
+}
+
 readme() {
   [ -f README.md ] || skip "there is no README.md"
   use_program
@@ -430,6 +438,7 @@ step sides sides
 step gallery gallery
 step readme readme
 step site site
+step packages packages
 end_aside
 
 printf '\n==== summary, %d s\n' $SECONDS
