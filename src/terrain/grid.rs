@@ -62,8 +62,12 @@ impl Grid {
 }
 
 /// Transposes a table from row-major to column-major order.
-fn transposed(table: &[u8], columns: usize, rows: usize) -> Vec<u8> {
-    let mut out = vec![0; table.len()];
+pub(super) fn transposed<T: Copy + Default + Send + Sync>(
+    table: &[T],
+    columns: usize,
+    rows: usize,
+) -> Vec<T> {
+    let mut out = vec![T::default(); table.len()];
     if table.is_empty() {
         return out;
     }

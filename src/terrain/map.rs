@@ -52,6 +52,9 @@ pub const EDGE_RIGHT: u8 = 1;
 /// There is an edge between a cell and the one below it.
 pub const EDGE_BELOW: u8 = 2;
 
+/// The height of a cell to which nothing gives one.
+pub const UNSET: i8 = i8::MIN;
+
 /// The largest number of cells in a map.
 pub(crate) const MAX_CELLS: usize = 1 << 26;
 
@@ -68,6 +71,8 @@ pub struct Map {
     pub tiles: Vec<Tile>,
     /// Per cell [`EDGE_RIGHT`] and [`EDGE_BELOW`].
     pub edges: Vec<u8>,
+    /// Per cell its height, or [`UNSET`], if the map is plain, which is seen from straight above; empty in the drawn look.
+    pub heights: Vec<i8>,
 }
 
 impl Map {
@@ -81,12 +86,18 @@ impl Map {
             cells: vec![0; columns * rows],
             tiles,
             edges: vec![0; columns * rows],
+            heights: vec![],
         }
     }
 
     /// The index of a cell.
     pub fn index(&self, column: usize, row: usize) -> usize {
         row * self.columns + column
+    }
+
+    /// Whether it is seen from straight above, with a height for each cell.
+    pub fn is_plain(&self) -> bool {
+        !self.heights.is_empty()
     }
 
     /// The kind of tile in a cell.

@@ -140,7 +140,7 @@ fn assert_seen_as_drawn(map: &Map, name: &str) {
 }
 
 /// Fails where a surface is open: each edge of a triangle must meet an opposite one.
-fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
+pub(crate) fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
     let land = Landscape::new(map);
     let mut sides: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
     for (_, corners) in triangles(map, &land, roof, bevel) {
@@ -198,7 +198,7 @@ fn shared(one: &Triangle, other: &Triangle, drop: usize) -> f64 {
 
 /// Fails where two faces lie back to back in one plane: no solid has a thickness of 0, and solids that touch have no faces
 /// between them.
-fn assert_no_faces_back_to_back(map: &Map, roof: f64, bevel: f64, name: &str) {
+pub(crate) fn assert_no_faces_back_to_back(map: &Map, roof: f64, bevel: f64, name: &str) {
     let land = Landscape::new(map);
     // Per plane the triangles that look along its normal, and those that look against it.
     let mut planes: BTreeMap<[i64; 4], [Vec<Triangle>; 2]> = BTreeMap::new();

@@ -235,6 +235,11 @@ impl<'a> Attributes<'a> {
         self.number(Keyword::Roof).map(|roof| roof.value)
     }
 
+    /// `Height`: that of the tops of tiles, if it is set.
+    pub fn height(&self) -> Option<Attribute<'a, i8>> {
+        typed!(self, Keyword::Height, Value::Number(height) => *height as i8)
+    }
+
     /// `Bevel`: the radius of the ground's bevel, tiles.
     pub fn bevel(&self) -> f64 {
         self.value_or(Keyword::Bevel, 0.0)

@@ -57,3 +57,19 @@ pub(super) static ROOF: Row = Row {
     example: "Village$Tiles 16 Roof 0.5",
     ..Row::ROW
 };
+
+pub(super) static HEIGHT: Row = Row {
+    forms: &[Form::one(&number(
+        "n",
+        Bounds::new(-100., 100., Restriction::Integer),
+        "height of the tops, in whole tiles",
+    ))],
+    default: "0; water lies one tile below its lowest bank",
+    summary: "how high tiles are, in a map that is seen from straight above",
+    long: "Makes a plain map of the tile layer: seen from straight above, without fronts. In a legend it \
+           is the height of the tiles of that paint, in the string of a group inside the layer that of the \
+           group's tiles, and in the layer's own string that of all others. Walls stand where heights \
+           differ. Below 0 the ground is sunken.",
+    example: "$Tile beige Height 3",
+    ..Row::ROW
+};

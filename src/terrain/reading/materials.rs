@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::colors::{self, Named};
 use super::raster::{Code, paint_of, pixel_of};
-use crate::bind::{Bindings, LayerId, MaterialFactors, StringId};
+use crate::bind::{Bindings, LayerId, MaterialFactors, SetBy, StringId};
 use crate::source::Span;
 use crate::svg::{PaintKey, ShapeId};
 use crate::terrain::Tile;
@@ -127,6 +127,19 @@ impl<'a> Paints<'a> {
             None => colors::named(color),
         };
         (named, legend)
+    }
+
+    /// The height that the layer's own string gives its tiles, or a `%` string those of all layers.
+    pub(super) fn height_of_layer(&self) -> Option<i8> {
+        let height = self.bindings.layer_attributes(self.layer).height();
+        height.map(|height| height.value)
+    }
+
+    /// The height that a legend gives the tiles of its paint.
+    pub(super) fn height_of_legend(&self, legend: Option<usize>) -> Option<i8> {
+        let height = self.bindings.tile_attributes(self.layer, legend).height();
+        let height = height.filter(|height| height.source.from == SetBy::Legend);
+        height.map(|height| height.value)
     }
 
     /// The meaning of a code other than [`NOTHING`](super::raster::NOTHING).

@@ -10,6 +10,7 @@ mod diagnostics;
 mod edges;
 mod fit;
 mod grid;
+mod heights;
 mod materials;
 #[cfg(test)]
 mod palettes;
@@ -21,7 +22,7 @@ mod tests;
 use std::ops::Range;
 
 use glam::DVec2;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 pub(crate) use materials::{TileMaterial, TileTexture};
 
@@ -141,11 +142,13 @@ pub(crate) fn read(
     let mut layers = TiVec::new();
     let mut all_read = true;
     let contents = contents(drawing, bindings);
+    let levels = &bindings.levels_of_groups(drawing);
     for (index, _) in bindings.tile_layers() {
         let reading = Reading {
             drawing,
             bindings,
             index,
+            levels,
         };
         match reading.layer(&contents[index], &mut used, diagnostics) {
             Ok(layer) => layers.push(layer),
@@ -172,6 +175,8 @@ struct Reading<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
     index: LayerId,
+    /// Per group the height that it gives its tiles; empty if none does.
+    levels: &'a TiSlice<GroupId, Option<i8>>,
 }
 
 impl Reading<'_> {
@@ -189,6 +194,7 @@ impl Reading<'_> {
             drawing,
             bindings,
             index,
+            ..
         } = *self;
         let of_layer = &bindings.layers[index];
         let attributes = bindings.layer_attributes(index);
@@ -213,7 +219,11 @@ impl Reading<'_> {
         if grid.columns == 0 || grid.rows == 0 {
             return nothing(true);
         }
-        let items = content.items(drawing, &grid, &mut paints, diagnostics)?;
+        let mut items = content.items(drawing, &grid, &mut paints, diagnostics)?;
+        for (shape, item) in &mut items {
+            let level = self.levels.get(drawing.shapes[*shape].group);
+            item.height = level.copied().flatten();
+        }
         let mut sources: Vec<TileSource> = Vec::with_capacity(items.len());
         for (shape, item) in &items {
             let [columns, rows] = item.reach(&grid).map(|[from, to]| from..to);
@@ -237,21 +247,28 @@ impl Reading<'_> {
             plain,
             too_many_legends,
         } = classify(&canvas, &paints, vec![0; grid.columns * grid.rows]);
+        let heights = heights::read(&canvas, &paints, &cells, &materials);
         // Free the memory of pictures before edges are read.
         drop(canvas);
         let is_empty = materials.len() == 1 && unclear.is_empty();
         let mut edges = vec![0; cells.len()];
-        let strokes = content.strokes(drawing);
-        edges::read(&grid, &strokes, &mut edges);
-        let strays = edges::strays(&grid, &strokes, &cells);
+        let mut strays = vec![];
+        if heights.is_empty() {
+            let strokes = content.strokes(drawing);
+            edges::read(&grid, &strokes, &mut edges);
+            strays = edges::strays(&grid, &strokes, &cells);
+            sand::walls(&mut cells, &edges, &sources, grid.columns, &mut materials);
+        } else {
+            heights::add_earth(&paints, &mut materials);
+        }
         legends.iter().for_each(|legend| used[*legend] = true);
-        sand::walls(&mut cells, &edges, &sources, grid.columns, &mut materials);
         let map = Map {
             columns: grid.columns,
             rows: grid.rows,
             cells,
             tiles: materials.iter().map(|material| material.tile).collect(),
             edges,
+            heights,
         };
         let layer = Layer {
             index,
