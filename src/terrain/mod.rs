@@ -21,6 +21,7 @@ mod plain;
 mod reading;
 mod solids;
 mod surface;
+mod tiled;
 
 pub use ambiguities::AmbiguityKind;
 pub use landscape::{DEFAULT_ROOF, HouseInfo, Landscape};

@@ -189,16 +189,18 @@ impl Plain {
         let column = number * grid.rows;
         let mut row = 0;
         while row < grid.rows {
-            let (label, material) = (groups.labels[column + row], grid.cells[column + row]);
-            let same = |next: &usize| {
-                groups.labels[column + next] == label && grid.cells[column + next] == material
+            let of = |row: usize| {
+                let top = grid.top(column + row);
+                (groups.labels[column + row], grid.cells[column + row], top)
             };
+            let (label, material, top) = of(row);
+            let same = |next: &usize| of(*next) == (label, material, top);
             let end = row + (row..grid.rows).take_while(same).count();
             if label != GROUND {
                 blocks.push(Block {
                     z: [row as i32, end as i32],
                     y: [self.floor, levels.level[label as usize]],
-                    top: Some(material),
+                    top: Some(top),
                     side: self.walls[usize::from(material)],
                 });
             }

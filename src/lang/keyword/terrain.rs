@@ -1,17 +1,26 @@
 //! Rows of the table: terrain.
 
-use super::signature::{Bounds, Form, Restriction, choice, number};
+use super::signature::{Bounds, Form, Restriction, Takes, choice, number, parameter};
 use super::{Allowed, Row, vocabulary};
 
 pub(super) static TILES: Row = Row {
-    forms: &[Form::one(&number(
-        "size",
-        Bounds::POSITIVE,
-        "side of a tile, in drawing units",
-    ))],
+    forms: &[
+        Form::one(&number(
+            "size",
+            Bounds::POSITIVE,
+            "side of a tile, in drawing units",
+        )),
+        Form::one(&parameter(
+            "file",
+            Takes::File,
+            "a map of Tiled, `.tmx` or `.tmj`, in the drawing's folder",
+        )),
+    ],
     summary: "makes the string's group a map of tiles",
     long: "The group or layer that contains the string is read as a map, drawn as in role-playing \
-           games, and becomes a landscape of blocks. `size` is the side of a tile in drawing units.",
+           games, and becomes a landscape of blocks. `size` is the side of a tile in drawing units. \
+           Or the map is a file of the editor Tiled, which is seen from straight above: a pixel of its tiles \
+           is a drawing unit, and its top left corner is that of what is painted in the group, or of the page.",
     example: "Island$Tiles 16",
     ..Row::ROW
 };
@@ -39,7 +48,8 @@ pub(super) static BEVEL: Row = Row {
     ))],
     default: "0",
     summary: "bevels the corners of the ground",
-    long: "Cuts the corners of a landscape's ground by `r` tiles, so that it looks less like boxes.",
+    long: "Cuts the corners of a landscape's ground by `r` tiles, so that it looks less like boxes. \
+           Narrow faces keep at least their middle half.",
     example: "Island$Tiles 16 Bevel 0.2",
     ..Row::ROW
 };

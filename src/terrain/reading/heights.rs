@@ -53,7 +53,7 @@ pub(super) fn read(
 }
 
 /// Lowers water by a tile that no legend gives its height, and that would lie level with ground beside it: a pond in a group of ground.
-fn sink(
+pub(super) fn sink(
     heights: &mut [i8],
     columns: usize,
     is_loose: impl Fn(usize) -> bool + Sync,

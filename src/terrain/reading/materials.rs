@@ -8,6 +8,7 @@ use crate::bind::{Bindings, LayerId, MaterialFactors, SetBy, StringId};
 use crate::source::Span;
 use crate::svg::{PaintKey, ShapeId};
 use crate::terrain::Tile;
+use crate::texture::Picture;
 
 /// The material of tiles of one kind and paint.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,13 +29,18 @@ pub struct TileMaterial {
 
 /// An image on tiles.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TileTexture {
-    /// The link to the image.
-    pub link: String,
-    /// The string that sets it.
-    pub string: StringId,
-    /// The place of the setting.
-    pub span: Span,
+pub enum TileTexture {
+    /// The file that `Texture` names.
+    File {
+        /// The link to the image.
+        link: String,
+        /// The string that sets it.
+        string: StringId,
+        /// The place of the setting.
+        span: Span,
+    },
+    /// The pictures of all tiles of a map, side by side.
+    Pictures(Picture),
 }
 
 impl TileMaterial {
@@ -173,7 +179,7 @@ impl<'a> Paints<'a> {
             tile: named.tile(),
             is_sand: named == Named::Sand,
             factors: attributes.material_factors([r, g, b, opacity], set_color),
-            texture: texture.map(|texture| TileTexture {
+            texture: texture.map(|texture| TileTexture::File {
                 link: texture.value.to_owned(),
                 string: texture.source.string,
                 span: self.bindings.span_of(&texture.source),

@@ -18,6 +18,7 @@ mod raster;
 mod sand;
 #[cfg(test)]
 mod tests;
+mod tiled;
 
 use std::ops::Range;
 
@@ -31,12 +32,15 @@ use super::map::{MAX_CELLS, Map};
 use crate::bind::{Attribute, Bindings, LayerId, PartId, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::index::index_type;
+use crate::memo::Memo;
+use crate::resolver::Resolver;
 use crate::svg::{Drawing, GroupId, PaintKey, ShapeId};
 use classify::{Classification, classify};
 use content::{Content, contents};
 use grid::Grid;
 use materials::Paints;
 use raster::Canvas;
+use tiled::Files;
 
 index_type!(
     /// A landscape of a drawing: one of the tile layers that have tiles.
@@ -129,6 +133,8 @@ impl Layer {
 pub(crate) fn read(
     drawing: &Drawing,
     bindings: &Bindings,
+    resolver: &dyn Resolver,
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> TiVec<LandscapeId, Layer> {
     if bindings.tile_layers().next().is_none() {
@@ -149,6 +155,7 @@ pub(crate) fn read(
             bindings,
             index,
             levels,
+            files: Files { resolver, memo },
         };
         match reading.layer(&contents[index], &mut used, diagnostics) {
             Ok(layer) => layers.push(layer),
@@ -177,6 +184,7 @@ struct Reading<'a> {
     index: LayerId,
     /// Per group the height that it gives its tiles; empty if none does.
     levels: &'a TiSlice<GroupId, Option<i8>>,
+    files: Files<'a>,
 }
 
 impl Reading<'_> {
@@ -198,6 +206,9 @@ impl Reading<'_> {
         } = *self;
         let of_layer = &bindings.layers[index];
         let attributes = bindings.layer_attributes(index);
+        if let Some(file) = attributes.tile_file() {
+            return self.tiled(&file, content, diagnostics);
+        }
         let Some(Attribute { value: size, .. }) = attributes.tile_size() else {
             return Err(None);
         };
@@ -269,6 +280,7 @@ impl Reading<'_> {
             tiles: materials.iter().map(|material| material.tile).collect(),
             edges,
             heights,
+            pictures: None,
         };
         let layer = Layer {
             index,
