@@ -17,8 +17,9 @@ use crate::texture::{self, Decoded, Holes, Picture};
 /// The largest number of pixels of the picture of all looks, and the largest side of a look in it, pixels.
 const MAX_PIXELS: u64 = 1 << 24;
 const MAX_SIDE: u32 = 256;
-/// The largest number of pixels of a tile set's picture.
+/// The largest number of pixels of a tile set's picture, and of all of them together.
 const MAX_SHEET: usize = 1 << 25;
+const MAX_SHEETS: usize = 1 << 27;
 /// How far each picture is continued around itself, pixels, so that filtering mixes nothing of its neighbours in.
 const MARGIN: u32 = 2;
 
@@ -148,8 +149,9 @@ fn tiles(
         by_file.entry(link).or_default().insert(look.tile);
     }
     let mut found = FxHashMap::default();
+    let mut room = MAX_SHEETS;
     for (link, tiles) in by_file {
-        let sheet = sheet(&link, resolver)?;
+        let sheet = sheet(&link, resolver, &mut room)?;
         for id in tiles {
             let set = &sets.list[id.set as usize];
             let (corner, size) = place(set, id.local, &sheet).ok_or_else(|| {
@@ -159,7 +161,7 @@ fn tiles(
                 ))
             })?;
             if size != tile {
-                idle.insert(Idle::OtherSize);
+                Idle::OtherSize.note(idle);
             }
             let clear = image(set, id.local).and_then(|image| image.clear);
             let pixels = cut(&sheet, corner, size, id.turns, clear, tile, side);
@@ -175,12 +177,17 @@ fn image(set: &Set, local: u32) -> Option<&ImageLink> {
     own.or(set.file.image.as_ref())
 }
 
-fn sheet(link: &str, resolver: &dyn Resolver) -> Result<RgbaImage, TiledError> {
+/// Decodes a picture of at most so many pixels, which it takes.
+fn sheet(link: &str, resolver: &dyn Resolver, room: &mut usize) -> Result<RgbaImage, TiledError> {
     let wrong = |error: LinkError| TiledError::Link(link.to_owned(), error);
     let bytes = resolver.read(link).map_err(wrong)?;
     let unreadable = |reason: String| wrong(LinkError::Unreadable(reason));
     let size = imagesize::blob_size(&bytes).map_err(|error| unreadable(error.to_string()))?;
-    if size.width.saturating_mul(size.height) > MAX_SHEET {
+    let pixels = size.width.saturating_mul(size.height);
+    *room = room.checked_sub(pixels).ok_or_else(|| {
+        TiledError::Limit(format!("its pictures have more than {MAX_SHEETS} pixels"))
+    })?;
+    if pixels > MAX_SHEET {
         let what = format!(
             "its picture `{}` has more than {MAX_SHEET} pixels",
             short(link)
@@ -194,21 +201,37 @@ fn sheet(link: &str, resolver: &dyn Resolver) -> Result<RgbaImage, TiledError> {
 /// The top left corner and the size of a tile in its picture, pixels, if it lies in it.
 fn place(set: &Set, local: u32, sheet: &RgbaImage) -> Option<([u32; 2], [u32; 2])> {
     let (width, height) = sheet.dimensions();
-    let own = set.entry(local).and_then(|entry| entry.image.as_ref());
-    if own.is_some() {
-        return Some(([0; 2], [width, height]));
+    if let Some(entry) = set.entry(local).filter(|entry| entry.image.is_some()) {
+        if entry.area == [0; 4] {
+            return Some(([0; 2], [width, height]));
+        }
+        let area = entry.area.map(|number| u32::try_from(number).ok());
+        let [Some(left), Some(top), Some(own_width), Some(own_height)] = area else {
+            return None;
+        };
+        let is_inside = own_width > 0
+            && own_height > 0
+            && left.checked_add(own_width)? <= width
+            && top.checked_add(own_height)? <= height;
+        return is_inside.then_some(([left, top], [own_width, own_height]));
     }
     let [tile_width, tile_height] = set.tile.map(i64::from);
     let [spacing, margin] = [set.file.spacing, set.file.margin];
     let step = tile_width.checked_add(spacing).filter(|step| *step > 0)?;
     let columns = match set.file.columns {
         columns if columns > 0 => columns,
-        _ => (i64::from(width) - margin.checked_mul(2)?).checked_add(spacing)? / step,
+        _ => {
+            let inner = i64::from(width).checked_sub(margin.checked_mul(2)?)?;
+            inner.checked_add(spacing)? / step
+        }
     };
     if columns <= 0 {
         return None;
     }
-    let at = |number: i64, side: i64| number.checked_mul(side + spacing)?.checked_add(margin);
+    let at = |number: i64, side: i64| {
+        let step = side.checked_add(spacing)?;
+        number.checked_mul(step)?.checked_add(margin)
+    };
     let [column, row] = [i64::from(local) % columns, i64::from(local) / columns];
     let (left, top) = (at(column, tile_width)?, at(row, tile_height)?);
     let inside = left >= 0

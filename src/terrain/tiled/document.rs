@@ -66,6 +66,8 @@ pub(super) struct TileEntry {
     pub(super) properties: Properties,
     /// Its own picture.
     pub(super) image: Option<ImageLink>,
+    /// The part of its own picture that it is: left, top, width and height, pixels; all 0 for the whole.
+    pub(super) area: [i64; 4],
     pub(super) is_animated: bool,
 }
 

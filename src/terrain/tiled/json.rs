@@ -92,6 +92,14 @@ struct Tile {
     #[serde(default)]
     properties: Named,
     image: Option<String>,
+    #[serde(default)]
+    x: i64,
+    #[serde(default)]
+    y: i64,
+    #[serde(default)]
+    width: i64,
+    #[serde(default)]
+    height: i64,
     animation: Option<IgnoredAny>,
 }
 
@@ -259,6 +267,7 @@ impl From<Set> for SetFile {
             class: tile.r#type,
             properties: tile.properties.0,
             image: tile.image.map(|source| image(source, None)),
+            area: [tile.x, tile.y, tile.width, tile.height],
             is_animated: tile.animation.is_some(),
         });
         Self {

@@ -28,7 +28,7 @@ use document::{Content, LayerEntry, MapFile, Properties, short};
 use looks::Looks;
 use sets::Sets;
 
-/// The largest size of a file of a map or a tile set, bytes.
+/// The largest size of the file of a map, and of those of its tile sets together, bytes.
 const MAX_FILE: usize = 64 << 20;
 /// The largest number of cells of all layers, which are read one after another.
 const MAX_READ: usize = 1 << 28;
@@ -79,6 +79,19 @@ pub(super) enum Idle {
     Kind(String),
 }
 
+impl Idle {
+    /// Takes note of it, once a kind.
+    fn note(self, idle: &mut BTreeSet<Self>) {
+        let kind = std::mem::discriminant(&self);
+        if !idle
+            .iter()
+            .any(|known| std::mem::discriminant(known) == kind)
+        {
+            idle.insert(self);
+        }
+    }
+}
+
 /// Why a map cannot be read. Messages go behind its name: the map `a.tmx` …
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(super) enum TiledError {
@@ -118,7 +131,7 @@ impl TiledError {
 /// # Errors
 /// See [`TiledError`].
 pub(super) fn read(link: &str, resolver: &dyn Resolver) -> Result<TiledMap, TiledError> {
-    let file = parsed(link, resolver, xml::map, json::map)?;
+    let file = parsed(link, resolver, &mut { MAX_FILE }, xml::map, json::map)?;
     if file.orientation != "orthogonal" {
         let what = format!(
             "it is {}; only orthogonal maps are read",
@@ -129,7 +142,7 @@ pub(super) fn read(link: &str, resolver: &dyn Resolver) -> Result<TiledMap, Tile
     let tile = sides(file.tile, "tile")?;
     let mut idle = BTreeSet::new();
     if tile[0] != tile[1] {
-        idle.insert(Idle::NotSquare);
+        Idle::NotSquare.note(&mut idle);
     }
     let sets = Sets::read(&file.sets, link, resolver, tile, &mut idle)?;
     let layers = visible(&file, &mut idle);
@@ -212,10 +225,10 @@ fn visible<'a>(file: &'a MapFile, idle: &mut BTreeSet<Idle>) -> Vec<TileLayer<'a
             };
             let opacity = opacity * own;
             if layer.is_shifted {
-                idle.insert(Idle::Shifted);
+                Idle::Shifted.note(idle);
             }
             if layer.is_tinted {
-                idle.insert(Idle::Tinted);
+                Idle::Tinted.note(idle);
             }
             match &layer.content {
                 Content::Tiles(chunks) => {
@@ -230,10 +243,10 @@ fn visible<'a>(file: &'a MapFile, idle: &mut BTreeSet<Idle>) -> Vec<TileLayer<'a
                 }
                 Content::Objects(0) => {}
                 Content::Objects(_) => {
-                    idle.insert(Idle::Objects);
+                    Idle::Objects.note(idle);
                 }
                 Content::Image => {
-                    idle.insert(Idle::Images);
+                    Idle::Images.note(idle);
                 }
                 Content::Group(layers) => add(layers, opacity, height, found, idle),
             }
@@ -254,7 +267,7 @@ fn height_of(properties: &Properties, idle: &mut BTreeSet<Idle>) -> i8 {
     match number.filter(|number| number.fract() == 0.0 && number.abs() <= HIGHEST) {
         Some(number) => number as i8,
         None => {
-            idle.insert(Idle::Height(short(written)));
+            Idle::Height(short(written)).note(idle);
             UNSET
         }
     }
@@ -300,23 +313,21 @@ fn sides(size: [i64; 2], what: &str) -> Result<[u32; 2], TiledError> {
     }
 }
 
-/// Reads a file, as XML or as JSON, whichever it is.
+/// Reads a file of at most so many bytes, which it takes, as XML or as JSON, whichever it is.
 fn parsed<T>(
     link: &str,
     resolver: &dyn Resolver,
+    room: &mut usize,
     xml: impl Fn(&str) -> Result<T, TiledError>,
     json: impl Fn(&str) -> Result<T, TiledError>,
 ) -> Result<T, TiledError> {
     let bytes = resolver
         .read(link)
         .map_err(|error| TiledError::Link(link.to_owned(), error))?;
-    if bytes.len() > MAX_FILE {
+    *room = room.checked_sub(bytes.len()).ok_or_else(|| {
         let limit = MAX_FILE as u64;
-        return Err(TiledError::Link(
-            link.to_owned(),
-            LinkError::TooLarge { limit },
-        ));
-    }
+        TiledError::Link(link.to_owned(), LinkError::TooLarge { limit })
+    })?;
     let text = str::from_utf8(&bytes)
         .map_err(|_| TiledError::Broken(format!("`{}` is not UTF-8", short(link))))?;
     let text = text.trim_start_matches('\u{feff}');

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use rustc_hash::FxHashMap;
 
 use super::document::{SetFile, SetLink, SetSource, TileEntry, short};
-use super::{Idle, MAX_SETS, TiledError, beside, height_of, json, parsed, sides, xml};
+use super::{Idle, MAX_FILE, MAX_SETS, TiledError, beside, height_of, json, parsed, sides, xml};
 use crate::resolver::Resolver;
 use crate::terrain::map::{Tile, UNSET};
 
@@ -92,13 +92,17 @@ impl Sets {
             let message = format!("it has more than {MAX_SETS} tile sets");
             return Err(TiledError::Limit(message));
         }
+        let mut room = MAX_FILE;
         let mut list = Vec::with_capacity(links.len());
         for SetLink { first, source } in links {
             let (file, link) = match source {
                 SetSource::Embedded(set) => ((**set).clone(), map.to_owned()),
                 SetSource::File(source) => {
                     let link = beside(map, source);
-                    (parsed(&link, resolver, xml::set, json::set)?, link)
+                    (
+                        parsed(&link, resolver, &mut room, xml::set, json::set)?,
+                        link,
+                    )
                 }
             };
             let size = match file.tile {
@@ -107,7 +111,7 @@ impl Sets {
                 size => sides(size, "tile of a tile set")?,
             };
             if size != tile {
-                idle.insert(Idle::OtherSize);
+                Idle::OtherSize.note(idle);
             }
             let mut entries = FxHashMap::default();
             for (index, entry) in file.tiles.iter().enumerate() {
@@ -147,7 +151,7 @@ impl Sets {
 
 fn about(entry: &TileEntry, idle: &mut BTreeSet<Idle>) -> About {
     if entry.is_animated {
-        idle.insert(Idle::Animated);
+        Idle::Animated.note(idle);
     }
     let kind = |word: &str| {
         let mut kinds = Tile::DRAWN.iter().copied();
@@ -155,7 +159,7 @@ fn about(entry: &TileEntry, idle: &mut BTreeSet<Idle>) -> About {
     };
     let word = entry.properties.tile.as_deref();
     if let Some(word) = word.filter(|word| kind(word).is_none()) {
-        idle.insert(Idle::Kind(short(word)));
+        Idle::Kind(short(word)).note(idle);
     }
     let class = match entry.class.trim().to_ascii_lowercase().as_str() {
         "water" => Some(Tile::Blue),

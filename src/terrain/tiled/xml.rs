@@ -53,10 +53,10 @@ pub(super) fn set(text: &str) -> Result<SetFile, TiledError> {
 }
 
 fn parsed(text: &str) -> Result<Document<'_>, TiledError> {
-    check_attributes(text)?;
-    // Tiled writes no entities, and those of others could make a long text of a short one.
+    check(text)?;
     let options = ParsingOptions {
-        allow_dtd: false,
+        // Older versions of Tiled name a document type; entities were refused above.
+        allow_dtd: true,
         nodes_limit: MAX_NODES,
         ..ParsingOptions::default()
     };
@@ -64,20 +64,22 @@ fn parsed(text: &str) -> Result<Document<'_>, TiledError> {
         roxmltree::Error::NodesLimitReached => {
             TiledError::Limit(format!("it has more than {MAX_NODES} elements"))
         }
-        roxmltree::Error::DtdDetected => {
-            TiledError::Broken("it has a document type (`<!DOCTYPE`), which is not read".to_owned())
-        }
         error => TiledError::Broken(error.to_string()),
     })
 }
 
-/// Checks the number of attributes of each element, which the parser compares with each other.
-fn check_attributes(text: &str) -> Result<(), TiledError> {
+/// Checks the number of attributes of each element, which the parser compares with each other, and that there are no entities, which could
+/// make a long text of a short one.
+fn check(text: &str) -> Result<(), TiledError> {
     let mut count = 0;
     for token in Tokenizer::from(text) {
         match token {
             Ok(Token::ElementStart { .. }) => count = 0,
             Ok(Token::Attribute { .. }) => count += 1,
+            Ok(Token::EntityDeclaration { .. }) => {
+                let message = "it has entities of its own (`<!ENTITY`)".to_owned();
+                return Err(TiledError::Broken(message));
+            }
             Ok(_) => {}
             // The parser says better what is wrong.
             Err(_) => break,
@@ -143,6 +145,12 @@ fn read_set(node: Node<'_, '_>) -> Result<SetFile, TiledError> {
             class: class.unwrap_or_default().to_owned(),
             properties: properties(tile),
             image: image(tile),
+            area: [
+                number(tile, "x")?,
+                number(tile, "y")?,
+                number(tile, "width")?,
+                number(tile, "height")?,
+            ],
             is_animated: elements(tile).any(|child| child.has_tag_name("animation")),
         })
     });
