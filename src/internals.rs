@@ -130,7 +130,7 @@ pub mod svg {
 }
 pub mod terrain {
     pub use crate::terrain::{
-        AmbiguityKind, DEFAULT_ROOF, EDGE_BELOW, EDGE_RIGHT, HouseInfo, Landscape, Map, Tile,
+        AmbiguityKind, DEFAULT_ROOF, EDGE_BELOW, EDGE_RIGHT, HouseInfo, Landscape, Map, Tile, UNSET,
     };
 }
 #[cfg(feature = "tracking")]

@@ -189,6 +189,7 @@ tests! {
     track: 20000 inputs, 45 %;
     performance: 60 inputs, 45 %;
     puppet: 100 inputs, 40 %;
+    tiled: 400 inputs, 10 %;
 }
 
 /// The names under `[dependencies]` and `[dev-dependencies]` of a manifest.

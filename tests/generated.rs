@@ -70,6 +70,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::UnclearTile, "tiles-unclear"),
     (Code::BrokenMotion, "motion-broken"),
     (Code::BrokenTrack, "perform-broken-track"),
+    (Code::BrokenTiles, "tiled-broken"),
     (Code::GivenTwice, "string-given-twice"),
     (Code::Overridden, "mistake-percent-twice"),
     (Code::UnusedLegend, "legend-unused"),

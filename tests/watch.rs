@@ -175,6 +175,41 @@ fn linked_files_are_watched_before_they_exist() {
     }
 }
 
+/// A map of Tiled, its tile set and that one's picture.
+#[test]
+fn the_files_of_a_map_are_watched() {
+    let (folder, live) = watched(&["a.svg"]);
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/terrain");
+    for name in ["harbour.tmx", "harbour.tsx", "harbour.png"] {
+        fs::copy(examples.join(name), folder.path().join(name)).expect("copied");
+    }
+    let linking = fs::read_to_string(examples.join("harbour.svg")).expect("a drawing");
+    fs::write(folder.path().join("a.svg"), linking).expect("written");
+    live.line("a.glb in");
+    let model = || fs::read(folder.path().join("a.glb")).expect("a model");
+    let mut before = model();
+    for (name, old, new) in [
+        ("harbour.tsx", "value=\"6\"", "value=\"7\""),
+        ("harbour.tmx", "5,5,5,5,", "5,5,5,4,"),
+        ("harbour.png", "", ""),
+    ] {
+        let path = folder.path().join(name);
+        if old.is_empty() {
+            let mut picture = image::open(&path).expect("a picture").into_rgba8();
+            picture.pixels_mut().for_each(|pixel| pixel.0.swap(0, 2));
+            picture.save(&path).expect("written");
+        } else {
+            let text = fs::read_to_string(&path).expect("a file");
+            assert!(text.contains(old), "{name}");
+            fs::write(&path, text.replacen(old, new, 1)).expect("written");
+        }
+        live.line("a.glb in");
+        let after = model();
+        assert_ne!(before, after, "{name}");
+        before = after;
+    }
+}
+
 #[test]
 fn new_files_in_a_watched_folder_are_watched() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -220,7 +220,7 @@ fn build(
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Built {
-    let layers = terrain::read(drawing, bindings, diagnostics);
+    let layers = terrain::read(drawing, bindings, resolver, memo, diagnostics);
     let world = world::world_transform(bindings, &layers);
     let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
     let mut found = Vec::new();

@@ -190,19 +190,28 @@ impl<'a> Collector<'a> {
     /// The looks of a tile layer.
     fn layer(&mut self, index: LandscapeId, layer: &'a Layer, diagnostics: &mut Vec<Diagnostic>) {
         for (number, look) in layer.materials.iter().enumerate() {
-            let Some(TileTexture { link, string, span }) = &look.texture else {
-                continue;
-            };
-            let file = self.files.picture(link, *string, *span, diagnostics);
-            let Some((link, picture)) = file else {
-                continue;
+            let (source, name) = match &look.texture {
+                None => continue,
+                Some(TileTexture::File { link, string, span }) => {
+                    let file = self.files.picture(link, *string, *span, diagnostics);
+                    let Some((link, picture)) = file else {
+                        continue;
+                    };
+                    let source = Source::Picture(picture, scene::Filter::Linear);
+                    (source, file_name(link))
+                }
+                // Most tile sets are drawn pixel by pixel.
+                Some(TileTexture::Pictures(picture)) => {
+                    let source = Source::Picture(picture.clone(), scene::Filter::Nearest);
+                    (source, layer.name.as_str())
+                }
             };
             let server = PaintServer {
-                source: Source::Picture(picture, scene::Filter::Linear),
+                source,
                 place: DAffine2::IDENTITY,
             };
             if let Ok(plan) = server.plan([DVec2::ZERO, DVec2::ONE], 1.0) {
-                let plan = self.number(plan, || file_name(link).to_owned());
+                let plan = self.number(plan, || name.to_owned());
                 self.looks.push(((index, number), plan));
             }
         }

@@ -307,6 +307,15 @@ codes! {
     ///
     /// Track the clip again: `okoshi track CLIP -o hands.json --mark red`.
     BrokenTrack = "E208", "track that cannot be read";
+    /// The file that `Tiles` names is not a map of Tiled, or it is damaged, or of a kind that okoshi does not read: a hexagonal or isometric
+    /// map, for example. The same is said of the tile sets that it needs.
+    ///
+    /// ```text
+    /// Island$Tiles "isle.tmx", and a cell has a tile that is in no tile set
+    /// ```
+    ///
+    /// Open the map in Tiled, and save it again, as an orthogonal map.
+    BrokenTiles = "E209", "map that cannot be read";
 
     // Warnings
     /// A string sets the same attribute twice. The later one counts.
@@ -366,7 +375,8 @@ codes! {
     /// If it is a caption, put `#` before it. If it is a part's name, put it in quotes.
     Caption = "W308", "caption";
     /// The drawing uses an SVG feature that has no meaning for solids, for example a mask or a filter, or one that okoshi does
-    /// not read, such as an animation, a mesh gradient or a value of CSS like `calc()`. The part is built without it.
+    /// not read, such as an animation, a mesh gradient or a value of CSS like `calc()`. The part is built without it. The same is
+    /// said of what a map of Tiled has that is not built.
     ///
     /// Draw the outline itself, or use a clip, which okoshi understands.
     NoSolidMeaning = "W309", "SVG feature without solid meaning";
@@ -411,7 +421,7 @@ codes! {
     ///
     /// Put the string into the group or layer that contains the tiles.
     NoTiles = "W313", "tile layer without tiles";
-    /// `Tiles`, `Bevel` or `Roof` is in a string that does not make a tile layer, or `Depth` or `Hidden` in one outside of a
+    /// `Tiles`, `Bevel` or `Roof` is in a string that does not make a tile layer, `Height` outside of one, or `Depth` or `Hidden` in one outside of a
     /// character's views, so it has no effect.
     ///
     /// ```text

@@ -392,6 +392,7 @@ impl Cursor<'_> {
             Keyword::Texture => &["png", "jpg", "jpeg", "gif", "webp"],
             Keyword::Shape => &["glb", "gltf"],
             Keyword::Motion => &["bvh"],
+            Keyword::Tiles => &["tmx", "tmj"],
             _ => &["json", "csv"],
         };
         let fits = |name: &String| {

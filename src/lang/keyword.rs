@@ -69,6 +69,7 @@ keywords! {
     Tile = terrain::TILE;
     Bevel = terrain::BEVEL;
     Roof = terrain::ROOF;
+    Height = terrain::HEIGHT;
     View = views::VIEW;
     Backing = views::BACKING;
     Hidden = views::HIDDEN;

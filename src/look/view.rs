@@ -6,7 +6,7 @@ use super::{LookError, characters};
 use crate::assemble::world_transform;
 use crate::compile::Compiled;
 use crate::render::{MAX_SIDE, RenderError, Sheet};
-use crate::scene::{NodeId, Scene, ViewDependent, WorldTransform};
+use crate::scene::{NodeId, Scene, WorldTransform};
 use crate::terrain::Layer;
 
 /// The elevation from which a landscape looks as drawn, in degrees.
@@ -64,13 +64,14 @@ impl DrawnView {
 /// Moves and turns the landscapes to where they look as drawn from the front.
 fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scene) {
     let layers = &compiled.layers;
-    let is_bent = |node: &NodeId| scene.nodes[*node].view_dependent == Some(ViewDependent::Bend);
-    let bent: Vec<NodeId> = scene.nodes.keys().filter(is_bent).collect();
-    if layers.is_empty() || bent.len() != layers.len() {
+    // No part and no other tile layer has the name of a tile layer.
+    let node_of = |layer: &Layer| scene.nodes.position(|node| node.name == layer.name);
+    let found: Option<Vec<NodeId>> = layers.iter().map(node_of).collect();
+    let Some(found) = found.filter(|found| !found.is_empty()) else {
         return;
-    }
+    };
     for node in &mut scene.nodes {
-        node.children.retain(|child| !bent.contains(child));
+        node.children.retain(|child| !found.contains(child));
     }
     let extents = layers.iter().map(extent);
     // So far apart that none reaches into another, or into a figure.
@@ -80,7 +81,7 @@ fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scen
         matches!(part.kind, PartKind::Main | PartKind::Sub)
     });
     let last_shape = last_part.map(|part| part.shape);
-    for (index, (node, layer)) in bent.into_iter().zip(layers).enumerate() {
+    for (index, (node, layer)) in found.into_iter().zip(layers).enumerate() {
         let first = layer.sources.first().map(|source| source.shape);
         let steps = if first > last_shape {
             index as f64 + 1.0
@@ -91,7 +92,13 @@ fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scen
         let DVec2 { x, y } = low.midpoint(high);
         let moved = &mut scene.nodes[node];
         moved.translation = world.point(DVec3::new(x, -y, steps * apart));
-        moved.rotation = world.rotation * DQuat::from_rotation_x(ELEVATION.to_radians());
+        // Plain maps are drawn from straight above.
+        let elevation = if layer.map.is_plain() {
+            90.0
+        } else {
+            ELEVATION
+        };
+        moved.rotation = world.rotation * DQuat::from_rotation_x(elevation.to_radians());
         if !scene.roots.contains(&node) {
             scene.roots.push(node);
         }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::map::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
+use super::map::{CellPictures, EDGE_BELOW, EDGE_RIGHT, Map, Tile};
 
 /// Side of the blocks in which a map is transposed, cells: a block and its transpose fit into the L1 cache.
 const SQUARE: usize = 64;
@@ -18,6 +18,8 @@ pub(super) struct Grid {
     pub(super) edges: Vec<u8>,
     /// Per material the kind of tile.
     tiles: [Tile; 256],
+    /// The pictures of tops, column by column.
+    pub(super) pictures: Option<CellPictures>,
 }
 
 impl Grid {
@@ -32,6 +34,10 @@ impl Grid {
             cells: transposed(&map.cells, map.columns, map.rows),
             edges: transposed(&map.edges, map.columns, map.rows),
             tiles,
+            pictures: map.pictures.as_ref().map(|pictures| CellPictures {
+                places: transposed(&pictures.places, map.columns, map.rows),
+                ..*pictures
+            }),
         }
     }
 
@@ -43,6 +49,14 @@ impl Grid {
     /// The kind of tile in a cell.
     pub(super) fn tile(&self, cell: usize) -> Tile {
         self.tile_of(self.cells[cell])
+    }
+
+    /// The material of the top of a plain map's cell.
+    pub(super) fn top(&self, cell: usize) -> u8 {
+        match &self.pictures {
+            Some(pictures) if pictures.places[cell] != 0 => pictures.material,
+            _ => self.cells[cell],
+        }
     }
 
     /// Whether there is an edge between a cell and the one below it.
@@ -62,8 +76,12 @@ impl Grid {
 }
 
 /// Transposes a table from row-major to column-major order.
-fn transposed(table: &[u8], columns: usize, rows: usize) -> Vec<u8> {
-    let mut out = vec![0; table.len()];
+pub(super) fn transposed<T: Copy + Default + Send + Sync>(
+    table: &[T],
+    columns: usize,
+    rows: usize,
+) -> Vec<T> {
+    let mut out = vec![T::default(); table.len()];
     if table.is_empty() {
         return out;
     }

@@ -13,6 +13,7 @@ use super::houses;
 use super::levels::Levels;
 use super::map::{Map, Tile};
 use super::occlusion::Visible;
+use super::plain;
 use super::solids::{MapContext, Solids};
 use super::surface;
 use crate::scene::Surface;
@@ -62,8 +63,16 @@ impl HouseInfo {
 
 impl Landscape {
     /// Computes the height of everything on a map, in time linear in its cells. Never fails: ambiguities are decided by the
-    /// rules (see [`ambiguities`](Self::ambiguities)).
+    /// rules (see [`ambiguities`](Self::ambiguities)). Of a plain map the heights are given; only those of water may follow from
+    /// its banks.
     pub fn new(map: &Map) -> Self {
+        if map.is_plain() {
+            let (context, constraints) = plain::measured(map);
+            return Self {
+                context,
+                constraints,
+            };
+        }
         let mut refused: FxHashSet<usize> = FxHashSet::default();
         let beige = commonest(map, Tile::Beige);
         let mut tries = 0;
@@ -103,6 +112,10 @@ impl Landscape {
     /// The height of the visible point at the lower edge of each cell of a column: of the top or the eaves, or of the place on
     /// a front. `None` where nothing is drawn.
     pub fn visible_heights(&self, column: usize) -> Vec<Option<i32>> {
+        if self.is_plain() {
+            let rows = 0..self.context.grid.rows;
+            return rows.map(|row| self.top(column, row)).collect();
+        }
         let mut solids = Solids::default();
         solids.read_views(&self.context, column);
         let heights = solids.views.iter().flat_map(|view| {
@@ -114,6 +127,11 @@ impl Landscape {
             })
         });
         heights.collect()
+    }
+
+    /// Whether it is that of a plain map, which shows no fronts.
+    pub fn is_plain(&self) -> bool {
+        self.context.plain.is_some()
     }
 
     fn kind_at(&self, column: usize, row: usize) -> GroupKind {
@@ -137,6 +155,9 @@ impl Landscape {
 
     /// The places of the map that can be read in more than one way.
     pub fn ambiguities(&self) -> Vec<Ambiguity> {
+        if self.is_plain() {
+            return vec![];
+        }
         ambiguities::ambiguities(&self.context, &self.constraints)
     }
 
@@ -200,13 +221,14 @@ fn measured(map: &Map, is_plain: impl Fn(usize) -> bool) -> (MapContext, Constra
         groups,
         levels,
         houses,
+        plain: None,
         backs: vec![],
     };
     (context, constraints)
 }
 
 /// The commonest material of a kind of tile.
-fn commonest(map: &Map, tile: Tile) -> Option<u8> {
+pub(super) fn commonest(map: &Map, tile: Tile) -> Option<u8> {
     let mut counts = [0_usize; 256];
     for material in &map.cells {
         counts[usize::from(*material)] += 1;

@@ -52,6 +52,9 @@ pub const EDGE_RIGHT: u8 = 1;
 /// There is an edge between a cell and the one below it.
 pub const EDGE_BELOW: u8 = 2;
 
+/// The height of a cell to which nothing gives one.
+pub const UNSET: i8 = i8::MIN;
+
 /// The largest number of cells in a map.
 pub(crate) const MAX_CELLS: usize = 1 << 26;
 
@@ -68,6 +71,46 @@ pub struct Map {
     pub tiles: Vec<Tile>,
     /// Per cell [`EDGE_RIGHT`] and [`EDGE_BELOW`].
     pub edges: Vec<u8>,
+    /// Per cell its height, or [`UNSET`], if the map is plain, which is seen from straight above; empty in the drawn look.
+    pub heights: Vec<i8>,
+    /// The pictures of the tops of a plain map, if they have any.
+    pub(crate) pictures: Option<CellPictures>,
+}
+
+/// The pictures on the tops of cells.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CellPictures {
+    /// The material that shows them.
+    pub(crate) material: u8,
+    pub(crate) grid: PictureGrid,
+    /// Per cell the place of its picture, from 1; 0 for cells that show their own material.
+    pub(crate) places: Vec<u16>,
+}
+
+/// Pictures of one size, side by side in one picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PictureGrid {
+    pub(crate) columns: u32,
+    pub(crate) rows: u32,
+    /// Width and height of each, pixels.
+    pub(crate) side: [u32; 2],
+    /// How far each is continued around itself, pixels.
+    pub(crate) margin: u32,
+}
+
+impl PictureGrid {
+    /// Texture coordinates of a point of the picture at a place, from 1; the point goes from 0 to 1 to the right and down.
+    pub(crate) fn uv(&self, place: u16, point: [f64; 2]) -> [f64; 2] {
+        let number = u32::from(place.max(1)) - 1;
+        let at = [number % self.columns, number / self.columns];
+        let count = [self.columns, self.rows];
+        [0, 1].map(|axis| {
+            let [side, margin] = [self.side[axis], self.margin].map(f64::from);
+            let step = side + 2.0 * margin;
+            let pixel = f64::from(at[axis]) * step + margin + point[axis].clamp(0.0, 1.0) * side;
+            pixel / (f64::from(count[axis]) * step)
+        })
+    }
 }
 
 impl Map {
@@ -81,12 +124,19 @@ impl Map {
             cells: vec![0; columns * rows],
             tiles,
             edges: vec![0; columns * rows],
+            heights: vec![],
+            pictures: None,
         }
     }
 
     /// The index of a cell.
     pub fn index(&self, column: usize, row: usize) -> usize {
         row * self.columns + column
+    }
+
+    /// Whether it is seen from straight above, with a height for each cell.
+    pub fn is_plain(&self) -> bool {
+        !self.heights.is_empty()
     }
 
     /// The kind of tile in a cell.

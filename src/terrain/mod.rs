@@ -17,13 +17,15 @@ mod levels;
 mod map;
 mod nodes;
 mod occlusion;
+mod plain;
 mod reading;
 mod solids;
 mod surface;
+mod tiled;
 
 pub use ambiguities::AmbiguityKind;
 pub use landscape::{DEFAULT_ROOF, HouseInfo, Landscape};
 pub(crate) use map::MAX_CELLS;
-pub use map::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
+pub use map::{EDGE_BELOW, EDGE_RIGHT, Map, Tile, UNSET};
 pub(crate) use nodes::node;
 pub(crate) use reading::{LandscapeId, Layer, TileMaterial, TileTexture, read};

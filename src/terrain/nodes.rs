@@ -41,7 +41,8 @@ pub(crate) fn node(
                 element: drawing.groups[layer.group].element.id.clone(),
                 string: Some(string.to_owned()),
             }),
-            view_dependent: Some(ViewDependent::Bend),
+            // A plain map is no picture of its tops and fronts, so there is no drawn look.
+            view_dependent: (!layer.map.is_plain()).then_some(ViewDependent::Bend),
             ..Node::default()
         },
         mesh: mesh(layer, layer.size * world.scale, material_of),

@@ -12,6 +12,7 @@ use super::groups::{GROUND, GroupKind, Groups};
 use super::houses::House;
 use super::levels::Levels;
 use super::occlusion::{Occlusion, View, Visible};
+use super::plain::Plain;
 
 /// A block in a column: `[back, front]` and `[bottom, top]`. If these are equal, it is a plate whose top is there, or, under a
 /// roof, the roof's underside.
@@ -38,6 +39,8 @@ pub(super) struct MapContext {
     pub(super) flush: Vec<Option<i32>>,
     /// The material of earth where none is drawn.
     pub(super) earth: Option<u8>,
+    /// For plain maps their floor and walls; `None` for maps in the drawn look.
+    pub(super) plain: Option<Plain>,
     /// Per column the ground that the drawing hides (rule 10); empty before it is known, and if there is none.
     pub(super) backs: Vec<Vec<Block>>,
 }
@@ -68,6 +71,11 @@ impl Solids {
     }
 
     pub(super) fn build(&mut self, context: &MapContext, number: usize) {
+        if let Some(plain) = &context.plain {
+            self.number = number;
+            self.blocks.clear();
+            return plain.blocks(context, number, &mut self.blocks);
+        }
         self.read_views(context, number);
         self.extend_backs(context);
         self.blocks.clear();
@@ -409,6 +417,10 @@ impl Solids {
         is: impl Fn(Visible) -> bool,
         mut each: impl FnMut(Range<i32>, Option<u8>),
     ) {
+        // The blocks of plain maps have the materials that are drawn.
+        if context.plain.is_some() {
+            return each(rows, None);
+        }
         let end = rows.end.min(context.grid.rows as i32);
         let mut row = rows.start;
         if row < 0 {

@@ -19,6 +19,7 @@ mod puppet;
 mod scene;
 mod session;
 mod string;
+mod tiled;
 mod track;
 
 /// A reader of outside bytes, and the law that it is held to.
@@ -32,7 +33,7 @@ pub(crate) struct Target {
 }
 
 /// All targets.
-pub(crate) const TARGETS: [Target; 12] = [
+pub(crate) const TARGETS: [Target; 13] = [
     Target {
         name: "string",
         check: string::check,
@@ -92,6 +93,11 @@ pub(crate) const TARGETS: [Target; 12] = [
         name: "puppet",
         check: puppet::check,
         seeds: puppet::seeds,
+    },
+    Target {
+        name: "tiled",
+        check: tiled::check,
+        seeds: tiled::seeds,
     },
 ];
 

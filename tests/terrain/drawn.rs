@@ -1,7 +1,8 @@
 //! From 45° above, in parallel projection and bent, every tile of a drawing is visible in its own
-//! colour at its own position in the model that `render` reads.
+//! colour at its own position in the model that `render` reads. Plain maps show theirs from straight above.
 
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -68,17 +69,19 @@ fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
         let place = node.expect("the layer's node").translation;
         let tile = layer.size * 0.01;
         let [columns, rows] = [layer.map.columns, layer.map.rows];
+        let is_plain = layer.landscape.is_plain();
+        let (pitch, up, back) = match is_plain {
+            true => (90.0, 0.0, 1.0),
+            false => (45.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2),
+        };
         let window = Window {
             left: place.x - columns as f64 / 2.0 * tile,
-            top: (place.y - place.z) * std::f64::consts::FRAC_1_SQRT_2 + rows as f64 / 2.0 * tile,
+            top: place.y * up - place.z * back + rows as f64 / 2.0 * tile,
             width: columns as f64 * tile,
             height: rows as f64 * tile,
         };
         let options = render::Options::default()
-            .with_view(View {
-                yaw: 0.0,
-                pitch: 45.0,
-            })
+            .with_view(View { yaw: 0.0, pitch })
             .with_size([columns as u32, rows as u32]);
         let seen = posed.visible_surfaces(&options, window).expect("seen");
         let mut material_of: BTreeMap<u8, BTreeMap<Option<usize>, usize>> = BTreeMap::new();
@@ -108,6 +111,10 @@ fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
                     cell / columns + 1
                 ));
             }
+        }
+        // The tops of a map of Tiled have one material, with pictures of all tiles.
+        if is_plain && layer.materials.iter().any(|of| of.texture.is_some()) {
+            continue;
         }
         let mut kinds: BTreeMap<Option<usize>, Tile> = BTreeMap::new();
         for look in material_of.keys().filter(|look| **look != 0) {
@@ -165,6 +172,10 @@ fn example_landscapes_look_as_drawn() {
             let (first, rest) = words.split_first().expect("some text");
             let mut changed = (*first).to_owned();
             for word in rest {
+                if word.starts_with('"') {
+                    changed += &format!("$Tiles {word}");
+                    continue;
+                }
                 let number = word
                     .find(|letter: char| !letter.is_ascii_digit() && letter != '.')
                     .unwrap_or(word.len());

@@ -6,6 +6,7 @@ mod backs;
 mod byhand;
 mod drawn;
 mod letters;
+mod plain;
 mod rules;
 mod surfaces;
 mod worlds;

@@ -140,7 +140,7 @@ fn assert_seen_as_drawn(map: &Map, name: &str) {
 }
 
 /// Fails where a surface is open: each edge of a triangle must meet an opposite one.
-fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
+pub(crate) fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
     let land = Landscape::new(map);
     let mut sides: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
     for (_, corners) in triangles(map, &land, roof, bevel) {
@@ -198,7 +198,7 @@ fn shared(one: &Triangle, other: &Triangle, drop: usize) -> f64 {
 
 /// Fails where two faces lie back to back in one plane: no solid has a thickness of 0, and solids that touch have no faces
 /// between them.
-fn assert_no_faces_back_to_back(map: &Map, roof: f64, bevel: f64, name: &str) {
+pub(crate) fn assert_no_faces_back_to_back(map: &Map, roof: f64, bevel: f64, name: &str) {
     let land = Landscape::new(map);
     // Per plane the triangles that look along its normal, and those that look against it.
     let mut planes: BTreeMap<[i64; 4], [Vec<Triangle>; 2]> = BTreeMap::new();
@@ -347,4 +347,82 @@ fn no_faces_lie_back_to_back() {
 #[test]
 fn no_bevelled_faces_lie_back_to_back() {
     for_each_map(100, [0.25, 0.4], assert_no_faces_back_to_back);
+}
+
+/// The area of each material, square tiles.
+fn areas(map: &Map, land: &Landscape, bevel: f64) -> BTreeMap<u8, f64> {
+    let mut areas: BTreeMap<u8, f64> = BTreeMap::new();
+    for (look, [a, b, c]) in triangles(map, land, 0.7, bevel) {
+        let [u, v] = [b, c].map(|end| [0, 1, 2].map(|axis| end[axis] - a[axis]));
+        let cross = [1, 2, 0].map(|i: usize| {
+            let j = (i + 1) % 3;
+            u[i] * v[j] - u[j] * v[i]
+        });
+        let length = cross.iter().map(|value| value * value).sum::<f64>().sqrt();
+        *areas.entry(look).or_default() += length / 2.0;
+    }
+    areas
+}
+
+/// The extent across a face that looks in a direction, of what of it is flat.
+fn flat_extent(map: &Map, land: &Landscape, bevel: f64, toward: usize, across: usize) -> f64 {
+    let all = triangles(map, land, 0.7, bevel);
+    let flat = all.iter().map(|(_, corners)| corners).filter(|corners| {
+        let at = corners[0][toward];
+        corners
+            .iter()
+            .all(|corner| (corner[toward] - at).abs() < 1e-6)
+    });
+    let near = flat
+        .clone()
+        .map(|corners| corners[0][toward])
+        .fold(f64::NEG_INFINITY, f64::max);
+    let nearest = flat.filter(|corners| corners[0][toward] > near - 1e-6);
+    let values = nearest.flatten().map(|corner| corner[across]);
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    high - low
+}
+
+#[test]
+fn bevels_leave_narrow_faces_their_middle_half() {
+    // A plate, a step and a pillar: the front's height, and the top's depth.
+    for (lines, front, top) in [
+        ("g g g\ng g g\ng g g", 0.25, 3.0),
+        ("g g g\ng g g\nb b b", 1.0, 2.0),
+        ("g\nb\nb\nb", 3.0, 1.0),
+    ] {
+        let map = crate::letters::map(lines);
+        let land = Landscape::new(&map);
+        for bevel in [0.1, 0.3, 0.5] {
+            let kept = |extent: f64| (extent - 2.0 * bevel).max(extent / 2.0) - 0.02;
+            let found = flat_extent(&map, &land, bevel, 2, 1);
+            assert!(found >= kept(front), "{lines}, {bevel}: {found} of {front}");
+            let found = flat_extent(&map, &land, bevel, 1, 2);
+            assert!(found >= kept(top), "{lines}, {bevel}: {found} of {top}");
+        }
+    }
+}
+
+#[test]
+fn bevels_leave_each_material_most_of_its_area() {
+    let mut least = f64::INFINITY;
+    for seed in 0..300 {
+        let map = World::random(seed).draw().map;
+        let land = Landscape::new(&map);
+        let whole = areas(&map, &land, 0.0);
+        for bevel in [0.15, 0.3, 0.5] {
+            let left = areas(&map, &land, bevel);
+            for (look, area) in &whole {
+                let share = left.get(look).copied().unwrap_or(0.0) / area;
+                least = least.min(share);
+                assert!(
+                    share > 0.6,
+                    "landscape {seed}, {bevel}: {share} of material {look}"
+                );
+            }
+        }
+    }
+    println!("each material keeps at least {least:.3} of its area");
 }

@@ -85,10 +85,10 @@ pub(super) fn merge(
 }
 
 impl Legend {
-    /// Whether it says what tiles of its paint are.
+    /// Whether it says what tiles of its paint are, or how high.
     fn is_for_tiles(&self) -> bool {
         let mut settings = self.settings.iter();
-        settings.any(|(_, setting)| setting.keyword == Keyword::Tile)
+        settings.any(|(_, setting)| matches!(setting.keyword, Keyword::Tile | Keyword::Height))
     }
 
     /// Reports that nothing has the legend's paint.

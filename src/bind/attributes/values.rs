@@ -230,9 +230,20 @@ impl<'a> Attributes<'a> {
         size.filter(|size| size.source.from == SetBy::Own)
     }
 
+    /// `Tiles`: the link to the file of a map, if the layer is one.
+    pub fn tile_file(&self) -> Option<Attribute<'a, &'a str>> {
+        let file = self.word(Keyword::Tiles);
+        file.filter(|file| file.source.from == SetBy::Own)
+    }
+
     /// `Roof`: the height of roofs over their depth.
     pub fn roof(&self) -> Option<f64> {
         self.number(Keyword::Roof).map(|roof| roof.value)
+    }
+
+    /// `Height`: that of the tops of tiles, if it is set.
+    pub fn height(&self) -> Option<Attribute<'a, i8>> {
+        typed!(self, Keyword::Height, Value::Number(height) => *height as i8)
     }
 
     /// `Bevel`: the radius of the ground's bevel, tiles.

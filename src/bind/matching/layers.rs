@@ -27,13 +27,16 @@ pub enum LayerKind {
     View,
     /// A key pose of a figure. No effect yet.
     Pose,
+    /// Tiles of one height, in a map.
+    Level,
 }
 
 /// The attributes that make a string a group string, each with the kind of its layer. Of several the first in this list counts.
-const KINDS: [(Keyword, LayerKind); 3] = [
+const KINDS: [(Keyword, LayerKind); 4] = [
     (Keyword::Tiles, LayerKind::Tiles),
     (Keyword::View, LayerKind::View),
     (Keyword::Pose, LayerKind::Pose),
+    (Keyword::Height, LayerKind::Level),
 ];
 
 /// The name of a layer whose string has no name and whose group has neither label nor id.
@@ -249,6 +252,25 @@ impl Bindings {
     /// The tile layers, each with its index.
     pub fn tile_layers(&self) -> impl Iterator<Item = (LayerId, &Layer)> {
         self.layers.tile_layers()
+    }
+
+    /// Per group the height that its own string or that of a group around it gives its tiles, with `Height`; the innermost counts.
+    /// Empty if no group has one.
+    pub(crate) fn levels_of_groups(&self, drawing: &Drawing) -> TiVec<GroupId, Option<i8>> {
+        let levels = self.layers.of_kind(LayerKind::Level);
+        let mut levels = levels.filter_map(|(index, layer)| {
+            self.tile_layer_of_group(layer.group)?;
+            Some((layer.group, self.layer_attributes(index).height()?.value))
+        });
+        let Some(first) = levels.next() else {
+            return TiVec::new();
+        };
+        let mut of_group = ti_vec![None; drawing.groups.len()];
+        for (group, height) in std::iter::once(first).chain(levels) {
+            of_group[group] = Some(height);
+        }
+        spread(drawing, &mut of_group);
+        of_group
     }
 
     /// The views of characters, each with its index.

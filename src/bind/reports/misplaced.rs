@@ -39,20 +39,32 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
             );
         }
         let for_all = matches!(string.annotation, Annotation::Defaults(_));
+        let in_map = matched.layers.of_group_and_kind(group, LayerKind::Tiles);
         for attribute in attributes {
             let misplaced = match attribute.keyword {
                 Keyword::Tiles => true,
                 Keyword::Bevel | Keyword::Roof => !for_all || !has_tile_layers,
+                Keyword::Height => match string.annotation {
+                    Annotation::Part(_) => in_map.is_none(),
+                    _ => !has_tile_layers,
+                },
                 _ => false,
             };
             if misplaced {
                 let name = attribute.keyword.name();
-                let message =
-                    format!("`{name}` has no effect in {what}: it applies to tile layers");
-                diagnostics.push(
-                    Diagnostic::new(Code::NoTileLayer, string.text.span(attribute.range.clone()), message)
-                    .help("write it into the string that makes a layer or group a map, as in `Island$Tiles 16 Bevel 0.2`"),
-                );
+                let (whose, help) = match attribute.keyword {
+                    Keyword::Height => (
+                        "the tiles of tile layers",
+                        "write it into a legend of a tile layer, as in `$Tile beige Height 3`, or into a group inside the layer, as in `Hill$Height 2`",
+                    ),
+                    _ => (
+                        "tile layers",
+                        "write it into the string that makes a layer or group a map, as in `Island$Tiles 16 Bevel 0.2`",
+                    ),
+                };
+                let message = format!("`{name}` has no effect in {what}: it applies to {whose}");
+                let span = string.text.span(attribute.range.clone());
+                diagnostics.push(Diagnostic::new(Code::NoTileLayer, span, message).help(help));
             }
         }
     }

@@ -1,17 +1,26 @@
 //! Rows of the table: terrain.
 
-use super::signature::{Bounds, Form, Restriction, choice, number};
+use super::signature::{Bounds, Form, Restriction, Takes, choice, number, parameter};
 use super::{Allowed, Row, vocabulary};
 
 pub(super) static TILES: Row = Row {
-    forms: &[Form::one(&number(
-        "size",
-        Bounds::POSITIVE,
-        "side of a tile, in drawing units",
-    ))],
+    forms: &[
+        Form::one(&number(
+            "size",
+            Bounds::POSITIVE,
+            "side of a tile, in drawing units",
+        )),
+        Form::one(&parameter(
+            "file",
+            Takes::File,
+            "a map of Tiled, `.tmx` or `.tmj`, in the drawing's folder",
+        )),
+    ],
     summary: "makes the string's group a map of tiles",
     long: "The group or layer that contains the string is read as a map, drawn as in role-playing \
-           games, and becomes a landscape of blocks. `size` is the side of a tile in drawing units.",
+           games, and becomes a landscape of blocks. `size` is the side of a tile in drawing units. \
+           Or the map is a file of the editor Tiled, which is seen from straight above: a pixel of its tiles \
+           is a drawing unit, and its top left corner is that of what is painted in the group, or of the page.",
     example: "Island$Tiles 16",
     ..Row::ROW
 };
@@ -39,7 +48,8 @@ pub(super) static BEVEL: Row = Row {
     ))],
     default: "0",
     summary: "bevels the corners of the ground",
-    long: "Cuts the corners of a landscape's ground by `r` tiles, so that it looks less like boxes.",
+    long: "Cuts the corners of a landscape's ground by `r` tiles, so that it looks less like boxes. \
+           Narrow faces keep at least their middle half.",
     example: "Island$Tiles 16 Bevel 0.2",
     ..Row::ROW
 };
@@ -55,5 +65,21 @@ pub(super) static ROOF: Row = Row {
     long: "The height of the ridge divided by the depth of the roof. With 0.5 the model looks \
            exactly like the drawing when seen from 45° above.",
     example: "Village$Tiles 16 Roof 0.5",
+    ..Row::ROW
+};
+
+pub(super) static HEIGHT: Row = Row {
+    forms: &[Form::one(&number(
+        "n",
+        Bounds::new(-100., 100., Restriction::Integer),
+        "height of the tops, in whole tiles",
+    ))],
+    default: "0; water lies one tile below its lowest bank",
+    summary: "how high tiles are, in a map that is seen from straight above",
+    long: "Makes a plain map of the tile layer: seen from straight above, without fronts. In a legend it \
+           is the height of the tiles of that paint, in the string of a group inside the layer that of the \
+           group's tiles, and in the layer's own string that of all others. Walls stand where heights \
+           differ. Below 0 the ground is sunken.",
+    example: "$Tile beige Height 3",
     ..Row::ROW
 };

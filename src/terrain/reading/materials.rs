@@ -4,10 +4,11 @@ use rustc_hash::FxHashMap;
 
 use super::colors::{self, Named};
 use super::raster::{Code, paint_of, pixel_of};
-use crate::bind::{Bindings, LayerId, MaterialFactors, StringId};
+use crate::bind::{Bindings, LayerId, MaterialFactors, SetBy, StringId};
 use crate::source::Span;
 use crate::svg::{PaintKey, ShapeId};
 use crate::terrain::Tile;
+use crate::texture::Picture;
 
 /// The material of tiles of one kind and paint.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,13 +29,18 @@ pub struct TileMaterial {
 
 /// An image on tiles.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TileTexture {
-    /// The link to the image.
-    pub link: String,
-    /// The string that sets it.
-    pub string: StringId,
-    /// The place of the setting.
-    pub span: Span,
+pub enum TileTexture {
+    /// The file that `Texture` names.
+    File {
+        /// The link to the image.
+        link: String,
+        /// The string that sets it.
+        string: StringId,
+        /// The place of the setting.
+        span: Span,
+    },
+    /// The pictures of all tiles of a map, side by side.
+    Pictures(Picture),
 }
 
 impl TileMaterial {
@@ -129,6 +135,19 @@ impl<'a> Paints<'a> {
         (named, legend)
     }
 
+    /// The height that the layer's own string gives its tiles, or a `%` string those of all layers.
+    pub(super) fn height_of_layer(&self) -> Option<i8> {
+        let height = self.bindings.layer_attributes(self.layer).height();
+        height.map(|height| height.value)
+    }
+
+    /// The height that a legend gives the tiles of its paint.
+    pub(super) fn height_of_legend(&self, legend: Option<usize>) -> Option<i8> {
+        let height = self.bindings.tile_attributes(self.layer, legend).height();
+        let height = height.filter(|height| height.source.from == SetBy::Legend);
+        height.map(|height| height.value)
+    }
+
     /// The meaning of a code other than [`NOTHING`](super::raster::NOTHING).
     pub(super) fn meaning(&self, code: Code) -> Meaning {
         let (color, opacity) = self.appearance(code);
@@ -160,7 +179,7 @@ impl<'a> Paints<'a> {
             tile: named.tile(),
             is_sand: named == Named::Sand,
             factors: attributes.material_factors([r, g, b, opacity], set_color),
-            texture: texture.map(|texture| TileTexture {
+            texture: texture.map(|texture| TileTexture::File {
                 link: texture.value.to_owned(),
                 string: texture.source.string,
                 span: self.bindings.span_of(&texture.source),

@@ -10,6 +10,7 @@ mod diagnostics;
 mod edges;
 mod fit;
 mod grid;
+mod heights;
 mod materials;
 #[cfg(test)]
 mod palettes;
@@ -17,11 +18,12 @@ mod raster;
 mod sand;
 #[cfg(test)]
 mod tests;
+mod tiled;
 
 use std::ops::Range;
 
 use glam::DVec2;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 pub(crate) use materials::{TileMaterial, TileTexture};
 
@@ -30,12 +32,15 @@ use super::map::{MAX_CELLS, Map};
 use crate::bind::{Attribute, Bindings, LayerId, PartId, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::index::index_type;
+use crate::memo::Memo;
+use crate::resolver::Resolver;
 use crate::svg::{Drawing, GroupId, PaintKey, ShapeId};
 use classify::{Classification, classify};
 use content::{Content, contents};
 use grid::Grid;
 use materials::Paints;
 use raster::Canvas;
+use tiled::Files;
 
 index_type!(
     /// A landscape of a drawing: one of the tile layers that have tiles.
@@ -128,6 +133,8 @@ impl Layer {
 pub(crate) fn read(
     drawing: &Drawing,
     bindings: &Bindings,
+    resolver: &dyn Resolver,
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> TiVec<LandscapeId, Layer> {
     if bindings.tile_layers().next().is_none() {
@@ -141,11 +148,14 @@ pub(crate) fn read(
     let mut layers = TiVec::new();
     let mut all_read = true;
     let contents = contents(drawing, bindings);
+    let levels = &bindings.levels_of_groups(drawing);
     for (index, _) in bindings.tile_layers() {
         let reading = Reading {
             drawing,
             bindings,
             index,
+            levels,
+            files: Files { resolver, memo },
         };
         match reading.layer(&contents[index], &mut used, diagnostics) {
             Ok(layer) => layers.push(layer),
@@ -172,6 +182,9 @@ struct Reading<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
     index: LayerId,
+    /// Per group the height that it gives its tiles; empty if none does.
+    levels: &'a TiSlice<GroupId, Option<i8>>,
+    files: Files<'a>,
 }
 
 impl Reading<'_> {
@@ -189,9 +202,13 @@ impl Reading<'_> {
             drawing,
             bindings,
             index,
+            ..
         } = *self;
         let of_layer = &bindings.layers[index];
         let attributes = bindings.layer_attributes(index);
+        if let Some(file) = attributes.tile_file() {
+            return self.tiled(&file, content, diagnostics);
+        }
         let Some(Attribute { value: size, .. }) = attributes.tile_size() else {
             return Err(None);
         };
@@ -213,7 +230,11 @@ impl Reading<'_> {
         if grid.columns == 0 || grid.rows == 0 {
             return nothing(true);
         }
-        let items = content.items(drawing, &grid, &mut paints, diagnostics)?;
+        let mut items = content.items(drawing, &grid, &mut paints, diagnostics)?;
+        for (shape, item) in &mut items {
+            let level = self.levels.get(drawing.shapes[*shape].group);
+            item.height = level.copied().flatten();
+        }
         let mut sources: Vec<TileSource> = Vec::with_capacity(items.len());
         for (shape, item) in &items {
             let [columns, rows] = item.reach(&grid).map(|[from, to]| from..to);
@@ -237,21 +258,29 @@ impl Reading<'_> {
             plain,
             too_many_legends,
         } = classify(&canvas, &paints, vec![0; grid.columns * grid.rows]);
+        let heights = heights::read(&canvas, &paints, &cells, &materials);
         // Free the memory of pictures before edges are read.
         drop(canvas);
         let is_empty = materials.len() == 1 && unclear.is_empty();
         let mut edges = vec![0; cells.len()];
-        let strokes = content.strokes(drawing);
-        edges::read(&grid, &strokes, &mut edges);
-        let strays = edges::strays(&grid, &strokes, &cells);
+        let mut strays = vec![];
+        if heights.is_empty() {
+            let strokes = content.strokes(drawing);
+            edges::read(&grid, &strokes, &mut edges);
+            strays = edges::strays(&grid, &strokes, &cells);
+            sand::walls(&mut cells, &edges, &sources, grid.columns, &mut materials);
+        } else {
+            heights::add_earth(&paints, &mut materials);
+        }
         legends.iter().for_each(|legend| used[*legend] = true);
-        sand::walls(&mut cells, &edges, &sources, grid.columns, &mut materials);
         let map = Map {
             columns: grid.columns,
             rows: grid.rows,
             cells,
             tiles: materials.iter().map(|material| material.tile).collect(),
             edges,
+            heights,
+            pictures: None,
         };
         let layer = Layer {
             index,

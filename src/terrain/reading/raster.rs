@@ -13,6 +13,7 @@ use super::colors::Named;
 use super::grid::{Grid, rectangle};
 use super::materials::Paints;
 use crate::geometry::Outline;
+use crate::terrain::UNSET;
 
 /// The paint of a cell, as a pixel of an internal picture. The last byte gives the meaning of the others: 0 nothing; 255 the
 /// index of a paint, little-endian; 1 to 254 the colour of a picture's pixel, the byte being its opacity.
@@ -54,6 +55,34 @@ pub(super) struct Item<'a> {
     /// Its bounding box, cells.
     bounds: [DVec2; 2],
     source: Source<'a>,
+    /// The height that its group gives its tiles.
+    pub(super) height: Option<i8>,
+}
+
+/// What of the items is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Aspect {
+    /// The codes of their paints.
+    Paints,
+    /// Their heights, as codes of [`height_code`].
+    Heights,
+}
+
+/// The number of heights below 0, by which they are shifted to be codes of paints; the first of these stands for no height.
+const HEIGHTS_BELOW: i16 = i8::MAX as i16;
+
+/// The code of an item's height.
+fn height_code(height: Option<i8>) -> Code {
+    let number = height.map_or(0, |height| i16::from(height) + HEIGHTS_BELOW);
+    paint_code(usize::try_from(number).unwrap_or(0))
+}
+
+/// The height of a code of [`height_code`].
+fn height_of(code: Code) -> i8 {
+    match paint_of(code) {
+        None | Some(0) => UNSET,
+        Some(number) => (number as i16 - HEIGHTS_BELOW) as i8,
+    }
 }
 
 enum Source<'a> {
@@ -82,6 +111,7 @@ impl<'a> Item<'a> {
                 Some(_) => Source::Rectangle(code),
                 None => Source::Area(outline, code),
             },
+            height: None,
         }
     }
 
@@ -90,6 +120,7 @@ impl<'a> Item<'a> {
         Self {
             bounds: bounds.map(|p| grid.cells(p)),
             source: Source::Picture(Box::new(picture)),
+            height: None,
         }
     }
 
@@ -137,11 +168,34 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Calls `fill` with every band and its part of `cells`, which has a byte for each cell. The results, from the top.
-    pub(super) fn bands<T: Send>(
+    /// The number of columns of the grid.
+    pub(super) fn columns(&self) -> usize {
+        self.grid.columns
+    }
+
+    /// Whether the group of an item gives its tiles a height.
+    pub(super) fn has_heights(&self) -> bool {
+        self.items.iter().any(|item| item.height.is_some())
+    }
+
+    /// Per cell the height that the group of its front-most item gives its tiles, or [`UNSET`].
+    pub(super) fn heights(&self, count: usize) -> Vec<i8> {
+        let mut heights = vec![UNSET; count];
+        self.bands(&mut heights, |band, heights| {
+            band.draw_aspect(Aspect::Heights, |place, _, codes| {
+                for (height, code) in heights[place..].iter_mut().zip(codes) {
+                    *height = height_of(*code);
+                }
+            });
+        });
+        heights
+    }
+
+    /// Calls `fill` with every band and its part of `cells`, which has an entry for each cell. The results, from the top.
+    pub(super) fn bands<C: Send, T: Send>(
         &self,
-        cells: &mut [u8],
-        fill: impl Fn(Band<'_>, &mut [u8]) -> T + Sync,
+        cells: &mut [C],
+        fill: impl Fn(Band<'_>, &mut [C]) -> T + Sync,
     ) -> Vec<T> {
         let band = self.height * self.grid.columns.max(1);
         let chunks = cells.par_chunks_mut(band).zip(&self.bands).enumerate();
@@ -183,7 +237,11 @@ pub(super) struct Band<'a> {
 impl Band<'_> {
     /// Draws the band. `each` gets runs of cells of a row: the index of the first cell in the band, its index in the map, and the
     /// codes.
-    pub(super) fn draw(&self, mut each: impl FnMut(usize, usize, &[Code])) {
+    pub(super) fn draw(&self, each: impl FnMut(usize, usize, &[Code])) {
+        self.draw_aspect(Aspect::Paints, each);
+    }
+
+    fn draw_aspect(&self, aspect: Aspect, mut each: impl FnMut(usize, usize, &[Code])) {
         let columns = self.canvas.grid.columns;
         let mut codes = Vec::new();
         for left in (0..columns).step_by(SECTION) {
@@ -196,7 +254,7 @@ impl Band<'_> {
                 size: [width, self.rows],
             };
             for item in self.items {
-                section.draw(&self.canvas.items[*item as usize], self.canvas);
+                section.draw(&self.canvas.items[*item as usize], self.canvas, aspect);
             }
             for (row, codes) in codes.chunks(width).enumerate() {
                 let place = row * columns + left;
@@ -214,7 +272,8 @@ struct BandSection<'a> {
 }
 
 impl BandSection<'_> {
-    fn draw(&mut self, item: &Item<'_>, canvas: &Canvas<'_>) {
+    fn draw(&mut self, item: &Item<'_>, canvas: &Canvas<'_>, aspect: Aspect) {
+        let instead = (aspect == Aspect::Heights).then(|| height_code(item.height));
         let grid = &canvas.grid;
         let [left, top] = self.corner;
         let [width, height] = self.size;
@@ -230,12 +289,13 @@ impl BandSection<'_> {
         }
         match &item.source {
             Source::Rectangle(code) => {
+                let code = instead.unwrap_or(*code);
                 for row in rows {
-                    self.codes[row * width..][columns.clone()].fill(*code);
+                    self.codes[row * width..][columns.clone()].fill(code);
                 }
             }
             Source::Area(outline, code) => {
-                let [r, g, b, a] = *code;
+                let [r, g, b, a] = instead.unwrap_or(*code);
                 let mut paint = Paint::default();
                 paint.set_color_rgba8(r, g, b, a);
                 paint.anti_alias = false;
@@ -271,7 +331,7 @@ impl BandSection<'_> {
                         };
                         let corner = DVec2::new((left + column) as f64, (top + row) as f64);
                         if is_visible && let Some(code) = most.of_cell(corner) {
-                            self.codes[at] = code;
+                            self.codes[at] = instead.unwrap_or(code);
                         }
                     }
                 }

@@ -6,7 +6,7 @@ use super::materials::TileMaterial;
 use crate::regions::connected;
 
 /// The largest number of materials, which have an index of a byte.
-const MAX_MATERIALS: usize = 256;
+pub(super) const MAX_MATERIALS: usize = 256;
 
 /// The largest number of cells that the shapes of a map may cover for each cell, so that it is found out which shape is in front.
 const MAX_DEPTH: usize = 64;

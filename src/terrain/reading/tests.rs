@@ -1,3 +1,5 @@
+mod plain;
+
 use std::io::Cursor;
 
 use image::{ImageFormat, RgbaImage};
@@ -19,7 +21,7 @@ fn read_with(svg: &str, files: MemoryResolver) -> (Vec<Layer>, Vec<String>) {
         format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">{svg}</svg>"#);
     let (drawing, mut diagnostics) = svg::read(&svg, 0.001, &files, &bind::in_layers_of_pixels);
     let bindings = bind::bind(&drawing, &Memo::none(), &mut diagnostics);
-    let layers = read(&drawing, &bindings, &mut diagnostics);
+    let layers = read(&drawing, &bindings, &files, &Memo::none(), &mut diagnostics);
     // Heights are tested elsewhere.
     let told = diagnostics.iter();
     let told = told.filter(|found| found.code != Code::OpenTerrain);

@@ -1,8 +1,11 @@
 //! Bevelled corners (ours: the thesis names rounded ground as its open problem).
 //!
 //! Every face is inset along the sides where the surface turns. Strips join the inset faces along those sides, and patches join
-//! the strips at corners. Vertices keep the normals of their original faces, so that the bevel is shaded smoothly.
+//! the strips at corners. Vertices keep the normals of their original faces, so that the bevel is shaded smoothly. A face between two such
+//! sides keeps at least its middle half, and a strip is half of either material, so that one-tile walls and the rims of plates
+//! stay what they are.
 
+use glam::Vec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::super::constraints::STRIPE;
@@ -13,6 +16,8 @@ use super::steps;
 
 /// A wider bevel would turn thin walls inside out.
 const WIDEST: f64 = 0.49;
+/// The largest share of a square that a bevel takes at each of two opposite sides.
+const OF_TWO: f64 = 0.25;
 
 /// The axis of heights, which are in steps.
 const UP: usize = 1;
@@ -112,6 +117,8 @@ struct Corner {
     fan: Fan,
     point: Point,
     material: u8,
+    /// Column and row of its square, if that is a top.
+    cell: [i32; 2],
 }
 
 /// The squares of a stripe and its neighbours, and how they meet.
@@ -122,6 +129,8 @@ pub(super) struct Bevel<'a> {
     squares: FxHashMap<(Facing, Point), u8>,
     /// The faces at each side of a square, up to four. A side is its smaller point and its axis.
     sides: FxHashMap<(Point, usize), Vec<(Facing, Point)>>,
+    /// Per point how far it is inset at most, tiles.
+    reach: FxHashMap<Point, f64>,
     /// Points that are not inset: at houses, and where the surface folds back onto itself.
     fixed: FxHashSet<Point>,
     houses: Vec<&'a House>,
@@ -150,6 +159,7 @@ impl<'a> Bevel<'a> {
             lines,
             squares: FxHashMap::default(),
             sides: FxHashMap::default(),
+            reach: FxHashMap::default(),
             fixed: FxHashSet::default(),
             houses,
         };
@@ -168,7 +178,64 @@ impl<'a> Bevel<'a> {
             }
         }
         bevel.fix();
+        bevel.find_reach();
         bevel
+    }
+
+    /// Finds how far points are inset at most: as far as the smallest square there allows, so that both sides of a strip are alike, and
+    /// a plate's rim is not cut more across than down.
+    fn find_reach(&mut self) {
+        // Each face with each of its sides where the surface turns.
+        let mut turns: FxHashSet<((Facing, Point), (Point, usize))> = FxHashSet::default();
+        let mut reach: FxHashMap<Point, f64> = FxHashMap::default();
+        #[expect(
+            clippy::iter_over_hash_type,
+            reason = "neither a set nor minima depend on the order"
+        )]
+        {
+            for ((start, axis), faces) in &self.sides {
+                for [one, other] in self.pairs(*start, *axis, faces).unwrap_or_default() {
+                    if one.0 != other.0 {
+                        turns.extend([one, other].map(|face| (face, (*start, *axis))));
+                    }
+                }
+            }
+            for (face, side) in &turns {
+                let (length, opposite) = self.across(*face, *side);
+                let share = match turns.contains(&(*face, opposite)) {
+                    true => self.radius.min(OF_TWO),
+                    false => self.radius,
+                };
+                let (start, axis) = *side;
+                for point in [start, self.lines.next(start, axis)] {
+                    let most = reach.entry(point).or_insert(self.radius);
+                    *most = most.min(share * length);
+                }
+            }
+        }
+        self.reach = reach;
+    }
+
+    /// How far a square reaches from one of its sides, tiles, and the side there.
+    fn across(
+        &self,
+        (facing, square): (Facing, Point),
+        (start, axis): (Point, usize),
+    ) -> (f64, (Point, usize)) {
+        let [one, other, _] = facing.axes();
+        let across = if one == axis { other } else { one };
+        let far = self.lines.after(across, square[across]);
+        let length = match across {
+            UP => steps::height(far) - steps::height(square[UP]),
+            _ => 1.0,
+        };
+        let mut opposite = start;
+        opposite[across] = if start[across] == far {
+            square[across]
+        } else {
+            far
+        };
+        (length, (opposite, axis))
     }
 
     /// Finds the points that must not be inset.
@@ -300,7 +367,9 @@ impl<'a> Bevel<'a> {
                 steps::height(point[UP]) - steps::height(self.lines.before(UP, point[UP]))
             }
         };
-        self.radius * side * towards.signum()
+        let reach = self.reach.get(&point).copied();
+        let reach = reach.unwrap_or(self.radius).min(self.radius * side);
+        reach * towards.signum()
     }
 
     #[inline]
@@ -309,18 +378,20 @@ impl<'a> Bevel<'a> {
             fan: self.fan(facing, square, point),
             point,
             material: self.squares[&(facing, square)],
+            cell: [square[0], square[2]],
         }
     }
 
     /// Adds a stripe's own squares, inset, and the strips and patches that begin between `columns`.
-    pub(super) fn add(&self, mesh: &mut Mesh, own: &[Rect], columns: std::ops::Range<i32>) {
+    pub(super) fn add(&self, mesh: &mut Mesh<'_>, own: &[Rect], columns: std::ops::Range<i32>) {
         for square in own {
             let face = (square.facing, name(square));
             let ring = square.corners().map(|point| {
                 let corner = self.corner(face, point);
-                (self.place(&corner), square.facing)
+                (self.place(&corner), square.facing.normal())
             });
-            mesh.smooth_polygon(square.material, square.facing, &ring);
+            let [x, _, z] = face.1;
+            mesh.smooth_polygon(square.material, square.facing, [x, z], &ring);
         }
         let mut ends: FxHashMap<Point, Vec<[Corner; 2]>> = FxHashMap::default();
         let mut sides: Vec<_> = self
@@ -341,16 +412,18 @@ impl<'a> Bevel<'a> {
                 let [f0, f1] = [*start, end].map(|point| self.corner(f, point));
                 let [g0, g1] = [*start, end].map(|point| self.corner(g, point));
                 if columns.contains(&start[0]) {
-                    let material = [f0, g0]
-                        .into_iter()
-                        .min_by_key(|corner| rank(corner.fan.facing));
-                    let ring = [f1, f0, g0, g1];
-                    let ring = ring.map(|corner| (self.place(&corner), corner.fan.facing));
-                    mesh.smooth_polygon(
-                        material.map_or(f0.material, |corner| corner.material),
-                        f.0,
-                        &ring,
-                    );
+                    let of = |corner: &Corner| (self.place(corner), corner.fan.facing.normal());
+                    let [of_f1, of_f0, of_g0, of_g1] = [f1, f0, g0, g1].map(|corner| of(&corner));
+                    if f0.material == g0.material {
+                        let ring = [of_f1, of_f0, of_g0, of_g1];
+                        mesh.smooth_polygon(f0.material, f.0, f0.cell, &ring);
+                    } else {
+                        let [m0, m1] = [[of_f0, of_g0], [of_f1, of_g1]].map(|ends| center(&ends));
+                        let near_f = [of_f1, of_f0, m0, m1];
+                        mesh.smooth_polygon(f0.material, f.0, f0.cell, &near_f);
+                        let near_g = [m1, m0, of_g0, of_g1];
+                        mesh.smooth_polygon(g0.material, g.0, g0.cell, &near_g);
+                    }
                 }
                 ends.entry(*start).or_default().push([g0, f0]);
                 ends.entry(end).or_default().push([f1, g1]);
@@ -369,38 +442,60 @@ impl<'a> Bevel<'a> {
     }
 
     /// Closes the holes between the strips at a corner.
-    fn patches(&self, mesh: &mut Mesh, mut ends: Vec<[Corner; 2]>) {
+    fn patches(&self, mesh: &mut Mesh<'_>, mut ends: Vec<[Corner; 2]>) {
+        let of = |corner: &Corner| (self.place(corner), corner.fan.facing.normal());
         while let Some([first, mut last]) = ends.pop() {
-            let mut ring = vec![first, last];
+            let mut ring = vec![[first, last]];
             while last.fan != first.fan
                 && let Some(next) = ends.iter().position(|[from, _]| from.fan == last.fan)
             {
-                last = ends.swap_remove(next)[1];
-                ring.push(last);
+                let end = ends.swap_remove(next);
+                last = end[1];
+                ring.push(end);
             }
-            ring.pop();
-            if ring.len() > 2 {
-                let material = ring.iter().min_by_key(|corner| rank(corner.fan.facing));
-                let material = material.map_or(first.material, |corner| corner.material);
-                let places: Vec<_> = ring
-                    .iter()
-                    .map(|corner| (self.place(corner), corner.fan.facing))
-                    .collect();
-                mesh.smooth_polygon(material, first.fan.facing, &places);
+            // A strip of two materials has a point in the middle of its end.
+            let is_split = |[from, to]: &[Corner; 2]| from.material != to.material;
+            let split = ring.iter().filter(|end| is_split(end)).count();
+            // The ends of two strips that are alike meet.
+            if ring.len() < 3 && split != 1 {
+                continue;
+            }
+            // Each point, and the corner whose material begins there.
+            let mut points = Vec::with_capacity(ring.len() + split);
+            for end in &ring {
+                points.push((of(&end[0]), end[0]));
+                if is_split(end) {
+                    points.push((center(&end.each_ref().map(of)), end[1]));
+                }
+            }
+            let places: Vec<_> = points.iter().map(|(point, _)| *point).collect();
+            if split == 0 || ring.len() < 3 {
+                mesh.smooth_polygon(first.material, first.fan.facing, first.cell, &places);
+                continue;
+            }
+            let center = center(&places);
+            let next = places.iter().cycle().skip(1);
+            for ((point, corner), next) in points.iter().zip(next) {
+                let sector = [center, *point, *next];
+                mesh.smooth_polygon(corner.material, corner.fan.facing, corner.cell, &sector);
             }
         }
     }
 }
 
-/// Strips and patches have the material of the adjacent face with the lowest rank: grass grows over edges.
-fn rank(facing: Facing) -> u8 {
-    match facing {
-        Facing::Up => 0,
-        Facing::Front => 1,
-        Facing::Right | Facing::Left => 2,
-        Facing::Back => 3,
-        Facing::Down => 4,
-    }
+/// A place and a normal.
+type Vertex = ([f64; 3], [f32; 3]);
+
+/// The mean of some points, and of their normals.
+fn center(points: &[Vertex]) -> Vertex {
+    let count = points.len() as f64;
+    let place = [0, 1, 2].map(|axis| points.iter().map(|(at, _)| at[axis]).sum::<f64>() / count);
+    let normal: Vec3 = points.iter().map(|(_, normal)| Vec3::from(*normal)).sum();
+    // Normals that cancel each other out are those of a fold.
+    let usual = points
+        .first()
+        .map_or([0.0, 1.0, 0.0], |(_, normal)| *normal);
+    (place, normal.normalize_or(usual.into()).into())
 }
 
 fn opposite(one: Facing, other: Facing) -> bool {

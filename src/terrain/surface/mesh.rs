@@ -3,13 +3,17 @@
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 
+use super::super::grid::Grid;
+use super::super::map::CellPictures;
 use super::greedy::Facing;
 use super::steps;
 use crate::scene::Surface;
 
 /// The surfaces under construction, one for each material.
 #[derive(Debug)]
-pub(super) struct Mesh {
+pub(super) struct Mesh<'a> {
+    /// The pictures of tops, column by column, and the number of rows.
+    pictures: Option<(&'a CellPictures, usize)>,
     /// x and z of the map's middle, which is the model's origin.
     middle: [f64; 2],
     materials: Vec<MaterialSurface>,
@@ -22,13 +26,38 @@ struct MaterialSurface {
     known: FxHashMap<([i32; 3], Facing), u32>,
 }
 
-impl Mesh {
-    pub(super) fn new(columns: usize, rows: usize, materials: usize) -> Self {
+impl<'a> Mesh<'a> {
+    pub(super) fn new(grid: &'a Grid, materials: usize) -> Self {
+        let Grid { columns, rows, .. } = *grid;
         Self {
+            pictures: grid.pictures.as_ref().map(|pictures| (pictures, rows)),
             middle: [columns as f64 / 2.0, rows as f64 / 2.0],
             materials: (0..materials.max(1))
                 .map(|_| MaterialSurface::default())
                 .collect(),
+        }
+    }
+
+    /// Whether the tops of a material show a picture each, and so are single squares.
+    pub(super) fn is_pictured(&self, material: u8) -> bool {
+        let pictures = self.pictures.map(|(pictures, _)| pictures.material);
+        pictures == Some(material)
+    }
+
+    /// Texture coordinates of a point. `cell` is the column and the row of the top that the point belongs to, or is beside.
+    fn uv(&self, material: u8, facing: Facing, place: [f64; 3], cell: [i32; 2]) -> [f64; 2] {
+        let [column, row] = cell;
+        let pictured = self.pictures.filter(|_| self.is_pictured(material));
+        let found = pictured.and_then(|(pictures, rows)| {
+            let cell = usize::try_from(column).ok()? * rows + usize::try_from(row).ok()?;
+            Some((pictures.grid, *pictures.places.get(cell)?))
+        });
+        match found {
+            None => uv(facing, place),
+            Some((grid, picture)) => {
+                let [x, _, z] = place;
+                grid.uv(picture, [x - f64::from(column), z - f64::from(row)])
+            }
         }
     }
 
@@ -55,12 +84,26 @@ impl Mesh {
         })
     }
 
+    /// Adds a corner that no other polygon shares.
+    fn push(&mut self, material: u8, facing: Facing, place: [f64; 3], cell: [i32; 2]) -> u32 {
+        let uv = self.uv(material, facing, place, cell);
+        let surface = &mut self.materials[usize::from(material)].surface;
+        push_corner(surface, self.middle, facing.normal(), uv, place)
+    }
+
     /// Adds an axis-aligned rectangle with points on its sides. `sides` are the four sides, each without its end, counter-clockwise
     /// seen from outside.
     pub(super) fn rectangle(&mut self, material: u8, facing: Facing, sides: &[Vec<[i32; 3]>; 4]) {
+        // Corners of pictures have texture coordinates of their own.
+        let [x, _, z] = sides[0][0];
+        let cell = [x, z];
+        let pictured = self.is_pictured(material);
         let ids = sides.each_ref().map(|side| -> Vec<u32> {
             side.iter()
-                .map(|point| self.corner(material, facing, *point))
+                .map(|point| match pictured {
+                    true => self.push(material, facing, steps::place(*point), cell),
+                    false => self.corner(material, facing, *point),
+                })
                 .collect()
         });
         let plain = |side: usize| ids[side].len() == 1;
@@ -72,14 +115,8 @@ impl Mesh {
             // A fan about the middle has no degenerate triangle.
             let [a, b] = [sides[0][0], sides[2][0]].map(steps::place);
             let middle = [0, 1, 2].map(|axis| (a[axis] + b[axis]) / 2.0);
+            let center = self.push(material, facing, middle, cell);
             let surface = &mut self.materials[usize::from(material)].surface;
-            let center = push_corner(
-                surface,
-                self.middle,
-                facing.normal(),
-                uv(facing, middle),
-                middle,
-            );
             let ring: Vec<u32> = ids.concat();
             let next = ring.iter().cycle().skip(1);
             let fan = ring
@@ -115,15 +152,16 @@ impl Mesh {
         }
     }
 
-    /// Adds a polygon whose corners have the normals of the given facings. Points at the same position are merged.
+    /// Adds a polygon whose corners have these normals. Points at the same position are merged. `cell` is the column and
+    /// the row of the top that it has its material from.
     pub(super) fn smooth_polygon(
         &mut self,
         material: u8,
         facing: Facing,
-        points: &[([f64; 3], Facing)],
+        cell: [i32; 2],
+        points: &[([f64; 3], [f32; 3])],
     ) {
-        let surface = &mut self.materials[usize::from(material)].surface;
-        let mut ring: Vec<([f64; 3], Facing)> = points.to_vec();
+        let mut ring: Vec<([f64; 3], [f32; 3])> = points.to_vec();
         ring.dedup_by(|next, last| next.0 == last.0);
         if ring.len() > 1 && ring[0].0 == ring[ring.len() - 1].0 {
             ring.pop();
@@ -132,15 +170,18 @@ impl Mesh {
             return;
         }
         let mut add = |place: [f64; 3], normal: [f32; 3]| {
-            push_corner(surface, self.middle, normal, uv(facing, place), place)
+            let uv = self.uv(material, facing, place, cell);
+            let surface = &mut self.materials[usize::from(material)].surface;
+            push_corner(surface, self.middle, normal, uv, place)
         };
         let ids: Vec<u32> = ring
             .iter()
-            .map(|(place, facing)| add(*place, facing.normal()))
+            .map(|(place, normal)| add(*place, *normal))
             .collect();
         if let [a, b, c, rest @ ..] = ids.as_slice()
             && rest.len() < 2
         {
+            let surface = &mut self.materials[usize::from(material)].surface;
             let triangles = match rest {
                 [d] => halves(surface, [*a, *b, *c, *d]).to_vec(),
                 _ => vec![[*a, *b, *c]],
@@ -156,7 +197,7 @@ impl Mesh {
             })
         };
         let middle = sum(&|at| ring[at].0).map(|value| value / ring.len() as f64);
-        let normal = sum(&|at| ring[at].1.normal().map(f64::from));
+        let normal = sum(&|at| ring[at].1.map(f64::from));
         let length = normal.iter().map(|value| value * value).sum::<f64>().sqrt();
         let normal = if length > 1e-6 {
             normal.map(|value| (value / length) as f32)
@@ -164,6 +205,7 @@ impl Mesh {
             facing.normal()
         };
         let center = add(middle, normal);
+        let surface = &mut self.materials[usize::from(material)].surface;
         let next = ids.iter().cycle().skip(1);
         for (one, other) in ids.iter().zip(next) {
             push_triangle(surface, [center, *one, *other]);

@@ -22,7 +22,7 @@ use crate::scene::Surface;
 
 use bevel::{Bevel, Lines};
 use corners::Corners;
-use greedy::Rect;
+use greedy::{Facing, Rect};
 use mesh::Mesh;
 use roofs::{Gable, Roof};
 
@@ -63,6 +63,10 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
             eaves.extend(roofs::eaves_between(house));
         }
     }
+    if let Some(pictures) = &grid.pictures {
+        let all = rects.par_iter_mut();
+        all.for_each(|rects| split(rects, pictures.material));
+    }
     let (lines, mut squares) = if radius > 0.0 {
         (Lines::new(rects.iter().flatten()), vec![vec![]; stripes])
     } else {
@@ -77,7 +81,7 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
     }
     let corners = Corners::new(&rects, &squares, &eaves);
     let materials = 256;
-    let mesh = || Mesh::new(grid.columns, grid.rows, materials);
+    let mesh = || Mesh::new(grid, materials);
     let mut made: Vec<Vec<(u8, Surface)>> = rects
         .into_par_iter()
         .enumerate()
@@ -120,6 +124,23 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
     surfaces
 }
 
+/// Splits the tops of a material into single squares.
+fn split(rects: &mut Vec<Rect>, material: u8) {
+    let is_split = |rect: &Rect| rect.facing == Facing::Up && rect.material == material;
+    let large: Vec<Rect> = rects.iter().copied().filter(is_split).collect();
+    rects.retain(|rect| !is_split(rect));
+    for rect in large {
+        let across = rect.across[0]..rect.across[1];
+        rects.extend(across.flat_map(|x| {
+            (rect.along[0]..rect.along[1]).map(move |z| Rect {
+                across: [x, x + 1],
+                along: [z, z + 1],
+                ..rect
+            })
+        }));
+    }
+}
+
 /// Adds the bevelled squares of a stripe.
 fn bevelled(
     context: &MapContext,
@@ -127,14 +148,15 @@ fn bevelled(
     lines: &Lines,
     squares: &[Vec<Rect>],
     stripe: usize,
-    mesh: &mut Mesh,
+    mesh: &mut Mesh<'_>,
 ) {
     let start = (stripe * STRIPE) as i32;
     let end = start + STRIPE as i32;
     let touches = |rect: &&Rect| {
         let x = rect.corners().map(|corner| corner[0]);
         let [low, high] = [x.iter().min(), x.iter().max()].map(|x| x.copied().unwrap_or(0));
-        low <= end && high >= start
+        // One tile more, as it depends on the next side of a square how far its own is bevelled.
+        low <= end + 1 && high >= start - 1
     };
     let near = stripe.saturating_sub(1)..(stripe + 2).min(squares.len());
     let mut around = squares[near].iter().flatten().filter(touches);

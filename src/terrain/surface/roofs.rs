@@ -195,7 +195,7 @@ impl Roof<'_> {
     }
 
     /// Adds two slopes, and the left and right gables.
-    pub(super) fn add(&self, mesh: &mut Mesh, corners: &Corners) {
+    pub(super) fn add(&self, mesh: &mut Mesh<'_>, corners: &Corners) {
         let house = self.house;
         let depth = f64::from(house.depth);
         let rise = self.factor * depth;
@@ -237,7 +237,7 @@ impl Roof<'_> {
     }
 
     /// Adds a whole slope over an eave: a fan about the first end of the ridge covers the eave, and one more triangle the rest.
-    fn slope(&self, mesh: &mut Mesh, eave: &[[i32; 3]], normal: [f32; 3], slope: f64) {
+    fn slope(&self, mesh: &mut Mesh<'_>, eave: &[[i32; 3]], normal: [f32; 3], slope: f64) {
         let [first, last] = [eave[0], eave[eave.len() - 1]];
         let uv = |x: f64, v: f64| [if normal[2] < 0.0 { -x } else { x }, v];
         let top = |x: i32| (self.ridge(x), uv(self.ridge(x)[0], 0.0));
@@ -259,7 +259,7 @@ impl Roof<'_> {
     /// Adds a slope tile by tile. `ends` are those of its eave.
     fn tiled(
         &self,
-        mesh: &mut Mesh,
+        mesh: &mut Mesh<'_>,
         [from, to]: [[i32; 3]; 2],
         normal: [f32; 3],
         slope: f64,
@@ -282,7 +282,7 @@ impl Roof<'_> {
     }
 
     /// Adds a gable over its base, which runs from one eave to the other.
-    fn gable(&self, mesh: &mut Mesh, base: &[[i32; 3]], normal: [f32; 3]) {
+    fn gable(&self, mesh: &mut Mesh<'_>, base: &[[i32; 3]], normal: [f32; 3]) {
         let wall = self.house.materials[1];
         let corner = |[x, y, z]: [f64; 3]| ([x, y, z], [z, -y]);
         let [first, last] = [base[0], base[base.len() - 1]];
