@@ -19,7 +19,7 @@ use super::region::{Direction, RegionId, View};
 use super::shape::{Ends, Morph, line_mesh};
 use super::shapes::{RegionShape, shapes};
 use super::turn::between;
-use crate::bind::{Bindings, LayerId, PartId};
+use crate::bind::{Bindings, LayerId, PartId, StringId};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Outline;
 use crate::lang::keyword::Keyword;
@@ -68,6 +68,8 @@ pub struct RegionModel {
     pub is_hidden: TiVec<ViewId, bool>,
     /// Per view the shape or picture, where the view shows it.
     pub shapes: TiVec<ViewId, Option<ShapeId>>,
+    /// Per view the string that names it in a picture.
+    pub strings: TiVec<ViewId, Option<StringId>>,
 }
 
 /// A mesh with a paint for each view.
@@ -293,9 +295,11 @@ impl Sources<'_> {
         let meshes = [Some(area), line, backing].into_iter().flatten().collect();
         let named = shown.iter().find_map(|at| region(at).name.clone());
         let mut shapes = TiVec::from(vec![None; self.drawn.len()]);
+        let mut strings = TiVec::from(vec![None; self.drawn.len()]);
         let mut is_hidden = TiVec::from(vec![false; self.drawn.len()]);
         for at in &shown {
             shapes[at.view] = Some(drawn(at).shape);
+            strings[at.view] = drawn(at).string;
             is_hidden[at.view] = drawn(at).is_hidden;
         }
         RegionModel {
@@ -313,6 +317,7 @@ impl Sources<'_> {
             part: first.and_then(|first| drawn(first).part),
             is_hidden,
             shapes,
+            strings,
         }
     }
 

@@ -4,7 +4,7 @@ use typed_index_collections::TiSlice;
 
 use super::drawn::{DrawnView, MOST_REGIONS};
 use super::matching::{Candidate, Matching, Reason, RegionInView, Unmatched, Warning};
-use crate::bind::{Bindings, LayerId};
+use crate::bind::{Bindings, DrawingString, LayerId, StringId};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::bounds;
 use crate::lang::ast::{Annotation, ArgumentKind};
@@ -51,6 +51,50 @@ pub(super) fn shaded(drawing: &Drawing, picture: ShapeId, regions: usize) -> Dia
         format!("{what} has soft shades, and each step of them became a region: {regions} in all");
     Diagnostic::new(Code::SoftShades, drawing.shapes[picture].element.span, message)
         .help("paint each area in one colour (in Krita or GIMP: Posterize), or trace the picture with few colours (in Inkscape: Path → Trace Bitmap) and write the names beside the shapes")
+}
+
+/// The strings of a view's pictures for which no region is left.
+pub(super) fn without_region(
+    bindings: &Bindings,
+    strings: &[StringId],
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let called = |string: &StringId| {
+        let text = &bindings.strings[*string].text;
+        format!("`{}`", text.as_str().trim())
+    };
+    let cause = "every region of the pictures in its view has a string already";
+    let findings = strings.iter().map(|string| {
+        let message = format!("there is no region left for {}: {cause}", called(string));
+        Diagnostic::new(
+            Code::NoPartLeft,
+            bindings.strings[*string].text.whole(),
+            message,
+        )
+        .help("delete the string, or put `#` before it to make it a comment")
+    });
+    let all = || listed(strings.iter().map(called));
+    few_or_one(
+        findings.collect(),
+        |_| format!("there is no region left for {}: {cause}", all()),
+        diagnostics,
+    );
+}
+
+/// The attributes that have no effect in the string of a region in a picture.
+pub(super) fn without_effect_in_picture(
+    string: &DrawingString,
+) -> impl Iterator<Item = Diagnostic> + '_ {
+    let attributes = string.annotation.attributes().iter();
+    let others = attributes
+        .filter(|attribute| !matches!(attribute.keyword, Keyword::Depth | Keyword::Hidden));
+    others.map(|attribute| {
+        let name = attribute.keyword.name();
+        let message = format!("`{name}` has no effect on a region of a picture");
+        let span = string.text.span(attribute.range.clone());
+        Diagnostic::new(Code::NoTileLayer, span, message)
+            .help("delete it, and paint the picture as the region should look")
+    })
 }
 
 /// A view in the direction of another one.
@@ -113,7 +157,7 @@ pub(super) fn report(
         let RegionInView { view, id } = unmatched.region;
         let what = describe(unmatched.region);
         let mut message = format!(
-            "{what} has no partner in another view of `{name}`, and shrinks to nothing on the way there"
+            "{what} has no partner in another view of `{name}`, and shrinks to nothing within 15° of the view that shows it"
         );
         if let Some(candidate) = unmatched.candidates.first() {
             message.push_str(&format!("; {}", why_not(candidate, &describe)));
@@ -136,7 +180,7 @@ pub(super) fn report(
         findings,
         |count| {
             format!(
-                "{count} regions of `{name}` have no partner in another view, and shrink to nothing on the way there: {}",
+                "{count} regions of `{name}` have no partner in another view, and shrink to nothing within 15° of the views that show them: {}",
                 all()
             )
         },
@@ -188,6 +232,7 @@ fn why_not(candidate: &Candidate, describe: &dyn Fn(RegionInView) -> String) -> 
     match candidate.reason {
         Reason::Color => format!("the colour of {other}, the nearest, differs"),
         Reason::Line => format!("of it and {other}, the nearest, only one is a line"),
+        Reason::OtherRegion => format!("{other}, the nearest, is a line of another region"),
         Reason::Names => format!("{other}, the nearest, has another name"),
         Reason::Cost => format!("{other}, the nearest, is too far away or too different in size"),
         Reason::Taken(by) => format!("{other}, the nearest, belongs to {}", describe(by)),

@@ -12,13 +12,14 @@ use super::diagnostics::{shaded, too_many};
 use super::features::{self, FeaturePoint};
 use super::keys;
 use super::matching::RegionInView;
+use super::names;
 use super::raster::{self, RasterView};
 use super::region::{Direction, Region, RegionId, View};
-use crate::bind::{Bindings, LayerId, PartId, PartKind};
+use crate::bind::{Bindings, LayerId, PartId, PartKind, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Outline, area, bounds, intersect};
 use crate::lang::keyword::Keyword;
-use crate::lang::value::Value;
+use crate::lang::value::{Setting, Value};
 use crate::memo::Memo;
 use crate::scene::ViewId;
 use crate::svg::{Drawing, LARGE, ShapeId};
@@ -51,8 +52,10 @@ pub(super) struct DrawnView {
 pub(super) struct Drawn {
     /// The shape that it is, or the picture that shows it.
     pub(super) shape: ShapeId,
-    /// Its part, if it has one.
+    /// Its part, if it has one: regions of pictures have none.
     pub(super) part: Option<PartId>,
+    /// The string that names it in a picture.
+    pub(super) string: Option<StringId>,
     /// The line along its border.
     pub(super) line: Option<DrawnLine>,
     /// Its middle, if it is an open line with round ends.
@@ -114,8 +117,7 @@ pub(super) fn read(
             parts[part.shape] = Some(index);
         }
     }
-    // What the view does not show lies behind all that it shows.
-    let (mut hidden, mut regions) = (Vec::new(), Vec::new());
+    let mut regions = Vec::new();
     let mut is_shaded = false;
     for (index, shape) in drawing.shapes.iter_enumerated() {
         if bindings.view_of_group(shape.group) != Some(layer) || bindings.is_leader(index) {
@@ -136,21 +138,13 @@ pub(super) fn read(
                 }
             }
         } else {
-            if let Some((region, drawn)) = of_shape(drawing, bindings, index, parts[index]) {
-                if drawn.is_hidden {
-                    hidden.push((region, drawn))
-                } else {
-                    regions.push((region, drawn))
-                }
-            }
+            regions.extend(of_shape(drawing, bindings, index, parts[index]));
         }
     }
-    for (region, _) in &mut regions {
-        let moved = |outer| RegionId::from(hidden.len() + usize::from(outer));
-        region.container = region.container.map(moved);
-    }
-    let regions = hidden.into_iter().chain(regions);
-    let (mut all, drawn): (TiVec<RegionId, Region>, TiVec<RegionId, Drawn>) = regions.unzip();
+    names::assign(drawing, bindings, layer, &mut regions, diagnostics);
+    let regions = hidden_first(regions);
+    let (mut all, drawn): (TiVec<RegionId, Region>, TiVec<RegionId, Drawn>) =
+        regions.into_iter().unzip();
     if all.len() > MOST_REGIONS {
         diagnostics.push(too_many(bindings, layer, all.len()));
         return None;
@@ -169,6 +163,46 @@ pub(super) fn read(
         features: features::of_view(drawing, bindings, layer, diagnostics),
         is_shaded,
     })
+}
+
+/// Moves what the view does not show behind all that it shows, so that it lies on nothing of that.
+fn hidden_first(mut regions: Vec<(Region, Drawn)>) -> Vec<(Region, Drawn)> {
+    let is_hidden: Vec<bool> = regions.iter().map(|(_, drawn)| drawn.is_hidden).collect();
+    let hidden = is_hidden.iter().filter(|hidden| **hidden).count();
+    if hidden == 0 {
+        return regions;
+    }
+    let mut shown = hidden..;
+    let places: Vec<Option<usize>> = is_hidden
+        .iter()
+        .map(|is_hidden| if *is_hidden { None } else { shown.next() })
+        .collect();
+    // By region, the place of what it lies on. Containers come before what they contain.
+    let mut around: Vec<Option<usize>> = Vec::with_capacity(regions.len());
+    for (index, (region, _)) in regions.iter_mut().enumerate() {
+        let outer = region
+            .container
+            .map(usize::from)
+            .filter(|outer| *outer < index);
+        let container = outer.and_then(|outer| places[outer].or(around[outer]));
+        around.push(container);
+        let is_shown = places[index].is_some();
+        region.container = container.filter(|_| is_shown).map(RegionId::from);
+    }
+    regions.sort_by_key(|(_, drawn)| !drawn.is_hidden);
+    regions
+}
+
+/// What strings say of a region besides its name.
+pub(super) fn say(settings: &[Setting], drawn: &mut Drawn) {
+    let mut found = settings
+        .iter()
+        .map(|setting| (setting.keyword, &setting.value));
+    drawn.depth = found.clone().find_map(|said| match said {
+        (Keyword::Depth, Value::Number(depth)) => Some(*depth),
+        _ => None,
+    });
+    drawn.is_hidden = found.any(|(keyword, _)| keyword == Keyword::Hidden);
 }
 
 /// The region that a shape is; a stroke without a fill is one, too.
@@ -202,11 +236,6 @@ fn of_shape(
     }
     let settings = part.and_then(|part| bindings.parts[part].string);
     let settings = settings.map_or(&[][..], |string| &bindings.strings[string].settings);
-    let find = |keyword| settings.iter().find(|setting| setting.keyword == keyword);
-    let depth = find(Keyword::Depth).and_then(|setting| match setting.value {
-        Value::Number(depth) => Some(depth),
-        _ => None,
-    });
     let color = part.map(|part| bindings.material_factors(drawing, part).color);
     let region = Region {
         name,
@@ -215,9 +244,10 @@ fn of_shape(
         container: None,
         is_line: !is_filled,
     };
-    let drawn = Drawn {
+    let mut drawn = Drawn {
         shape: index,
         part,
+        string: None,
         line,
         open_line: shape
             .stroke
@@ -229,10 +259,11 @@ fn of_shape(
                     points: stroke.open_line(LINE_TOLERANCE * stroke.width())?,
                 })
             }),
-        depth,
+        depth: None,
         label: shape.element.label.clone(),
-        is_hidden: find(Keyword::Hidden).is_some(),
+        is_hidden: false,
     };
+    say(settings, &mut drawn);
     Some((region, drawn))
 }
 
@@ -291,6 +322,7 @@ fn of_picture(
     let drawn = |line| Drawn {
         shape: index,
         part: None,
+        string: None,
         line,
         open_line: None,
         depth: None,

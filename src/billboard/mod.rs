@@ -12,6 +12,7 @@ mod drawn;
 mod features;
 mod keys;
 mod matching;
+mod names;
 mod nodes;
 mod paints;
 mod pieces;

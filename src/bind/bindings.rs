@@ -142,6 +142,8 @@ pub struct DrawingString {
     pub annotation: Annotation,
     /// The values of its attributes.
     pub settings: Vec<Setting>,
+    /// Whether it is about a region of a picture in a view, which is no part.
+    pub is_of_picture: bool,
     /// The part that it is bound to.
     pub binding: Option<Binding>,
     /// Another part that is almost as near.

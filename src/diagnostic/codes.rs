@@ -429,7 +429,7 @@ codes! {
     /// ```
     ///
     /// Move it to the string that turns a layer or a group into a map: `Village$Tiles 16 Roof 0.5`; or into a layer with a string like
-    /// `Boy$View 0 0`.
+    /// `Boy$View 0 0`. The string of a region in a picture may say `Depth` and `Hidden`; how it looks is up to the picture.
     NoTileLayer = "W314", "attribute of a layer elsewhere";
     /// The rules of terrain allow more than one reading of this tile map, or none. It is built all the same: a group
     /// without a height lies on the ground, a group with fewer brown tiles than it is high hangs in the air, brown

@@ -196,6 +196,7 @@ impl Analysis {
                 None => self
                     .landscape_card(string)
                     .or_else(|| self.view_card(string))
+                    .or_else(|| self.named_region_card(string))
                     .or_else(|| Some("This string is not bound to a part.".to_owned())),
             },
             Annotation::Empty

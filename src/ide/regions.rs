@@ -119,30 +119,60 @@ impl Analysis {
         found
     }
 
+    /// The region of a picture that a string names.
+    fn region_of_string(&self, string: StringId) -> Option<Region<'_>> {
+        self.compiled.characters.iter().find_map(|character| {
+            let tracks = character.regions.iter().zip(&character.matching.tracks);
+            let mut named = tracks.filter_map(|(model, track)| {
+                let view = model.strings.position(|own| *own == Some(string))?;
+                let id = track.regions[view]?;
+                let at = RegionInView { view, id };
+                Some(Region { character, at })
+            });
+            named.next()
+        })
+    }
+
+    /// Describes the region of a picture that a string names. `None` for other strings.
+    pub(super) fn named_region_card(&self, string: StringId) -> Option<String> {
+        let region = self.region_of_string(string)?;
+        let (what, name) = (
+            self.describe_region(region),
+            escaped(&region.character.name),
+        );
+        let head = format!("{what} of {name}, seen from {}", region.angles());
+        Some(format!("{head}\n\n{}", self.partners_card(region)))
+    }
+
     /// The partners of a region that is a shape, with how well they fit, or why it has none.
     pub(super) fn region_card(&self, shape: ShapeId) -> Option<String> {
         let regions = self.regions_of_shape(shape);
         let [region] = regions.as_slice() else {
             return None;
         };
+        Some(self.partners_card(*region))
+    }
+
+    /// The partners of a region, with how well they fit, or why it has none.
+    fn partners_card(&self, region: Region<'_>) -> String {
         if let Some(unmatched) = region.unmatched() {
-            return Some(self.alone_card(*region, unmatched));
+            return self.alone_card(region, unmatched);
         }
         let mut out = "The same in other views:\n\n".to_owned();
         for partner in region.partners() {
-            let (angles, what) = (partner.angles(), self.partner(*region, partner));
+            let (angles, what) = (partner.angles(), self.partner(region, partner));
             let _ = writeln!(out, "- in {angles}: {what}");
         }
         out.push_str(&region.paints_card());
         let _ = write!(out, "\n{SCORES}");
-        Some(out)
+        out
     }
 
     /// Why a region has no partner, and what fits it best.
     fn alone_card(&self, region: Region<'_>, unmatched: &Unmatched) -> String {
         let name = escaped(&region.character.name);
         let mut out = format!(
-            "No other view of {name} has a partner for it: it shrinks to nothing on the way there."
+            "No other view of {name} has a partner for it: it shrinks to nothing within 15° of this one."
         );
         if unmatched.candidates.is_empty() {
             return out;
@@ -170,6 +200,7 @@ impl Analysis {
             Reason::Color => "its colour differs too much".to_owned(),
             Reason::Names => "it has another name".to_owned(),
             Reason::Line => "only one of the two is a line".to_owned(),
+            Reason::OtherRegion => "it is a line of another region".to_owned(),
             Reason::Cost => "it is too far away, or too different in size".to_owned(),
             Reason::Taken(at) => {
                 let by = self.describe_region(Region { at, ..region });
@@ -326,6 +357,10 @@ impl Analysis {
 
     /// The span that names a region, or the tag of its shape.
     fn span_of_region(&self, region: Region<'_>) -> Option<Span> {
+        let model = region.track().map(|track| &region.character.regions[track]);
+        if let Some(string) = model.and_then(|model| model.strings[region.at.view]) {
+            return Some(self.span_of_string(string));
+        }
         Some(span_of_shape(&self.compiled, region.shape()?))
     }
 
@@ -334,7 +369,14 @@ impl Analysis {
     pub(super) fn in_other_views(&self, string: StringId) -> Option<Vec<Target>> {
         let spans = match self.part_of_string(string) {
             Some(part) => self.partners_of_shape(self.bindings().parts[part].shape),
-            None => self.other_views(string),
+            None => match self.region_of_string(string) {
+                Some(region) => {
+                    let partners = region.partners();
+                    let spans = partners.filter_map(|partner| self.span_of_region(partner));
+                    spans.collect()
+                }
+                None => self.other_views(string),
+            },
         };
         (!spans.is_empty()).then(|| spans.into_iter().map(Target::Here).collect())
     }

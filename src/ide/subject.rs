@@ -117,6 +117,10 @@ impl<'a> Subject<'a> {
                 let mut views = compiled.characters[index].layers.iter();
                 views.any(|view| compiled.bindings.layers[*view].string == string)
             }
+            Which::Region(character, region) => {
+                let region = &compiled.characters[character].regions[region];
+                region.strings.contains(&Some(string))
+            }
             _ => subject.string_id() == Some(string),
         })
     }

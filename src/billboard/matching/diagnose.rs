@@ -4,8 +4,8 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::cost::Turn;
 use super::{
-    Candidate, Comparison, FeaturesOfViews, Matching, Names, Pair, Reason, RegionId, RegionInView,
-    TrackId, Unmatched, ViewId, Warning, compare, nearest,
+    Candidate, Comparison, FeaturesOfViews, Known, Matching, Names, Pair, Reason, RegionId,
+    RegionInView, TrackId, Unmatched, ViewId, Warning, compare, nearest,
 };
 use crate::billboard::place::{angle, nearest_to_rays};
 use crate::billboard::region::View;
@@ -70,11 +70,8 @@ pub(super) fn step(
 }
 
 /// Lists the regions that are alone, with those that fit them best.
-pub(super) fn unmatched(
-    views: &TiSlice<ViewId, View>,
-    all: &FeaturesOfViews,
-    matching: &mut Matching,
-) {
+pub(super) fn unmatched(known: Known<'_>, matching: &mut Matching) {
+    let Known { views, all, owners } = known;
     let mut partners: TiVec<ViewId, TiVec<RegionId, Option<TrackId>>> = all
         .iter()
         .map(|regions| vec![None; regions.len()].into())
@@ -109,7 +106,11 @@ pub(super) fn unmatched(
         let turn = Turn::new(views[from].direction, views[to].direction);
         let candidate = |id: RegionId| {
             let other = RegionInView { view, id };
-            let compared = compare(views, all, &turn, ordered(other));
+            let of = [region, other].map(|at| {
+                let owner = owners[at.view][at.id];
+                owner.map(|owner| partners[at.view][owner])
+            });
+            let compared = compare(known, &turn, ordered(other), of[0] == of[1]);
             let track = partners[view][id].map(|t| &matching.tracks[t]);
             let taken = track.and_then(|t| t.regions[region.view]);
             Candidate {
@@ -133,8 +134,9 @@ pub(super) fn unmatched(
 fn reason(compared: &Comparison, taken: Option<RegionInView>) -> Reason {
     match (compared.names, compared.gain(), taken) {
         (Names::Different, ..) => Reason::Names,
-        (Names::Nothing, None, _) if compared.colors_fit => Reason::Line,
-        (Names::Nothing, None, _) => Reason::Color,
+        (Names::Nothing, None, _) if !compared.colors_fit => Reason::Color,
+        (Names::Nothing, None, _) if !compared.kinds_fit => Reason::Line,
+        (Names::Nothing, None, _) => Reason::OtherRegion,
         (_, Some(gain), Some(by)) if gain > 0.0 => Reason::Taken(by),
         _ => Reason::Cost,
     }

@@ -21,6 +21,21 @@ impl Gains {
         self.values[row * self.columns + column]
     }
 
+    /// These gains without the rows that have partners already, and those.
+    pub(super) fn without(&self, partners: &[Option<usize>]) -> Self {
+        let mut rest = self.clone();
+        for (row, partner) in partners.iter().enumerate() {
+            let Some(taken) = partner else { continue };
+            for column in 0..self.columns {
+                rest.values[row * self.columns + column] = None;
+            }
+            for other in 0..self.rows {
+                rest.values[other * self.columns + taken] = None;
+            }
+        }
+        rest
+    }
+
     /// The gain of a pair of this cost.
     pub(super) fn of(cost: f64) -> f64 {
         2.0 * UNMATCHED - cost

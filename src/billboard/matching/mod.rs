@@ -9,6 +9,7 @@ mod cost;
 mod diagnose;
 mod exchange;
 mod gains;
+mod strokes;
 #[cfg(test)]
 mod tests;
 
@@ -101,6 +102,8 @@ pub enum Reason {
     Color,
     /// Only one of them is a line.
     Line,
+    /// Both are lines, of regions that are not the same.
+    OtherRegion,
     /// They have different names.
     Names,
     /// They are less alike than two regions may be.
@@ -134,7 +137,7 @@ pub enum Warning {
 ///
 /// `frames` are those of the views, in the same order. Views are added one by one, the nearest first, and each is matched with
 /// what is known already, seen from the nearest view that shows it. Regions with the same name are a pair, whatever they look
-/// like, and regions with different names are none.
+/// like, and regions with different names are none. A stroke pairs with one of the partner of its region.
 pub(super) fn match_regions(
     views: &TiSlice<ViewId, View>,
     frames: &TiSlice<ViewId, Frame>,
@@ -143,12 +146,18 @@ pub(super) fn match_regions(
     let all: TiVec<ViewId, TiVec<RegionId, Features>> =
         all.map(|(view, frame)| features(view, frame)).collect();
     let views = &views[..all.next_key()];
+    let owners: TiVec<ViewId, _> = views.iter().map(strokes::owners).collect();
     let mut matching = Matching::default();
     let mut added: Vec<ViewId> = Vec::new();
     while let Some((next, nearest)) = next_view(views, &added) {
         let tracks = matching.tracks.len();
         if let Some(nearest) = nearest {
-            Step::new(views, &all, next, &added, &matching.tracks).run(&mut matching);
+            let known = Known {
+                views,
+                all: &all,
+                owners: &owners,
+            };
+            Step::new(known, next, &added, &matching.tracks).run(&mut matching);
             diagnose::step(views, &all, [nearest, next], &mut matching);
         }
         let known = matching.tracks.iter().take(tracks);
@@ -163,7 +172,12 @@ pub(super) fn match_regions(
         }
         added.push(next);
     }
-    diagnose::unmatched(views, &all, &mut matching);
+    let known = Known {
+        views,
+        all: &all,
+        owners: &owners,
+    };
+    diagnose::unmatched(known, &mut matching);
     matching
 }
 
@@ -191,19 +205,39 @@ fn nearest(views: &TiSlice<ViewId, View>, view: ViewId, of: &[ViewId]) -> Option
 /// What is compared of the regions of each view.
 type FeaturesOfViews = TiSlice<ViewId, TiVec<RegionId, Features>>;
 
-/// One view that is matched with what is known already.
-struct Step<'a> {
+/// All views, and what is known of their regions.
+#[derive(Clone, Copy)]
+struct Known<'a> {
     views: &'a TiSlice<ViewId, View>,
     all: &'a FeaturesOfViews,
+    /// Per stroke the region that it belongs to.
+    owners: &'a TiSlice<ViewId, TiVec<RegionId, Option<RegionId>>>,
+}
+
+/// Which strokes can be pairs.
+#[derive(Clone, Copy)]
+enum Strokes<'a> {
+    /// All.
+    Any,
+    /// Those that belong to no region.
+    Free,
+    /// Those of regions that are pairs, too: per row the column that is its partner.
+    Of(&'a [Option<usize>]),
+}
+
+/// One view that is matched with what is known already.
+struct Step<'a> {
+    known: Known<'a>,
     view: ViewId,
     /// The track and the region that stands for it.
     rows: Vec<(TrackId, RegionInView)>,
+    /// Per row of a stroke, the row of the region to which it belongs.
+    rows_of_owners: Vec<Option<usize>>,
 }
 
 impl<'a> Step<'a> {
     fn new(
-        views: &'a TiSlice<ViewId, View>,
-        all: &'a FeaturesOfViews,
+        known: Known<'a>,
         view: ViewId,
         added: &[ViewId],
         tracks: &TiSlice<TrackId, Track>,
@@ -211,7 +245,7 @@ impl<'a> Step<'a> {
         let row = |(i, track): (TrackId, &Track)| {
             let seen = added.iter().copied();
             let seen: Vec<_> = seen.filter(|v| track.regions[*v].is_some()).collect();
-            let from = nearest(views, view, &seen)?;
+            let from = nearest(known.views, view, &seen)?;
             let region = track.regions[from]?;
             Some((
                 i,
@@ -221,19 +255,26 @@ impl<'a> Step<'a> {
                 },
             ))
         };
+        let rows: Vec<(TrackId, RegionInView)> = tracks.iter_enumerated().filter_map(row).collect();
+        let row_of_owner = |(_, at): &(TrackId, RegionInView)| {
+            let owner = known.owners[at.view][at.id]?;
+            let track = tracks.position(|track| track.regions[at.view] == Some(owner))?;
+            rows.iter().position(|(other, _)| *other == track)
+        };
         Self {
-            views,
-            all,
+            rows_of_owners: rows.iter().map(row_of_owner).collect(),
+            known,
             view,
-            rows: tracks.iter_enumerated().filter_map(row).collect(),
+            rows,
         }
     }
 
     fn run(&self, matching: &mut Matching) {
-        let known = &self.all[self.view];
-        let turn = |v: &View| Turn::new(v.direction, self.views[self.view].direction);
-        let mut turns: TiVec<ViewId, _> = self.views.iter().map(turn).collect();
-        let rough = self.gains(&self.compared(&turns)).assign();
+        let Known { views, all, .. } = self.known;
+        let known = &all[self.view];
+        let turn = |v: &View| Turn::new(v.direction, views[self.view].direction);
+        let mut turns: TiVec<ViewId, _> = views.iter().map(turn).collect();
+        let rough = self.gains(&self.compared(&turns, Strokes::Any)).assign();
         for (view, turn) in turns.iter_mut_enumerated() {
             let of_view = |(row, _): &(&(TrackId, RegionInView), _)| row.1.view == view;
             let pairs = self.rows.iter().zip(&rough).filter(of_view);
@@ -241,18 +282,31 @@ impl<'a> Step<'a> {
                 .filter_map(|(row, p)| Some((self.features(row), &known[RegionId::from((*p)?)])));
             turn.shift_by(&pairs.collect::<Vec<_>>());
         }
-        let compared = self.compared(&turns);
-        let gains = self.gains(&compared);
-        let mut partners = gains.assign();
         let at = |row: &(TrackId, RegionInView)| {
             (row.1.view, turns[row.1.view].predicted(self.features(row)))
         };
-        let sides = Sides {
-            gains: &gains,
-            rows: &self.rows.iter().map(at).collect::<Vec<_>>(),
-            columns: &known.iter().map(|f| f.at).collect::<Vec<DVec2>>(),
+        let rows: Vec<_> = self.rows.iter().map(at).collect();
+        let columns: Vec<DVec2> = known.iter().map(|f| f.at).collect();
+        let paired = |compared: &[Comparison], fixed: &[Option<usize>]| {
+            let gains = self.gains(compared);
+            let mut partners = gains.without(fixed).assign();
+            for (partner, fixed) in partners.iter_mut().zip(fixed) {
+                *partner = partner.or(*fixed);
+            }
+            let sides = Sides {
+                gains: &gains,
+                rows: &rows,
+                columns: &columns,
+            };
+            exchange(&sides, &mut partners);
+            partners
         };
-        exchange(&sides, &mut partners);
+        let mut compared = self.compared(&turns, Strokes::Free);
+        let mut partners = paired(&compared, &[]);
+        if self.known.owners.iter().flatten().any(Option::is_some) {
+            compared = self.compared(&turns, Strokes::Of(&partners));
+            partners = paired(&compared, &partners);
+        }
         for (row, partner) in partners.into_iter().enumerate() {
             let (Some(column), (track, first)) = (partner, self.rows[row]) else {
                 continue;
@@ -274,28 +328,41 @@ impl<'a> Step<'a> {
     }
 
     fn features(&self, row: &(TrackId, RegionInView)) -> &Features {
-        &self.all[row.1.view][row.1.id]
+        &self.known.all[row.1.view][row.1.id]
     }
 
     /// All rows with all regions of the view, row by row.
-    fn compared(&self, turns: &TiSlice<ViewId, Turn>) -> Vec<Comparison> {
-        let row = |(_, first): &(TrackId, RegionInView)| {
-            let (first, turn) = (*first, &turns[first.view]);
-            self.all[self.view].keys().map(move |id| {
+    fn compared(&self, turns: &TiSlice<ViewId, Turn>, strokes: Strokes<'_>) -> Vec<Comparison> {
+        let row = |((_, first), row_of_owner): (&(TrackId, RegionInView), &Option<usize>)| {
+            let (first, turn, row_of_owner) = (*first, &turns[first.view], *row_of_owner);
+            self.known.all[self.view].keys().map(move |id| {
                 let second = RegionInView {
                     view: self.view,
                     id,
                 };
-                compare(self.views, self.all, turn, [first, second])
+                let owners = [first, second].map(|at| self.known.owners[at.view][at.id]);
+                let owners_fit = match (strokes, owners) {
+                    (Strokes::Any, _) | (_, [None, None]) => true,
+                    (Strokes::Of(partners), [Some(_), Some(owner)]) => {
+                        let partner = row_of_owner.and_then(|row| partners[row]);
+                        partner.map(RegionId::from) == Some(owner)
+                    }
+                    _ => false,
+                };
+                compare(self.known, turn, [first, second], owners_fit)
             })
         };
-        self.rows.iter().flat_map(row).collect()
+        self.rows
+            .iter()
+            .zip(&self.rows_of_owners)
+            .flat_map(row)
+            .collect()
     }
 
     fn gains(&self, compared: &[Comparison]) -> Gains {
         Gains {
             rows: self.rows.len(),
-            columns: self.all[self.view].len(),
+            columns: self.known.all[self.view].len(),
             values: compared.iter().map(Comparison::gain).collect(),
         }
     }
@@ -310,6 +377,8 @@ struct Comparison {
     colors_fit: bool,
     /// Whether both are lines, or neither is.
     kinds_fit: bool,
+    /// Whether the regions are the same to which they belong, if they are lines.
+    owners_fit: bool,
 }
 
 /// What the names of two regions say.
@@ -326,19 +395,17 @@ impl Comparison {
         match self.names {
             Names::Same => Some(Gains::of_named(self.cost)),
             Names::Different => None,
-            Names::Nothing => (self.colors_fit && self.kinds_fit).then(|| Gains::of(self.cost)),
+            Names::Nothing => {
+                let fit = self.colors_fit && self.kinds_fit && self.owners_fit;
+                fit.then(|| Gains::of(self.cost))
+            }
         }
     }
 }
 
-fn compare(
-    views: &TiSlice<ViewId, View>,
-    all: &FeaturesOfViews,
-    turn: &Turn,
-    pair: [RegionInView; 2],
-) -> Comparison {
-    let [a, b] = pair.map(|r| &all[r.view][r.id]);
-    let [name_a, name_b] = pair.map(|r| &views[r.view].regions[r.id].name);
+fn compare(known: Known<'_>, turn: &Turn, pair: [RegionInView; 2], owners_fit: bool) -> Comparison {
+    let [a, b] = pair.map(|r| &known.all[r.view][r.id]);
+    let [name_a, name_b] = pair.map(|r| &known.views[r.view].regions[r.id].name);
     Comparison {
         cost: turn.cost(a, b),
         names: match (name_a, name_b) {
@@ -348,5 +415,6 @@ fn compare(
         },
         colors_fit: may_match(a, b),
         kinds_fit: a.is_line == b.is_line,
+        owners_fit,
     }
 }

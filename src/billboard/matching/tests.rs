@@ -10,7 +10,7 @@ use super::*;
 use crate::billboard::place::frames;
 use crate::billboard::region::{Direction, Region};
 use crate::billboard::tests::generated::{Drawn, character, directions};
-use crate::geometry::{Outline, Polygon};
+use crate::geometry::{FillRule, Outline, Polygon, bounds, resolve_overlaps};
 
 const FIRST: ViewId = ViewId::FIRST;
 /// The view after the first.
@@ -417,4 +417,73 @@ proptest! {
             prop_assert!(pair.cost.is_finite() && (0.0..=1.0).contains(&pair.similarity));
         }
     }
+}
+
+/// A line along the border of a region: what lies between it and its copies that are a little larger and smaller.
+fn stroke(region: &Region) -> Region {
+    let (low, high) = bounds(&region.outline).expect("an area");
+    let middle = (low + high) / 2.0;
+    let scaled = |by: f64| {
+        let point = |p: &DVec2| middle + (*p - middle) * by;
+        region
+            .outline
+            .rings()
+            .next()
+            .map(|ring| ring.iter().map(point).collect())
+    };
+    let rings = [1.03, 0.97].into_iter().filter_map(scaled).collect();
+    Region {
+        outline: resolve_overlaps(rings, FillRule::EvenOdd).into(),
+        color: [0.1, 0.1, 0.1, 1.0],
+        container: None,
+        is_line: true,
+        name: None,
+    }
+}
+
+#[test]
+fn strokes_pair_with_those_of_their_regions_partners() {
+    let (mut paired, mut of) = (0, 0);
+    for seed in 0..60 {
+        let mut drawn = drawn(seed);
+        // Some regions have a line in one view, and some in both.
+        let mut owners: [Vec<(RegionId, RegionId)>; 2] = Default::default();
+        for (side, one) in drawn.iter_mut().enumerate() {
+            for region in one.view.regions.keys().collect::<Vec<_>>() {
+                if (usize::from(region) + seed as usize) % 4 != side {
+                    let line = stroke(&one.view.regions[region]);
+                    owners[side].push((one.view.regions.next_key(), region));
+                    one.view.regions.push(line);
+                }
+            }
+        }
+        let views = views(&drawn);
+        let matching = match_regions(&views, &frames(&views));
+        let partners = partners(&matching, views[FIRST].regions.len());
+        let owner = |side: usize, line: RegionId| {
+            let own = owners[side].iter().find(|(own, _)| *own == line);
+            own.map(|(_, region)| *region)
+        };
+        let found = [FIRST, SECOND].map(|view| strokes::owners(&views[view]));
+        for (line, region) in &owners[0] {
+            // Lines of parts that cover each other may be nearer to another one.
+            if found[0][*line] != Some(*region) {
+                continue;
+            }
+            let Some(partner) = partners[*region] else {
+                assert_eq!(partners[*line], None, "seed {seed}");
+                continue;
+            };
+            if let Some(other) = partners[*line] {
+                assert_eq!(found[1][other], Some(partner), "seed {seed}");
+            }
+            let has_line = owners[1].iter().any(|(_, region)| *region == partner);
+            if has_line {
+                of += 1;
+                let own = partners[*line].and_then(|other| owner(1, other));
+                paired += usize::from(own == Some(partner));
+            }
+        }
+    }
+    assert!(of > 500 && paired * 10 > of * 9, "{paired} of {of}");
 }

@@ -3,5 +3,8 @@
 
 mod between;
 mod labels;
+mod manual;
+mod named;
+mod painted;
 mod pairs;
 mod traced;

@@ -205,6 +205,7 @@ impl<'a> Binder<'a> {
         let mut waiting: Vec<(Scope, StringId)> = self
             .strings
             .keys()
+            .filter(|string| !self.strings[*string].is_of_picture)
             .filter(|string| self.waiting_label(*string).is_some())
             .map(|string| (self.bound[string].scope, string))
             .collect();

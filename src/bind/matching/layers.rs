@@ -235,6 +235,12 @@ impl Layers {
         is_picture && self.of_group(shape.group).is_some()
     }
 
+    /// The view whose picture a shape is; `None` if it is none.
+    pub(super) fn view_of_picture(&self, drawing: &Drawing, shape: ShapeId) -> Option<LayerId> {
+        let view = self.of_group_and_kind(drawing.shapes[shape].group, LayerKind::View);
+        view.filter(|_| self.hold_picture(drawing, shape))
+    }
+
     /// Whether a string excludes a picture from its tile layer. It cannot be bound, because such pictures are no parts.
     pub(in crate::bind) fn leave_picture_out(
         &self,

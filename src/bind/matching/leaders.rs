@@ -7,6 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::TiSlice;
 
 use super::fills::Fills;
+use super::layers::Layers;
 use super::node_groups::NodeGroups;
 use super::stacking::ground_count;
 use super::strings::ReadString;
@@ -48,6 +49,7 @@ impl Leaders {
         drawing: &Drawing,
         strings: &TiSlice<StringId, ReadString>,
         node_groups: &NodeGroups,
+        layers: &Layers,
     ) -> Self {
         let has_line = |shape: &Shape| shape.line.is_some();
         let mut leaders = Self::default();
@@ -55,10 +57,17 @@ impl Leaders {
             return leaders;
         }
         let strings = Labels::new(drawing, strings);
-        // The ground lies under everything.
+        // The ground lies under everything. What is drawn in a picture of a view is not known yet: lines lead over it.
+        let is_picture = |shape: &ShapeId| layers.view_of_picture(drawing, *shape).is_some();
         let fills = LazyCell::new(|| {
             let outlines = drawing.shapes.iter().map(|shape| &*shape.outline);
-            Fills::in_front(drawing, ground_count(outlines, drawing.page))
+            let ground = ground_count(outlines, drawing.page);
+            let shapes = drawing.shapes.keys().skip(ground);
+            Fills::of(drawing, shapes.filter(|shape| !is_picture(shape)))
+        });
+        let pictures = LazyCell::new(|| {
+            let shapes = drawing.shapes.keys();
+            Fills::of(drawing, shapes.filter(is_picture))
         });
         let mut bound = FxHashSet::default();
         for (index, shape) in drawing.shapes.iter_enumerated() {
@@ -90,7 +99,7 @@ impl Leaders {
             let is_leader = is_thin(shape, em)
                 && leads(shape, em, &fills)
                 // A guide that only begins beside a string leads nowhere.
-                && fills.is_near(to, REACH * em)
+                && (fills.is_near(to, REACH * em) || pictures.is_near(to, REACH * em))
                 && !in_one_unit(drawing, &fills, node_groups, [from, to]);
             if is_leader {
                 leaders.shapes.push(index);

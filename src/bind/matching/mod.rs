@@ -17,6 +17,7 @@ mod meant;
 mod nearest;
 mod node_groups;
 mod parts;
+mod pictures;
 mod said;
 mod settings;
 mod stacking;
@@ -90,11 +91,12 @@ pub(in crate::bind) fn find(
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Matched {
-    let read = strings::read(drawing, texts, diagnostics);
+    let mut read = strings::read(drawing, texts, diagnostics);
     let settings = read.settings;
     let layers = layers::find(drawing, &read.all, diagnostics);
     let mut node_groups = NodeGroups::read(drawing, &read.all, &layers);
-    let leaders = Leaders::find(drawing, &read.all, &node_groups);
+    let leaders = Leaders::find(drawing, &read.all, &node_groups, &layers);
+    pictures::mark(drawing, &mut read.all, &layers, &leaders);
     node_groups.find_sources(
         drawing,
         &read.all,
@@ -159,6 +161,7 @@ fn joined(read: strings::ReadString, bound: Bound) -> DrawingString {
         text,
         annotation,
         settings,
+        is_of_picture,
     } = read;
     let Bound {
         binding,
@@ -170,6 +173,8 @@ fn joined(read: strings::ReadString, bound: Bound) -> DrawingString {
         text,
         annotation,
         settings,
+        // Some are grouped with a shape.
+        is_of_picture: is_of_picture && binding.is_none(),
         binding,
         runner_up,
         scope,

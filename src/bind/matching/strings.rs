@@ -50,6 +50,8 @@ pub(super) struct ReadString {
     pub(super) text: Arc<Text>,
     pub(super) annotation: Annotation,
     pub(super) settings: Vec<Setting>,
+    /// Whether it is about what a picture in a view shows, unless it is grouped with a shape.
+    pub(super) is_of_picture: bool,
 }
 
 impl ReadString {
@@ -180,6 +182,7 @@ pub(super) fn read(drawing: &Drawing, texts: Texts, diagnostics: &mut Vec<Diagno
                 text,
                 annotation,
                 settings,
+                is_of_picture: false,
             };
             (string, findings)
         })

@@ -16,7 +16,7 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
     let mut waiting = Vec::new();
     for string in &matched.strings {
         let unbound = wants_part(&string.annotation) && string.binding.is_none();
-        if !unbound || matched.layers.leave_picture_out(drawing, string) {
+        if !unbound || string.is_of_picture || matched.layers.leave_picture_out(drawing, string) {
             continue;
         }
         match string.holder {

@@ -4,9 +4,6 @@
 //! The drawings, the pictures and one half of the generated characters were looked at while the method was written. The other half
 //! was held back: it alone tells how well the method does on what it has not seen.
 
-#[path = "../../../../tests/common/rewrite.rs"]
-mod rewrite;
-
 use std::fmt::Write as _;
 use std::fs;
 use std::ops::Range;
@@ -16,6 +13,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use typed_index_collections::TiVec;
 
+use super::manual;
 use crate::billboard::character::Character;
 use crate::billboard::matching::by_similarity::most_similar;
 use crate::billboard::matching::{Track, match_regions};
@@ -29,9 +27,6 @@ use crate::scene::ViewId;
 
 /// The views of two pictures.
 const BOTH: [ViewId; 2] = [ViewId::FIRST, ViewId::SECOND];
-/// Around the table in the manual.
-const START: &str = "<!-- matched -->";
-const END: &str = "<!-- /matched -->";
 
 /// Points of two drawings that show the same thing.
 type Answers = &'static [[[f64; 2]; 2]];
@@ -385,17 +380,5 @@ fn the_manual_says_how_many_pairs_are_right() {
         rows.push(sum);
     }
 
-    let path = folder("docs/characters.md");
-    let page = fs::read_to_string(&path).expect("a page");
-    let (head, rest) = page.split_once(START).expect("a mark before the table");
-    let (old, tail) = rest.split_once(END).expect("a mark after the table");
-    let new = format!("\n{}", table(&rows));
-    if rewrite::rewrites("generated") {
-        fs::write(&path, format!("{head}{START}{new}{END}{tail}")).expect("rewritten");
-        return;
-    }
-    assert!(
-        old == new,
-        "docs/characters.md is out of date: run `OKOSHI_REWRITE=generated cargo test --lib measured`"
-    );
+    manual::keep("matched", &table(&rows));
 }
