@@ -47,7 +47,7 @@ const STARTERS: [Starter; 9] = [
     Starter {
         name: "dragon",
         nodes: 20,
-        clips: &[("fly", &["Near wing", "Far wing", "Tail", "Near hind leg"])],
+        clips: &[("fly", &["Near wing", "Far wing"])],
     },
     Starter {
         name: "robot",
