@@ -47,7 +47,7 @@ const STARTERS: [Starter; 9] = [
     Starter {
         name: "dragon",
         nodes: 20,
-        clips: &[("fly", &["Near wing", "Far wing", "Tail", "Near hind leg"])],
+        clips: &[("fly", &["Near wing", "Far wing"])],
     },
     Starter {
         name: "robot",
@@ -249,15 +249,27 @@ fn the_list_says_what_there_is() {
 }
 
 #[test]
-fn former_names_are_kept() {
+fn names_choose_a_template() {
     let room = Room::new();
     for (former, now) in [("human", "girl"), ("car", "racing-car")] {
         let drawings = [former, now].map(|name| run(&room, &["new", "-", "-t", name]).stdout);
         assert!(!drawings[0].is_empty());
         assert_eq!(drawings[0], drawings[1], "{former}");
     }
-    let default = run(&room, &["new", "-"]).stdout;
-    assert_eq!(default, run(&room, &["new", "-", "-t", "girl"]).stdout);
+    let written = |name: &str, more: &[&str]| {
+        ends(&room, &[&["new", "-q", name], more].concat(), 0, &[]);
+        let path = room.path(&format!("{name}.svg"));
+        let drawing = fs::read(&path).expect("written");
+        fs::remove_file(path).expect("removed");
+        drawing
+    };
+    let girl = written("a", &["-t", "girl"]);
+    assert_eq!(written("me", &[]), girl);
+    assert_eq!(run(&room, &["new", "-"]).stdout, girl);
+    // A drawing that is called like a template is that one, unless another is asked for.
+    assert_eq!(written("robot", &[]), written("b", &["-t", "robot"]));
+    assert_ne!(written("robot", &[]), girl);
+    assert_eq!(written("robot", &["-t", "girl"]), girl);
 }
 
 #[test]

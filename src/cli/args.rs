@@ -138,9 +138,9 @@ pub(super) struct New {
     /// The drawing's name; `.svg` is added if it is missing, `-` is stdout
     #[arg(value_name = "NAME", required_unless_present = "list")]
     pub(super) name: Option<PathBuf>,
-    /// The drawing to start from
-    #[arg(short, long, value_name = "TEMPLATE", default_value = "girl")]
-    pub(super) template: Template,
+    /// The drawing to start from [default: the template that is called NAME, or else girl]
+    #[arg(short, long, value_name = "TEMPLATE")]
+    pub(super) template: Option<Template>,
     /// List the templates; terminals that show pictures show them, too
     #[arg(short, long, conflicts_with_all = ["name", "template"])]
     pub(super) list: bool,
@@ -149,6 +149,7 @@ pub(super) struct New {
 const NEW_EXAMPLES: &str = "\
 Examples:
   okoshi new me                     writes me.svg, a girl who walks
+  okoshi new robot                  writes robot.svg, a robot, because there is a template of that name
   okoshi new rex --template dragon  writes rex.svg
   okoshi new --list                 lists the templates";
 

@@ -12,6 +12,12 @@ use super::{Failure, Outcome, print_out};
 use crate::disk::{WriteError, is_standard_stream, write_new};
 
 impl Template {
+    /// The template of a drawing that is called like one, and else the girl.
+    fn called(drawing: &Path) -> Self {
+        let stem = drawing.file_stem().unwrap_or_default().to_string_lossy();
+        Self::from_str(&stem, false).unwrap_or(Self::Girl)
+    }
+
     /// The drawing, as Inkscape saves it.
     fn drawing(self) -> &'static str {
         match self {
@@ -36,7 +42,8 @@ pub(super) fn run(arguments: &New, common: Common) -> Result<Outcome, Failure> {
     let Some(name) = &arguments.name else {
         return Ok(list());
     };
-    let drawing = arguments.template.drawing();
+    let template = arguments.template.unwrap_or_else(|| Template::called(name));
+    let drawing = template.drawing();
     if is_standard_stream(name) {
         return Ok(print_out(drawing));
     }
@@ -157,6 +164,23 @@ mod tests {
         }
         for given in ["", ".", "..", "/", "folder/", "a.svg/", "a.svgz"] {
             assert!(named(Path::new(given)).is_err(), "{given}");
+        }
+    }
+
+    #[test]
+    fn a_drawing_that_is_called_like_a_template_is_one() {
+        for (name, template) in [
+            ("robot", Template::Robot),
+            ("in/a/folder/dog.svg", Template::Dog),
+            ("racing-car.SVG", Template::RacingCar),
+            ("car", Template::RacingCar),
+            ("human", Template::Girl),
+            ("Robot", Template::Girl),
+            ("robot.v2.svg", Template::Girl),
+            ("-", Template::Girl),
+            ("", Template::Girl),
+        ] {
+            assert_eq!(Template::called(Path::new(name)), template, "{name}");
         }
     }
 

@@ -39,7 +39,7 @@ with tempfile.TemporaryDirectory() as room_name:
     room = Path(room_name)
     subprocess.run([okoshi, "render", "-q", here / "../../examples/robot-ja.svg", "-o", room / "robot.png", "--size", "1200x1200"], check=True)
     icon(Image.open(room / "robot.png").convert("RGBA")).save(here / "icon.png", optimize=True)
-    subprocess.run([okoshi, "new", "-q", "robot"], cwd=room, check=True)
+    subprocess.run([okoshi, "new", "-q", "robot", "--template", "girl"], cwd=room, check=True)
     subprocess.run([okoshi, "render", "-q", "robot.svg", "-o", "model.png", "--size", "800x800"], cwd=room, check=True)
     subprocess.run(
         ["inkscape", "robot.svg", "--export-type=png", "--export-height=1000", "--export-background=white", "--export-filename=drawing.png"],

@@ -290,8 +290,8 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.press("Control+k");
     await editor.press("v");
     await panel.shows();
-    await at("RightArm@Body", 2, read("robot.svg"));
-    await editor.until("the arm to be lit", async () => (await panel.says("lit")) === "RightArm");
+    await at("Rarm@Dress", 2, read("robot.svg"));
+    await editor.until("the arm to be lit", async () => (await panel.says("lit")) === "Rarm");
     await still();
     await shot("preview-manual");
     await editor.press("Control+1");

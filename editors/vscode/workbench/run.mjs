@@ -29,7 +29,7 @@ if (!existsSync(okoshi)) throw new Error(`There is no ${okoshi}: build it, or na
 for (const folder of [project, data, shots, join(room, "extensions")]) rmSync(folder, { recursive: true, force: true });
 for (const folder of [project, join(data, "User"), join(data, "Machine"), shots]) mkdirSync(folder, { recursive: true });
 for (const name of ["figure.svg", "hints.svg"]) copyFileSync(join(here, name), join(project, name));
-execFileSync(okoshi, ["new", "-q", "robot"], { cwd: project });
+execFileSync(okoshi, ["new", "-q", "robot", "--template", "girl"], { cwd: project });
 copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
 
 const SETTINGS = {
