@@ -63,9 +63,10 @@ fn list() -> Outcome {
     {
         text = protocol.show(SHEET);
     }
-    for template in Template::value_variants() {
-        let value = template.to_possible_value();
-        let value = value.expect("no template is skipped");
+    for value in Template::value_variants()
+        .iter()
+        .filter_map(Template::to_possible_value)
+    {
         let help = value.get_help().map(ToString::to_string);
         let help = help.unwrap_or_default();
         let _ = writeln!(text, "{:<12}{help}", value.get_name());
