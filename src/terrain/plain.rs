@@ -166,13 +166,13 @@ fn walls(map: &Map) -> [u8; 256] {
         brown.map(|material| material as u8)
     });
     let mut walls = [0; 256];
-    for ((own, tile), wall) in (0..).zip(&map.tiles).zip(&mut walls) {
+    for ((own, tile), wall) in map.tiles.iter().enumerate().zip(&mut walls) {
         let found = match tile {
             Tile::Green => earth,
             Tile::Red => beige,
             _ => None,
         };
-        *wall = found.unwrap_or(own);
+        *wall = found.unwrap_or(own as u8);
     }
     walls
 }
