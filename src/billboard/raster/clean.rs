@@ -45,6 +45,8 @@ const FLAT: f64 = 6.0;
 /// 40 %, with noise or as JPEG files up to 16 %.
 const SOFT: u8 = 4;
 const SHADED: f64 = 0.18;
+/// How far apart the clusters of two steps of one shade are at most, in the least distance of clusters.
+const STEP: f64 = 4.0;
 /// With fewer pixels along borders this is not known.
 const FEW_BORDERS: u64 = 1000;
 /// Clusters nearer than this, or than 1.5 times the noise, are one, in steps of 1/255.
@@ -375,7 +377,12 @@ fn snap(
     let is_shaded = all >= FEW_BORDERS && soft as f64 > SHADED * all as f64;
     let mut parents: Vec<u32> = (0..found.len() as u32).collect();
     for ([a, b], [all, soft]) in borders {
-        if 2 * soft > all {
+        let both = [a, b].map(|id| &found[id as usize]);
+        let [first, second] = both.map(|one| colors.get(usize::from(one.class)));
+        let are_near = first.zip(second).is_some_and(|(first, second)| {
+            f64::from(distance_squared(*first, *second)) < (STEP * same).powi(2)
+        });
+        if 2 * soft > all && are_near && both.iter().all(|one| one.area >= least) {
             join(&mut parents, a, b);
         }
     }
