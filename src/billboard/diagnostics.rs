@@ -4,6 +4,7 @@ use typed_index_collections::TiSlice;
 
 use super::drawn::{DrawnView, MOST_REGIONS};
 use super::matching::{Candidate, Matching, Reason, RegionInView, Unmatched, Warning};
+use super::raster::Shades;
 use crate::bind::{Bindings, DrawingString, LayerId, StringId};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::bounds;
@@ -44,13 +45,26 @@ pub(super) fn too_many(bindings: &Bindings, layer: LayerId, count: usize) -> Dia
         .help("draw the character with fewer shapes, or join those of one colour (in Inkscape, Path → Union)")
 }
 
-/// A picture with soft shades, which became so many regions.
-pub(super) fn shaded(drawing: &Drawing, picture: ShapeId, regions: usize) -> Diagnostic {
+/// A picture with soft shades, which became so many regions; `None` for one without.
+pub(super) fn shaded(
+    drawing: &Drawing,
+    picture: ShapeId,
+    shades: Shades,
+    regions: usize,
+) -> Option<Diagnostic> {
     let what = drawing.describe(picture);
-    let message =
-        format!("{what} has soft shades, and each step of them became a region: {regions} in all");
-    Diagnostic::new(Code::SoftShades, drawing.shapes[picture].element.span, message)
-        .help("paint each area in one colour (in Krita or GIMP: Posterize), or trace the picture with few colours (in Inkscape: Path → Trace Bitmap) and write the names beside the shapes")
+    let message = match shades {
+        Shades::None => return None,
+        Shades::Flattened => format!(
+            "{what} has soft shades; each of its {regions} regions has one colour in the model"
+        ),
+        Shades::Steps => format!(
+            "{what} has soft shades, and each step of them became a region: {regions} in all"
+        ),
+    };
+    let span = drawing.shapes[picture].element.span;
+    let finding = Diagnostic::new(Code::SoftShades, span, message);
+    Some(finding.help("paint each area in one colour (in Krita or GIMP: Posterize), or trace the picture with few colours (in Inkscape: Path → Trace Bitmap) and write the names beside the shapes"))
 }
 
 /// The strings of a view's pictures for which no region is left.

@@ -13,7 +13,7 @@ use super::features::{self, FeaturePoint};
 use super::keys;
 use super::matching::RegionInView;
 use super::names;
-use super::raster::{self, RasterView};
+use super::raster::{self, RasterView, Shades};
 use super::region::{Direction, Region, RegionId, View};
 use crate::bind::{Bindings, LayerId, PartId, PartKind, StringId};
 use crate::diagnostic::{Code, Diagnostic};
@@ -43,7 +43,7 @@ pub(super) struct DrawnView {
     pub(super) drawn: TiVec<RegionId, Drawn>,
     /// Its feature points.
     pub(super) features: Vec<FeaturePoint>,
-    /// Whether a picture in it has soft shades, so that most of its regions are only steps of them.
+    /// Whether most of the regions of a picture in it are only steps of soft shades.
     pub(super) is_shaded: bool,
 }
 
@@ -126,10 +126,9 @@ pub(super) fn read(
         if shape.picture.is_some() {
             match of_picture(drawing, index, regions.len(), memo) {
                 Ok(found) => {
-                    if found.is_shaded {
-                        diagnostics.push(shaded(drawing, index, found.regions.len()));
-                        is_shaded = true;
-                    }
+                    let count = found.regions.len();
+                    diagnostics.extend(shaded(drawing, index, found.shades, count));
+                    is_shaded |= found.shades == Shades::Steps;
                     regions.extend(found.regions);
                 }
                 Err((code, message)) => {
@@ -281,8 +280,8 @@ pub(super) fn segmented(pixels: Result<DynamicImage, (Code, String)>) -> Segment
 #[derive(Default)]
 struct OfPicture {
     regions: Vec<(Region, Drawn)>,
-    /// Whether it has soft shades.
-    is_shaded: bool,
+    /// What became of soft shades.
+    shades: Shades,
 }
 
 /// The regions of a picture. The first one will have this number among those of its view.
@@ -333,7 +332,7 @@ fn of_picture(
     let regions = regions.map(|(region, line)| (region, drawn(line)));
     Ok(OfPicture {
         regions: regions.collect(),
-        is_shaded: found.is_shaded,
+        shades: found.shades,
     })
 }
 

@@ -645,8 +645,9 @@ codes! {
     /// Draw fewer shapes or simpler ones, in Inkscape with *Path → Simplify*, or write `Shape default` for those that may be flat.
     TooMuchRound = "W336", "too much that is round";
     /// A picture of a character has soft shades instead of areas in one colour each: it was painted with a soft brush, or it is a
-    /// photograph. Each step of the shades became a region of the character, so that there are more regions than anybody would
-    /// draw, and they hardly match those of another view. Noise, and what JPEG files add to edges, are cleaned away without a word.
+    /// photograph. Each shade became a region of one colour; or, if there are too many to tell them from areas, each step of them
+    /// did, so that there are more regions than anybody would draw, and they hardly match those of another view. Noise, and what
+    /// JPEG files add to edges, are cleaned away without a word.
     ///
     /// ```text
     /// a layer with the string Bird$View 0 0 and a photograph of a bird

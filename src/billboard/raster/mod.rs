@@ -10,6 +10,7 @@ mod clean;
 mod components;
 mod detail;
 mod fill;
+mod gaps;
 mod ink;
 mod lines;
 mod luma;
@@ -35,6 +36,9 @@ use palette::Palette;
 /// The longest side of a picture whose pixels are looked at one by one, and of one that was not drawn cleanly: it shows less.
 const MAX_SIDE: u32 = 2048;
 const MAX_DIRTY_SIDE: u32 = 1024;
+/// A picture with soft shades is understood if not more regions come out than this, and than so many times the areas of its clusters.
+const MOST_FLATTENED: usize = 60;
+const MOST_REGIONS_OF_AREA: f64 = 1.5;
 
 /// A dark line along the border of a region.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,8 +82,20 @@ pub(super) struct RasterView {
     pub regions: Vec<RasterRegion>,
     /// In front of all regions.
     pub lines: Vec<InnerLine>,
-    /// Whether the picture has soft shades, so that most of its regions are only steps of them.
-    pub is_shaded: bool,
+    /// What became of soft shades.
+    pub shades: Shades,
+}
+
+/// What became of the soft shades of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Shades {
+    /// It has none.
+    #[default]
+    None,
+    /// Each is one region.
+    Flattened,
+    /// Most of the picture's regions are only steps of them.
+    Steps,
 }
 
 /// A picture, and its connected pixels of one class.
@@ -91,6 +107,21 @@ struct Seen<'a> {
     ids: &'a [u32],
 }
 
+impl<'a> Seen<'a> {
+    fn new(
+        canvas: &'a Canvas,
+        palette: &'a Palette,
+        (components, ids): &'a (Vec<Component>, Vec<u32>),
+    ) -> Self {
+        Self {
+            canvas,
+            palette,
+            components,
+            ids,
+        }
+    }
+}
+
 /// Finds the regions of a drawing in flat colours, with or without dark outlines. The background is no region: transparent
 /// pixels or, in an opaque picture, what joins the picture's border in its commonest colour.
 ///
@@ -100,28 +131,40 @@ pub(super) fn regions(picture: &RgbaImage) -> RasterView {
     let longer = picture.width().max(picture.height());
     let mut square = longer.div_ceil(MAX_SIDE).max(1);
     let mut canvas = Canvas::new(picture, square as usize);
-    let mut is_shaded = false;
+    let mut of_shades = None;
     if clean::is_dirty(&canvas) {
         if longer.div_ceil(square) > MAX_DIRTY_SIDE {
             square = longer.div_ceil(MAX_DIRTY_SIDE);
             canvas = Canvas::new(picture, square as usize);
         }
-        is_shaded = clean::clean(&mut canvas);
+        of_shades = clean::clean(&mut canvas);
     }
-    let palette = palette::palette(&canvas);
-    let (found, ids) = components::components(&palette.classes, canvas.width);
-    let seen = Seen {
-        canvas: &canvas,
-        palette: &palette,
-        components: &found,
-        ids: &ids,
-    };
-    let kinds = seeds::kinds(&seen);
+    let mut palette = palette::palette(&canvas);
+    let mut connected = components::components(&palette.classes, canvas.width);
+    let seen = Seen::new(&canvas, &palette, &connected);
+    let mut kinds = seeds::kinds(&seen);
     let ink = ink::ink(&seen, &kinds);
+    if let Some(classes) = ink.as_ref().and_then(|ink| gaps::closed(&seen, ink)) {
+        palette.classes = classes;
+        connected = components::components(&palette.classes, canvas.width);
+        kinds = seeds::kinds(&Seen::new(&canvas, &palette, &connected));
+    }
+    let seen = Seen::new(&canvas, &palette, &connected);
     let areas = fill::fill(&seen, &kinds, ink.as_ref());
     let nesting = nesting::nesting(&areas.labels, canvas.width, areas.colors.len());
     let mut view = view(&canvas, &areas, &nesting, ink.as_ref());
-    view.is_shaded = is_shaded;
+    view.shades = match of_shades {
+        None => Shades::None,
+        Some(areas) => {
+            let count = view.regions.len();
+            let is_explained = count as f64 <= MOST_REGIONS_OF_AREA * areas as f64;
+            if is_explained && count <= MOST_FLATTENED {
+                Shades::Flattened
+            } else {
+                Shades::Steps
+            }
+        }
+    };
     match square {
         1 => view,
         _ => view.scaled(square.into()),
@@ -190,7 +233,7 @@ fn view(canvas: &Canvas, areas: &Areas, nesting: &Nesting, ink: Option<&Ink>) ->
     RasterView {
         regions: regions.collect(),
         lines: inner_lines,
-        is_shaded: false,
+        shades: Shades::None,
     }
 }
 

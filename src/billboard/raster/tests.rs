@@ -4,7 +4,7 @@ mod drawing;
 
 use image::{Rgba, RgbaImage};
 
-use super::{RasterView, regions};
+use super::{RasterView, Shades, regions};
 use crate::geometry::{area, bounds};
 use drawing::{Drawing, blob, disc, line, polygon, rectangle};
 
@@ -117,7 +117,7 @@ fn noise_and_what_jpeg_files_add_are_no_regions() {
                 let what = format!("{what}, line {line:?} on {background:?}");
                 let count = view.regions.len();
                 assert!((6..=9).contains(&count), "{what}: {count} regions");
-                assert!(!view.is_shaded, "{what}");
+                assert_eq!(view.shades, Shades::None, "{what}");
                 let whole: f64 = view
                     .regions
                     .iter()
@@ -138,7 +138,7 @@ fn noise_and_what_jpeg_files_add_are_no_regions() {
 }
 
 #[test]
-fn soft_shades_are_known() {
+fn soft_shades_are_flattened() {
     let picture = figure(WHITE, None).picture();
     let mut shaded = picture.clone();
     for (x, y, pixel) in shaded.enumerate_pixels_mut() {
@@ -147,8 +147,18 @@ fn soft_shades_are_known() {
             *channel = (f64::from(*channel) * light).round() as u8;
         }
     }
-    assert!(regions(&shaded).is_shaded);
-    assert!(!regions(&picture).is_shaded);
+    let flattened = regions(&shaded);
+    assert_eq!(flattened.shades, Shades::Flattened);
+    // The darkest corner of the background is apart from the rest of it.
+    assert!((6..=7).contains(&flattened.regions.len()));
+    assert_eq!(regions(&picture).shades, Shades::None);
+    // So many shades are no drawing.
+    let tiles = RgbaImage::from_fn(420, 420, |x, y| {
+        let light = if (x / 35 + y / 35) % 2 == 0 { 40 } else { 140 };
+        let shade = (light + 2 * (x % 35)) as u8;
+        Rgba([shade, 200 - shade / 2, shade / 2 + 60, 255])
+    });
+    assert_eq!(regions(&tiles).shades, Shades::Steps);
 }
 
 #[test]

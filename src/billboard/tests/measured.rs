@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "what was measured is told")]
 
 mod between;
+mod dirty;
 mod labels;
 mod manual;
 mod named;
