@@ -21,6 +21,9 @@ const DIRTY: f64 = 0.53;
 /// 0.13 % of all pairs, and of the same as JPEG files at least 1.5 %, or half as many if the character is narrow.
 const DIRTY_WITH_LINES: f64 = 0.35;
 const DIRTY_OF_ALL: f64 = 0.005;
+/// In smaller pictures, of fewer pixels, everything is near an edge: there many of all pairs must hardly differ.
+const LARGE: usize = 40_000;
+const DIRTY_OF_SMALL: f64 = 0.065;
 /// There is no edge where the colours within 2 pixels differ by no more than this in each channel.
 const NO_EDGE: u8 = 24;
 /// Where so many of all pairs differ, there is strong noise: in 42 flat pictures it was at most 4 %.
@@ -97,7 +100,9 @@ pub(super) fn is_dirty(canvas: &Canvas) -> bool {
     let [all, differ, hardly] = [all, differ, hardly].map(|count| count as f64);
     hardly > DIRTY * differ
         || differ > NOISY * all
-        || (hardly > DIRTY_WITH_LINES * differ && far_from_edges(canvas) > DIRTY_OF_ALL * all)
+        || (hardly > DIRTY_WITH_LINES * differ
+            && (hardly > DIRTY_OF_SMALL * all
+                || (canvas.pixels.len() >= LARGE && far_from_edges(canvas) > DIRTY_OF_ALL * all)))
 }
 
 /// How many opaque neighbouring pixels hardly differ without an edge nearby.
