@@ -14,7 +14,7 @@ HEIGHT = 320
 WIDTH = 840
 GAP = 14
 FRAME = "#c4ccd6"
-COLOURS = 64
+COLOURS = 80
 
 
 def white(path):
@@ -63,4 +63,8 @@ for model in models:
     # All stand on one line, in the middle if they are low.
     both.paste(model, (left, (HEIGHT + max(model.height for model in models)) // 2 - model.height))
     left += model.width + GAP
-reduced(both, COLOURS).save(out, optimize=True)
+few = reduced(both, COLOURS)
+# Dots look good on what is round, and dirty on the page's even colours.
+few.paste(few.getpixel((0, 0)), (0, 0, *page.size))
+few.paste(page.quantize(palette=few, dither=Image.Dither.NONE), (0, 0), shown(page))
+few.save(out, optimize=True)
