@@ -344,6 +344,7 @@ gallery() {
   with_pillow
   use_program
   OKOSHI=$(realpath "$okoshi") OUT="$target/gallery" bash $tools/gallery.sh
+  OKOSHI=$(realpath "$okoshi") OUT="$target/gallery" bash $tools/tutorial.sh
   OKOSHI=$(realpath "$okoshi") python3 $tools/moving_picture.py "$target/gallery/girl.webp"
 }
 

@@ -1,4 +1,5 @@
-//! The drawings in `examples/`: they compile without warnings, are in the gallery, and show their features.
+//! The drawings in `examples/`: they compile without warnings, are in the gallery or on the page of the lesson that they belong to, and show
+//! their features.
 #![cfg(feature = "cli")]
 
 mod common;
@@ -14,6 +15,10 @@ use okoshi::internals::lang::keyword::kinds::KINDS;
 
 /// The size limit of pictures in the gallery, bytes.
 const PICTURE: u64 = 60 << 10;
+/// The size limit of pictures of lessons, bytes: their pages have many.
+const LESSON_PICTURE: u64 = 40 << 10;
+/// The folders of drawings that are not in the gallery but in a lesson: docs/FOLDER.md shows them, with pictures in docs/FOLDER.
+const LESSONS: [&str; 2] = ["tutorial", "how-to"];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -49,16 +54,24 @@ fn nothing_is_wrong_with_the_examples() {
     }
 }
 
+/// The lesson that a drawing belongs to.
+fn lesson(name: &str) -> Option<&str> {
+    let (folder, _) = name.split_once('/')?;
+    LESSONS.contains(&folder).then_some(folder)
+}
+
 #[test]
 fn inkscape_saved_them() {
     for name in examples() {
         let text = fs::read_to_string(drawing(&name)).expect("a drawing");
         let file = name.rsplit('/').next().unwrap_or(&name);
-        for piece in [
-            &format!("sodipodi:docname=\"{file}.svg\""),
-            "inkscape:groupmode=\"layer\"",
-            "sodipodi:role=\"line\"",
-        ] {
+        let document = format!("sodipodi:docname=\"{file}.svg\"");
+        let mut pieces = vec![&*document, "inkscape:groupmode=\"layer\""];
+        // A lesson begins without any string.
+        if text.contains("<text") || lesson(&name).is_none() {
+            pieces.push("sodipodi:role=\"line\"");
+        }
+        for piece in pieces {
             assert!(text.contains(piece), "{name} lacks {piece}");
         }
     }
@@ -79,7 +92,8 @@ fn every_kind_of_shape_has_a_drawing() {
 fn the_gallery_shows_every_example() {
     let gallery = fs::read_to_string(root().join("docs/gallery.md")).expect("the gallery");
     let mut pictures = BTreeSet::new();
-    for name in examples() {
+    let in_gallery = |name: &String| lesson(name).is_none();
+    for name in examples().into_iter().filter(in_gallery) {
         assert!(
             gallery.contains(&format!("](../examples/{name}.svg)")),
             "docs/gallery.md lacks examples/{name}.svg"
@@ -103,6 +117,41 @@ fn the_gallery_shows_every_example() {
         let file = entry.expect("an entry").file_name();
         let file = file.to_string_lossy();
         assert!(pictures.contains(&*file), "{file} is of no example");
+    }
+}
+
+#[test]
+fn lessons_show_their_drawings() {
+    for folder in LESSONS {
+        let page = root().join(format!("docs/{folder}.md"));
+        let page = fs::read_to_string(page).expect("the page");
+        let mut drawings = 0;
+        for name in examples()
+            .iter()
+            .filter(|name| lesson(name) == Some(folder))
+        {
+            drawings += 1;
+            for link in [format!("](../examples/{name}.svg)"), format!("]({name}.png)")] {
+                assert!(page.contains(&link), "docs/{folder}.md lacks {link}");
+            }
+        }
+        assert!(drawings > 3, "{folder} has only {drawings} drawings");
+        let mut pictures = 0;
+        for entry in fs::read_dir(root().join("docs").join(folder)).expect("the pictures") {
+            let path = entry.expect("an entry").path();
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            assert!(
+                page.contains(&format!("]({folder}/{file})")),
+                "docs/{folder}.md does not show {file}"
+            );
+            let size = fs::metadata(&path).map_or(0, |data| data.len());
+            assert!(
+                (1..=LESSON_PICTURE).contains(&size),
+                "{file} has {size} bytes; `bash tests/tools/tutorial.sh` makes it"
+            );
+            pictures += 1;
+        }
+        assert!(pictures >= drawings, "{folder}: {pictures} pictures");
     }
 }
 

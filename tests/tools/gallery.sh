@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the gallery's pictures from all drawings in examples/: bash tests/tools/gallery.sh [NAME…]
+# Makes the gallery's pictures from the drawings in examples/, without those of tests/tools/tutorial.sh: bash tests/tools/gallery.sh [NAME…]
 #
 # NAME is a drawing in examples/ without extension: girl, shapes/cone. Each drawing gets gallery/NAME-drawing.png and
 # gallery/NAME-model.png in docs/; island-textured also gets NAME.png there, with both side by side,
@@ -51,4 +51,4 @@ while IFS= read -r drawing; do
       done ;;
   esac
   echo "$name"
-done < <(find examples -name '*.svg' | sort)
+done < <(find examples -name '*.svg' -not -path 'examples/tutorial/*' -not -path 'examples/how-to/*' | sort)
