@@ -131,7 +131,10 @@ fn lessons_show_their_drawings() {
             .filter(|name| lesson(name) == Some(folder))
         {
             drawings += 1;
-            for link in [format!("](../examples/{name}.svg)"), format!("]({name}.png)")] {
+            for link in [
+                format!("](../examples/{name}.svg)"),
+                format!("]({name}.png)"),
+            ] {
                 assert!(page.contains(&link), "docs/{folder}.md lacks {link}");
             }
         }
