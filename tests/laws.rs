@@ -715,3 +715,33 @@ fn gradients_and_clips_in_circles() {
          <rect x=\"50\" width=\"9\" height=\"20\" fill=\"url(#p)\"/>",
     ));
 }
+
+/// A short file that is cut in very many ways does not fill the memory.
+#[test]
+fn motions_have_so_many_numbers_together() {
+    const FRAMES: usize = 4_000;
+    let mut motion = format!(
+        "HIERARCHY\nROOT Hips\n{{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n\
+         JOINT LeftUpLeg\n{{\nOFFSET 0 -5 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{{\nOFFSET 0 -5 0\n}}\n}}\n}}\n\
+         MOTION\nFrames: {FRAMES}\nFrame Time: 0.041667\n"
+    );
+    for frame in 0..FRAMES {
+        motion += &format!("{} 9 0 0 {} 0 0 0 0\n", frame % 7, frame % 5);
+    }
+    let files = MemoryResolver::default().with("a.bvh", motion.into_bytes());
+    let refused = |clips: usize| {
+        let strings = (0..clips).map(|clip| {
+            format!(r#"<text x="5" y="5">%Motion "a.bvh" c{clip} from 0.{clip:03}1</text>"#)
+        });
+        let strings: String = strings.collect();
+        let drawing = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="400" height="300">{strings}<rect x="60" y="60" width="80" height="90"/><text x="90" y="90">Box</text></svg>"#
+        );
+        let compiled = common::compiled(&drawing, &files);
+        let found = compiled.diagnostics.iter();
+        let found = found.filter(|found| found.message.contains("numbers together"));
+        found.count()
+    };
+    assert_eq!(refused(110), 0);
+    assert_eq!(refused(130), 1);
+}

@@ -85,6 +85,15 @@ pub(super) fn too_many_keys(excess: &Excess, span: Span) -> Diagnostic {
     Diagnostic::new(Code::LimitPassed, span, message).help(help)
 }
 
+/// A drawing whose motions, each part of a file by itself, are too long together.
+pub(super) fn too_many_numbers(numbers: usize, most: usize, span: Span) -> Diagnostic {
+    let message = format!(
+        "the motions before this one have {numbers} numbers together (frames times channels), and at most {most} are read"
+    );
+    let help = "play fewer parts of long files, or cut these parts out into files of their own: `okoshi motion IN.bvh -o OUT.bvh --range 1:240`";
+    Diagnostic::new(Code::LimitPassed, span, message).help(help)
+}
+
 /// A drawing with too many combinations of figures and motions.
 pub(super) fn too_many_matches(span: Span) -> Diagnostic {
     let message = format!("there are more than {MAX_MATCHES} pairs of a motion and a figure");

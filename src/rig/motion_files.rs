@@ -36,9 +36,19 @@ struct MotionFile {
     outside: Option<Outside>,
 }
 
+/// The most numbers of all motions together; or so many times those of the longest one.
+const MAX_NUMBERS: usize = 1 << 22;
+const TIMES_LONGEST: usize = 4;
+
 /// The motion files of a drawing.
 #[derive(Default)]
-pub(super) struct MotionFiles(BTreeMap<MotionKey, Result<Arc<MotionFile>, LinkError>>);
+pub(super) struct MotionFiles {
+    read: BTreeMap<MotionKey, Result<Arc<MotionFile>, LinkError>>,
+    /// How many numbers all of them have, and the longest one.
+    numbers: usize,
+    longest: usize,
+    is_full: bool,
+}
 
 impl MotionFiles {
     /// The clip of the file that one of a string's motions links to, `None` if it links to none; `is_loop` says whether it is made one.
@@ -61,14 +71,27 @@ impl MotionFiles {
             cut: cut(request.motion, is_loop).map(|seconds| seconds.map(f64::to_bits)),
             is_loop,
         };
-        let first = !self.0.keys().any(|known| known.link == *link);
-        let file = self.0.entry(key.clone()).or_insert_with(|| {
-            memo.get_reading(key, resolver, |key, resolver| {
+        let first = !self.read.keys().any(|known| known.link == *link);
+        let most = MAX_NUMBERS.max(TIMES_LONGEST.saturating_mul(self.longest));
+        if !self.read.contains_key(&key) {
+            // A short file that is cut in a thousand ways would fill the memory.
+            if self.numbers > most {
+                if !std::mem::replace(&mut self.is_full, true) {
+                    diagnostics.push(diagnostics::too_many_numbers(self.numbers, most, span));
+                }
+                return None;
+            }
+            let file = memo.get_reading(key.clone(), resolver, |key, resolver| {
                 let bytes = resolver.read(&key.link)?;
                 Ok(Arc::new(MotionFile::read(&bytes, key)))
-            })
-        });
-        match file {
+            });
+            let clip = file.as_ref().ok().and_then(|file| file.clip.as_ref());
+            let own = clip.map_or(0, |clip| clip.clip.values().len());
+            self.numbers = self.numbers.saturating_add(own);
+            self.longest = self.longest.max(own);
+            self.read.insert(key.clone(), file);
+        }
+        match self.read.get(&key)? {
             Err(error) => {
                 let span = request.source_span();
                 let written = |file: &str| request.written(file);
