@@ -87,15 +87,7 @@ pub(crate) const TOPICS: [Topic; 14] = [
     },
     Topic {
         name: "size",
-        words: &[
-            "large",
-            "small",
-            "tall",
-            "metre",
-            "meter",
-            "centimetre",
-            "height",
-        ],
+        words: &["large", "small", "tall", "metre", "meter", "centimetre"],
         text: "One unit of the drawing is one centimetre. `%Scale 2` makes it two: the model is twice as large. A person is about 1.7 m \
                tall; if a figure is far from that, a hint names the `Scale` that fits.",
         keywords: &[Keyword::Scale],

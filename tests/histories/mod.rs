@@ -234,6 +234,7 @@ const SUBJECTS: &[Subject] = &[
                 "$Tiles 10",
                 "$Tiles 10 Bevel 0.2",
                 "$Tiles 10 Roof 0.5",
+                "$Tiles 10 Height 2",
                 "$Tiles 5",
             ],
             &["$Tiles 10", "$Tiles 8 Bevel 0.1", ""],
