@@ -10,7 +10,7 @@ use typed_index_collections::TiVec;
 
 use super::painted::{Seen, Style};
 use crate::billboard::region::{Direction, RegionId, View};
-use crate::billboard::tests::generated::character;
+use crate::billboard::tests::generated::{Drawn, character};
 use crate::compile::{Compiled, Options, compile};
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::ViewId;
@@ -30,6 +30,20 @@ const GAP: f64 = 20.0;
 
 /// Two pictures, `0` and `1`.
 struct Pictures([Arc<[u8]>; 2]);
+
+impl Pictures {
+    /// Of two views of a character that is so large.
+    fn of(drawn: &[Drawn; 2], scale: f64, seed: u64) -> Self {
+        Self(drawn.each_ref().map(|drawn| {
+            let mut file = Cursor::new(Vec::new());
+            let picture = STYLE.paint(drawn, scale, seed);
+            picture
+                .write_to(&mut file, ImageFormat::Png)
+                .expect("a file");
+            file.into_inner().into()
+        }))
+    }
+}
 
 impl Resolver for Pictures {
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
@@ -90,16 +104,7 @@ fn naming_a_wrong_pair_makes_it_right() {
         let theta = [60.0, -75.0, 90.0, -90.0][seed as usize % 4];
         let directions = [0.0, theta].map(|theta| Direction { theta, phi: 0.0 });
         let drawn = directions.map(|direction| who.true_view(direction));
-        let painted = drawn
-            .each_ref()
-            .map(|drawn| STYLE.paint(drawn, who.scale, seed));
-        let pictures = Pictures(painted.each_ref().map(|picture| {
-            let mut file = Cursor::new(Vec::new());
-            picture
-                .write_to(&mut file, ImageFormat::Png)
-                .expect("a file");
-            file.into_inner().into()
-        }));
+        let pictures = Pictures::of(&drawn, who.scale, seed);
         let plain = compiled(theta, [&[], &[]], &pictures);
         // The regions as they are on the page, moved into each picture.
         let seen: Vec<Seen> = (plain.characters[0].views.iter().zip(&drawn).enumerate())
@@ -138,16 +143,7 @@ fn what_a_picture_shows_can_be_hidden() {
         let who = character(seed);
         let directions = [0.0, 45.0].map(|theta| Direction { theta, phi: 0.0 });
         let drawn = directions.map(|direction| who.true_view(direction));
-        let painted = drawn
-            .each_ref()
-            .map(|drawn| STYLE.paint(drawn, who.scale, seed));
-        let pictures = Pictures(painted.each_ref().map(|picture| {
-            let mut file = Cursor::new(Vec::new());
-            picture
-                .write_to(&mut file, ImageFormat::Png)
-                .expect("a file");
-            file.into_inner().into()
-        }));
+        let pictures = Pictures::of(&drawn, who.scale, seed);
         let plain = compiled(45.0, [&[], &[]], &pictures);
         let seen = STYLE.of_view(
             plain.characters[0].views[ViewId::FIRST].clone(),
