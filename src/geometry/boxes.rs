@@ -24,7 +24,7 @@ pub(crate) fn area_around((low, high): (DVec2, DVec2), reach: f64) -> AABB<[f64;
 }
 
 /// Where more boxes than this meet, those that are last in the order are looked for first.
-const FEW: usize = 256;
+const FEW: usize = 64;
 
 /// A box whose third coordinate is its place in an order.
 type OrderedBox = GeomWithData<Rectangle<[f64; 3]>, usize>;
