@@ -266,8 +266,9 @@ pub(crate) fn add_clips(
                 performances.note_used(&found.as_ref()?.request, &tracks, marks);
                 found
             });
-            let frames = performance.as_ref().map_or(0, |found| found.plan.frames(0));
-            if let Err(excess) = keys.add_performed(context, first, frames) {
+            if let Some(found) = &performance
+                && let Err(excess) = keys.add_performed(context, first, found.plan.frames(0))
+            {
                 diagnostics.push(diagnostics::too_many_keys(&excess, request.span));
                 break;
             }
