@@ -13,7 +13,12 @@ import tempfile
 from pathlib import Path
 
 import bpy
+import numpy
 from mathutils import Vector
+
+# Blender 3.4's glTF importer uses a name that newer versions of NumPy have removed.
+if "bool" not in vars(numpy):
+    numpy.bool = bool
 
 SIDE = 240
 NEAR = 0.1
@@ -137,11 +142,15 @@ def check(path):
         print(f"{Path(path).stem}: {name}: {len(tops)} pixels, {mean / box:.3f} of a box, {dark:.4f} dark")
         if not math.isclose(mean, box, rel_tol=NEAR) or dark > MOST_DARK or box <= 0:
             problems.append(f"{path}: lit tops of {name} have {mean / box:.2f} of a box's brightness, {dark:.1%} of them are dark")
-    if counted == 0:
-        problems.append(f"{path}: no lit top was found")
-    return problems
+    return problems, counted
 
 
-problems = [problem for path in sys.argv[sys.argv.index("--") + 1 :] for problem in check(path)]
+problems, counted = [], 0
+for path in sys.argv[sys.argv.index("--") + 1 :]:
+    found, tops = check(path)
+    problems += found
+    counted += tops
+if counted == 0:
+    problems.append("no lit top without a texture was found")
 if problems:
     sys.exit("\n".join(problems))
