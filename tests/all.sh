@@ -324,6 +324,15 @@ blender_import() {
     --python $tools/blender_skin.py --
 }
 
+# Light on landscapes without textures.
+blender_light() {
+  [ $quick = no ] || skip "--quick"
+  built
+  command -v blender > /dev/null || install Blender blender python3-numpy
+  plain | grep -E '/(island|terrain/[a-z]+)\.glb$' | xargs blender -b --factory-startup --python-exit-code 1 \
+    --python $tools/blender_light.py --
+}
+
 # Gives Python Pillow, which puts pictures together, in an environment of its own.
 with_pillow() {
   local own=$target/pillow
@@ -427,7 +436,7 @@ step clippy lints
 # Each of the two rows takes about one core: what needs cargo, and what needs the program.
 if program; then is_built=yes; fi
 begin_aside examples:examples validator:validator schemas:schemas extension:extension page:page editors:editors inkscape:inkscape_extension \
-  blender:blender_import
+  blender:blender_import blender-light:blender_light
 step test tests
 step package package
 step clip-art clip_art
