@@ -15,6 +15,8 @@ WHOLE = 2.0
 SQUARE = 24.0
 SQUARES = 32
 ENDINGS = {".png", ".webp", ".gif", ".jpg"}
+# Pages with Japanese texts, for which machines have different fonts, or none.
+FONTS = {Path("gallery/robot-ja-drawing.png"), Path("gallery/motion-robot-ja-drawing.png")}
 # Every so many of a moving picture.
 STRIDE = 8
 
@@ -56,7 +58,9 @@ def main():
     new = pictures(made)
     if not new:
         sys.exit(f"error: there are no pictures in {made}")
-    wrong = {name: why for name in sorted(new) if (why := complaint(made / name, committed / name))}
+    if new & FONTS:
+        print("skipped: pages with Japanese texts are not compared, which look different with every font")
+    wrong = {name: why for name in sorted(new - FONTS) if (why := complaint(made / name, committed / name))}
     for folder in whole:
         left = {Path(folder) / name for name in pictures(committed / folder)} - new
         wrong |= {name: "is made by no script" for name in left}
