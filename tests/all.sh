@@ -346,15 +346,22 @@ with_pillow() {
   fi
 }
 
+# Makes the pictures of README and docs again, and compares them with the committed ones.
 gallery() {
   [ $quick = no ] || skip "--quick"
   command -v inkscape > /dev/null || install Inkscape inkscape
   need python3
   with_pillow
   use_program
-  OKOSHI=$(realpath "$okoshi") OUT="$target/gallery" bash $tools/gallery.sh
-  OKOSHI=$(realpath "$okoshi") OUT="$target/gallery" bash $tools/tutorial.sh
-  OKOSHI=$(realpath "$okoshi") python3 $tools/moving_picture.py "$target/gallery/girl.webp"
+  rm -rf "$target/gallery"
+  local OKOSHI OUT script
+  export OKOSHI OUT
+  OKOSHI=$(realpath "$okoshi")
+  OUT=$(realpath "$target")/gallery
+  for script in gallery tutorial motion_pictures puppet_picture tracking_picture; do bash $tools/$script.sh; done
+  OUT=$OUT/starters.png bash $tools/starters.sh
+  python3 $tools/moving_picture.py "$OUT/girl.webp"
+  python3 $tools/same_pictures.py "$OUT" docs gallery tutorial how-to motion
 }
 
 site() {
@@ -373,7 +380,7 @@ packages() {
   for tool in python3 npm objdump strip dpkg-deb curl; do need $tool; done
   python3 -c 'import ensurepip' 2> /dev/null || install "Python's venv" python3-venv
   use_program
-  OKOSHI=$(realpath "$okoshi") python3 $tools/release.py "$target/packages"
+  OKOSHI=$(realpath "$okoshi") with_web python3 $tools/release.py "$target/packages"
 }
 
 readme() {
