@@ -458,7 +458,7 @@ fn changes_of_cases_do_what_they_say() {
     let counts = hold(&common::drawings_in("tests/cases"), 3);
     let made = [
         ("set", 400),
-        ("reset", 5),
+        ("reset", 3),
         ("name", 40),
         ("hang", 15),
         ("leave out", 12),
