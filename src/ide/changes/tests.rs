@@ -298,7 +298,7 @@ fn what_would_be_wrong_is_refused() {
             Change::LeaveOut {
                 part: "Rarm".to_owned(),
             },
-            "`Hand` hangs on `Rarm`",
+            "hang on `Rarm`",
         ),
     ] {
         let refusal = made(&source, &change).unwrap_err();
