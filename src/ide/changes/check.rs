@@ -77,7 +77,7 @@ fn compare(
     if !hung {
         return Some("the parent");
     }
-    let set = changed_keyword(before, after, old, change);
+    let set = changed_keyword(before, old, change);
     let values = |analysis: &Analysis| {
         let resolved = analysis.bindings().resolved(analysis.drawing(), index);
         let others = resolved.into_iter().filter(|one| Some(one.keyword) != set);
@@ -106,12 +106,7 @@ fn is_called_so(old: &Part, new: &Part, change: &Change) -> bool {
 }
 
 /// The attribute of a part that a change is about.
-fn changed_keyword(
-    before: &Analysis,
-    _after: &Analysis,
-    old: &Part,
-    change: &Change,
-) -> Option<Keyword> {
+fn changed_keyword(before: &Analysis, old: &Part, change: &Change) -> Option<Keyword> {
     let (Change::Set {
         part,
         attribute,
