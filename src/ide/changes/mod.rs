@@ -250,6 +250,7 @@ fn described(kind: PartKind) -> &'static str {
         PartKind::Legend => "the sample of a legend",
         PartKind::Unused => "left out",
         PartKind::Tile => "drawn in a landscape",
+        PartKind::Prop => "a prop on a map",
         PartKind::Region => "a region of a character",
     }
 }
