@@ -2,6 +2,8 @@
 //!
 //! Of each drawing some changes are tried, other ones of every drawing; `OKOSHI_CHANGES=1000000 cargo test --test changes` tries
 //! all.
+#![cfg(feature = "disk")]
+
 mod common;
 
 use std::collections::BTreeMap;
