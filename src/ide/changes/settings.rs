@@ -21,6 +21,17 @@ struct Wanted {
     attribute: Attribute,
 }
 
+/// Refuses attributes that no change can set.
+fn settable(keyword: Keyword) -> Result<(), Refusal> {
+    if can_set(keyword) {
+        return Ok(());
+    }
+    Err(Refusal::new(format!(
+        "`{}` is more than an attribute of one part: change it in the drawing",
+        keyword.name()
+    )))
+}
+
 impl Analysis {
     pub(super) fn set(
         &self,
@@ -29,12 +40,7 @@ impl Analysis {
         value: &str,
         place: Place,
     ) -> Result<Vec<Edit>, Refusal> {
-        if !can_set(keyword) {
-            return Err(Refusal::new(format!(
-                "`{}` is more than an attribute of one part: change it in the drawing",
-                keyword.name()
-            )));
-        }
+        settable(keyword)?;
         let part = self.part_to_change(name)?;
         let found = &self.bindings().parts[part];
         if !matches!(
@@ -108,12 +114,7 @@ impl Analysis {
         keyword: Keyword,
         place: Place,
     ) -> Result<Vec<Edit>, Refusal> {
-        if !can_set(keyword) {
-            return Err(Refusal::new(format!(
-                "`{}` is more than an attribute of one part: change it in the drawing",
-                keyword.name()
-            )));
-        }
+        settable(keyword)?;
         let part = self.part_to_change(name)?;
         let Some(index) = self.bindings().parts[part].string else {
             return Ok(vec![]);
