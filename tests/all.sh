@@ -155,7 +155,8 @@ features() {
   local feature packages
   OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --lib --profile test
   OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --test layers --test models
-  for feature in disk watch render tracking preview lsp; do
+  # `watch` is `disk` and one module, which comes with `preview`.
+  for feature in disk render tracking preview lsp; do
     OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features "$feature"
   done
   # The versions of the libraries are those of the program.
@@ -443,7 +444,7 @@ step clippy lints
 # Each of the two rows takes about one core: what needs cargo, and what needs the program.
 if program; then is_built=yes; fi
 begin_aside examples:examples validator:validator schemas:schemas extension:extension page:page editors:editors inkscape:inkscape_extension \
-  blender:blender_import blender-light:blender_light
+  blender:blender_import blender-light:blender_light sides:sides gallery:gallery readme:readme
 step test tests
 step package package
 step clip-art clip_art
@@ -451,9 +452,6 @@ step doc manual
 step features features
 step wasm wasm
 step licences licences
-step sides sides
-step gallery gallery
-step readme readme
 step site site
 step packages packages
 end_aside

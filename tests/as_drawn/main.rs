@@ -28,6 +28,12 @@ const KINDS: [&str; 5] = ["default", "inflate", "round", "roundv", "roundh"];
 /// The least share of right pixels.
 const LEAST: f64 = 0.99;
 
+/// So many of the kinds; which, goes by the index of what is built with them, so that all have their turn.
+fn kinds_in_turn(index: usize, count: usize) -> impl Iterator<Item = &'static str> {
+    let kinds = KINDS.into_iter().cycle();
+    kinds.skip(index % KINDS.len()).take(count)
+}
+
 /// The results of `measure` for each sample, found on all processors. The pool of the program itself would begin with further
 /// samples while it waits for pieces of one, deeper and deeper on the same stack.
 fn each<S: Sync, R: Send>(samples: &[S], measure: impl Fn(&S) -> R + Sync) -> Vec<R> {
