@@ -229,7 +229,8 @@ fn build(
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Built {
-    let layers = terrain::read(drawing, bindings, resolver, memo, diagnostics);
+    let mut layers = terrain::read(drawing, bindings, resolver, memo, diagnostics);
+    objects::name(bindings, &mut layers);
     let world = world::world_transform(bindings, &layers);
     let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
     let mut found = Vec::new();
@@ -277,14 +278,7 @@ fn build(
         )));
     }
     objects::report(bindings, &layers, diagnostics);
-    objects::add(
-        bindings,
-        &layers,
-        &landscapes,
-        &of_looks,
-        world.scale,
-        &mut scene,
-    );
+    objects::add(&layers, &landscapes, &of_looks, world.scale, &mut scene);
     let mut props = props::places(bindings, &layers);
     props::report(drawing, bindings, &layers, &props, diagnostics);
     props::add(

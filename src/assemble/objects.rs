@@ -20,16 +20,8 @@ const THICKNESS: f64 = 0.1;
 /// The name of objects without one.
 const NAMELESS: &str = "Object";
 
-/// Adds the nodes of objects below those of their landscapes. Objects with one picture and one size share a mesh. `scale` are metres in
-/// a drawing unit.
-pub(super) fn add(
-    bindings: &Bindings,
-    layers: &TiSlice<LandscapeId, Layer>,
-    landscapes: &TiSlice<LandscapeId, NodeId>,
-    materials: &LookMaterials,
-    scale: f64,
-    scene: &mut Scene,
-) {
+/// Gives objects without a name one, and a number to all whose name is taken: nodes are told apart by their names.
+pub(super) fn name(bindings: &Bindings, layers: &mut TiSlice<LandscapeId, Layer>) {
     if layers.iter().all(|layer| layer.objects.is_empty()) {
         return;
     }
@@ -37,13 +29,35 @@ pub(super) fn add(
     let names = bindings.layers.iter().map(|layer| layer.name.clone());
     let mut taken: FxHashSet<String> = parts.chain(names).collect();
     let mut numbers: FxHashMap<String, usize> = FxHashMap::default();
+    for object in layers.iter_mut().flat_map(|layer| &mut layer.objects) {
+        if object.name.is_empty() {
+            NAMELESS.clone_into(&mut object.name);
+        }
+        let base = object.name.clone();
+        while !taken.insert(object.name.clone()) {
+            let number = numbers.entry(base.clone()).or_insert(1);
+            *number += 1;
+            object.name = format!("{base}-{number}");
+        }
+    }
+}
+
+/// Adds the nodes of objects below those of their landscapes. Objects with one picture and one size share a mesh. `scale` are metres in
+/// a drawing unit.
+pub(super) fn add(
+    layers: &TiSlice<LandscapeId, Layer>,
+    landscapes: &TiSlice<LandscapeId, NodeId>,
+    materials: &LookMaterials,
+    scale: f64,
+    scene: &mut Scene,
+) {
     let mut meshes: FxHashMap<(MaterialId, [u64; 2]), MeshId> = FxHashMap::default();
     for (index, layer) in layers.iter_enumerated() {
         for object in &layer.objects {
             let Some(material) = materials.of(index, object.material) else {
                 continue;
             };
-            let size = object.size.to_array().map(f64::to_bits);
+            let (_, size) = object.look();
             let mesh = meshes.entry((material, size));
             let mesh = *mesh.or_insert_with(|| {
                 scene
@@ -53,20 +67,9 @@ pub(super) fn add(
             let mut point = layer.place(object.foot).point * layer.size;
             // Its face is where it is drawn.
             point.z -= THICKNESS / 2.0 * object.size.x;
-            let base = if object.name.is_empty() {
-                NAMELESS
-            } else {
-                &object.name
-            };
-            let mut name = base.to_owned();
-            while !taken.insert(name.clone()) {
-                let number = numbers.entry(base.to_owned()).or_insert(1);
-                *number += 1;
-                name = format!("{base}-{number}");
-            }
             let id = scene.add(NewNode {
                 node: Node {
-                    name,
+                    name: object.name.clone(),
                     translation: point * scale,
                     rotation: DQuat::IDENTITY,
                     ..Node::default()

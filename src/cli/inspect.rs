@@ -274,18 +274,23 @@ fn contents(compiled: &Compiled, index: LandscapeId) -> Vec<[String; 2]> {
         [format!("house at {}", house.base), what]
     });
     let props = compiled.bindings.props.iter().zip(&compiled.props);
-    let props = props.filter(|(_, standing)| standing.landscape == index);
-    let props = props.map(|(prop, standing)| {
-        let Place { cell, point, .. } = standing.place;
+    let props = props.filter(|(_, stands)| stands.landscape == index);
+    let standing = |name: &str, what: &str, Place { cell, point, .. }: Place| {
         let height = (point.y * 100.0).round() / 100.0;
         let place = match cell {
             Some([column, row]) => format!("column {}, row {}", column + 1, row + 1),
             None => "beside the map".to_owned(),
         };
+        [format!("{name} at {height}"), format!("{what}, {place}")]
+    };
+    let props = props.map(|(prop, stands)| {
         let name = &compiled.bindings.parts[prop.main].name;
-        [format!("{name} at {height}"), format!("a prop, {place}")]
+        standing(name, "a prop", stands.place)
     });
-    let all = groups.chain(houses).chain(props);
+    let objects = layer.objects.iter();
+    let objects =
+        objects.map(|object| standing(&object.name, "an object", layer.place(object.foot)));
+    let all = groups.chain(houses).chain(props).chain(objects);
     let mut listed: Vec<[String; 2]> = all.collect();
     shorten(&mut listed);
     listed

@@ -422,7 +422,8 @@ codes! {
     /// Put the string into the group or layer that contains the tiles.
     NoTiles = "W313", "tile layer without tiles";
     /// `Tiles`, `Bevel` or `Roof` is in a string that does not make a tile layer, `Height` outside of one, or `Depth` or `Hidden` in one outside of a
-    /// character's views, or `Stand` where nothing stands on a map, so it has no effect.
+    /// character's views, or `Stand` where nothing stands on a map, or `Motion` and the like in the string of a prop, which does not move: so it has
+    /// no effect.
     ///
     /// ```text
     /// Hat@Head$Roof 0.5

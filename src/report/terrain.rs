@@ -1,8 +1,10 @@
 //! The landscapes of a drawing.
 
+use rustc_hash::FxHashMap;
 use serde::Serialize;
 
 use crate::compile::Compiled;
+use crate::terrain::{LandscapeId, Place};
 
 /// A landscape. All lengths are tiles.
 #[derive(Debug, Clone, Serialize)]
@@ -19,7 +21,7 @@ pub(crate) struct Terrain<'a> {
     pub groups: Vec<Group>,
     /// The houses.
     pub houses: Vec<House>,
-    /// What stands on it.
+    /// What stands on it: props of the drawing, then objects of a map of Tiled.
     pub props: Vec<Prop<'a>>,
 }
 
@@ -67,27 +69,45 @@ pub(crate) struct Prop<'a> {
     pub same_as: Option<&'a str>,
 }
 
+impl<'a> Prop<'a> {
+    fn new(name: &'a str, place: &Place, same_as: Option<&'a str>) -> Self {
+        Self {
+            name,
+            on: place.footing.name(),
+            cell: place.cell.map(|cell| cell.map(|at| at + 1)),
+            height: place.point.y,
+            same_as,
+        }
+    }
+}
+
 /// What stands on a landscape.
-fn props(compiled: &Compiled, landscape: usize) -> Vec<Prop<'_>> {
+fn props(compiled: &Compiled, landscape: LandscapeId) -> Vec<Prop<'_>> {
     let bindings = &compiled.bindings;
     let name = |index: usize| &*bindings.parts[bindings.props[index].main].name;
     let all = compiled.props.iter().enumerate();
-    let own = all.filter(|(_, standing)| usize::from(standing.landscape) == landscape);
-    own.map(|(index, standing)| Prop {
-        name: name(index),
-        on: standing.place.footing.name(),
-        cell: standing.place.cell.map(|cell| cell.map(|at| at + 1)),
-        height: standing.place.point.y,
-        same_as: Some(bindings.props[index].like)
-            .filter(|like| *like != index)
-            .map(name),
-    })
-    .collect()
+    let own = all.filter(|(_, standing)| standing.landscape == landscape);
+    let own = own.map(|(index, standing)| {
+        let like = Some(bindings.props[index].like).filter(|like| *like != index);
+        Prop::new(name(index), &standing.place, like.map(name))
+    });
+    let layer = &compiled.layers[landscape];
+    let mut first = FxHashMap::default();
+    let objects = layer.objects.iter().map(|object| {
+        let like = *first.entry(object.look()).or_insert(&*object.name);
+        let place = layer.place(object.foot);
+        Prop::new(
+            &object.name,
+            &place,
+            Some(like).filter(|like| *like != object.name),
+        )
+    });
+    own.chain(objects).collect()
 }
 
 /// The landscapes of a drawing.
 pub(crate) fn terrain(compiled: &Compiled) -> Vec<Terrain<'_>> {
-    let layers = compiled.layers.iter().enumerate();
+    let layers = compiled.layers.iter_enumerated();
     let report = layers.map(|(index, layer)| {
         let (map, land) = (&layer.map, &layer.landscape);
         let tops = (0..map.rows).map(|row| {

@@ -2,6 +2,9 @@
 
 use okoshi::internals::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
 
+/// The material of water in these maps.
+pub(crate) const WATER: u8 = 3;
+
 /// A map from lines of letters: `g b w R B` for green, brown, blue, red and beige, a dot for nothing. Between letters stands
 /// `|` for an edge or a space; a line that begins with `:` says by `-` below which letters of the line before there is an edge.
 pub(crate) fn map(lines: &str) -> Map {

@@ -2,7 +2,7 @@
 
 use okoshi::internals::terrain::{AmbiguityKind, HouseInfo, Landscape, Map};
 
-use crate::letters::map;
+use crate::letters::{WATER, map};
 
 /// Heights of the tops, a line a row; a dot where there is none.
 fn tops(map: &Map) -> String {
@@ -253,6 +253,29 @@ fn fronts_with_edges_end_flush_with_what_is_behind() {
 }
 
 /// Rule 7, figure 3.9: a pond is as deep as its far bank has browns.
+#[test]
+fn the_bed_of_a_pond_is_not_seen_from_behind() {
+    let map = map("
+        g g g g g
+        g b b b g
+        g w w w g
+        g g g g g
+        b b b b b");
+    let surface = Landscape::new(&map).surface(0.5, 0.0);
+    let (_, water) = (surface.iter())
+        .find(|(material, _)| *material == WATER)
+        .expect("water");
+    let mut triangles = 0;
+    for piece in water {
+        for triangle in &piece.triangles {
+            let [a, b, c] = triangle.map(|corner| piece.positions[corner as usize]);
+            assert!(a[1] == b[1] && b[1] == c[1], "an upright face of water");
+            triangles += 1;
+        }
+    }
+    assert!(triangles > 0);
+}
+
 #[test]
 fn ponds_are_as_deep_as_their_far_wall() {
     let pond = |browns: &str| {

@@ -4,13 +4,20 @@ use crate::bind::attributes::PartAttributes;
 use crate::bind::bindings::{DrawingString, PartKind};
 use crate::bind::hierarchy::Tree;
 use crate::bind::matching::Matched;
+use crate::bind::reports::misplaced::is_of_props;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::source::Span;
+use crate::svg::Drawing;
 
-/// Reports `Limited`, `Bone`, `Carry`, `Swing` and `Perform`, each once, in a drawing without a motion.
-pub(super) fn without_motion(matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
+/// Reports `Limited`, `Bone`, `Carry`, `Swing` and `Perform`, each once, in a drawing without a motion. In strings of props, which never move,
+/// they are reported elsewhere.
+pub(super) fn without_motion(
+    drawing: &Drawing,
+    matched: &Matched,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     if matched.asks_for_motion() {
         return;
     }
@@ -22,7 +29,8 @@ pub(super) fn without_motion(matched: &Matched, diagnostics: &mut Vec<Diagnostic
         Keyword::Perform,
     ] {
         let found = matched.strings.iter().find_map(|string| {
-            let counts = !matches!(string.annotation, Annotation::Legend(_));
+            let counts = !matches!(string.annotation, Annotation::Legend(_))
+                && !is_of_props(drawing, matched, string);
             let mut settings = string.settings.iter().filter(|_| counts);
             let setting = settings.find(|setting| setting.keyword == keyword)?;
             Some(string.text.span(setting.range.clone()))

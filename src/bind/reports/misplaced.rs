@@ -7,6 +7,20 @@ use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::svg::Drawing;
 
+/// The attributes of parts that say how they move.
+const MOVE: [Keyword; 10] = [
+    Keyword::Bone,
+    Keyword::Carry,
+    Keyword::Bend,
+    Keyword::Swing,
+    Keyword::Facing,
+    Keyword::Mark,
+    Keyword::Follow,
+    Keyword::Motion,
+    Keyword::Limited,
+    Keyword::Perform,
+];
+
 /// Reports attributes of tile layers in strings that make none, and attributes of regions outside of views.
 pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
     let has_tile_layers = matched.layers.tile_layers().next().is_some();
@@ -72,7 +86,14 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
     }
 }
 
-/// Reports `Stand` where nothing stands, and what is said to hang on something although it stands by itself.
+/// Whether a string is that of a prop, or of a layer of props.
+pub(super) fn is_of_props(drawing: &Drawing, matched: &Matched, string: &DrawingString) -> bool {
+    let is_of_layer = LayerKind::of(&string.annotation) == Some(LayerKind::Stand);
+    let props = || matched.layers.of_props(group_of(drawing, string.holder));
+    is_of_layer || (string.binding.is_some() && props().is_some())
+}
+
+/// Reports `Stand` where nothing stands, and what is said to hang on something or to move although it stands by itself.
 fn stands(
     drawing: &Drawing,
     matched: &Matched,
@@ -118,5 +139,14 @@ fn stands(
         let help =
             "delete it, or draw what hangs together in one group, outside of the layer of props";
         report(parent.range.clone(), &message, help);
+    }
+    if is_of_props(drawing, matched, string) {
+        let attributes = string.annotation.attributes().iter();
+        for attribute in attributes.filter(|attribute| MOVE.contains(&attribute.keyword)) {
+            let name = attribute.keyword.name();
+            let message = format!("`{name}` has no effect here: a prop does not move");
+            let help = "delete it, or draw what moves as a figure, outside of the layer of props";
+            report(attribute.range.clone(), &message, help);
+        }
     }
 }

@@ -37,7 +37,7 @@ pub(in crate::bind) fn all(
     unbound::report(drawing, matched, &mut found);
     backgrounds::report(drawing, matched, &mut found);
     legends::unused(drawing, matched, attributes, &mut found);
-    idle::without_motion(matched, &mut found);
+    idle::without_motion(drawing, matched, &mut found);
     idle::without_mark(matched, attributes, tree, &mut found);
     uncertain::report(drawing, matched, &mut found);
     off_page::report(drawing, matched, tree, &mut found);

@@ -97,6 +97,13 @@ pub(crate) struct LayerObject {
     pub(crate) material: u8,
 }
 
+impl LayerObject {
+    /// What those that are one mesh have in common in a layer: the picture and the size.
+    pub(crate) fn look(&self) -> (u8, [u64; 2]) {
+        (self.material, self.size.to_array().map(f64::to_bits))
+    }
+}
+
 /// The cells that a shape may be visible in: those whose middles are in its bounding box.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TileSource {

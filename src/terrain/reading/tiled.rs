@@ -263,6 +263,10 @@ fn told(idle: &Idle) -> (String, String) {
             "objects that are turned, which stand upright",
             "set their rotation to 0 in Tiled",
         ),
+        Idle::Unseen => (
+            "objects that cannot be seen, which are not built: their tile is transparent, or they are over 1,000,000 pixels large or away",
+            "choose another tile for them, or move them onto the map in Tiled, or delete them",
+        ),
         Idle::Images => (
             "a layer that is an image, which is not built",
             "hide it in Tiled, or make a tile set of the image",

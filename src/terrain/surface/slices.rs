@@ -1,6 +1,6 @@
 //! Splits overlapping blocks into slices that do not overlap.
 
-use std::cmp::Ordering;
+use std::cmp::{Ordering, Reverse};
 
 use rustc_hash::FxHashSet;
 
@@ -90,9 +90,11 @@ impl Slices {
             while let Some(block) = self.order.get(next)
                 && block.z[0] == z[0]
             {
+                // What is higher comes first: a plate that goes on below a block is not seen at the block's sides.
+                let order = |block: &Block| (block.y[0], Reverse(block.y[1]));
                 let at = self
                     .active
-                    .partition_point(|other| other.y[0] <= block.y[0]);
+                    .partition_point(|other| order(other) <= order(block));
                 self.active.insert(at, *block);
                 next += 1;
             }

@@ -69,6 +69,8 @@ pub(super) enum Idle {
     Objects,
     /// Objects that are turned.
     Turned,
+    /// Objects whose tile is transparent, or which are larger or farther away than drawings may be.
+    Unseen,
     /// Layers that are one picture.
     Images,
     /// Layers that are drawn elsewhere than at their cells.

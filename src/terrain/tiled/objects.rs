@@ -99,8 +99,10 @@ pub(super) fn read(
         let at = DVec2::from_array(entry.at) - DVec2::from_array(corner);
         let fits =
             size.cmple(DVec2::splat(LARGEST)).all() && at.abs().cmple(DVec2::splat(LARGEST)).all();
-        // What nobody sees stands nowhere.
         let is_seen = fits && !pictures[picture].outline.polygons.is_empty();
+        if !is_seen {
+            Idle::Unseen.note(idle);
+        }
         is_seen.then(|| TileObject {
             name: entry.name.clone(),
             foot: at + DVec2::new(size.x / 2.0, 0.0),

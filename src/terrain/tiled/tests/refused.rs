@@ -379,5 +379,7 @@ fn hostile_objects_are_refused_or_left_out() {
     let many = r#"<object gid="2" x="0" y="0"/>"#.repeat((1 << 14) + 1);
     refused(&with_objects(&many), "more than 16384 objects");
     let far = r#"<object gid="2" x="1e300" y="0"/><object gid="2" x="NaN" y="0"/><object gid="2" x="0" y="0" width="1e300"/>"#;
-    assert!(tried(&with_objects(far)).unwrap().objects.is_empty());
+    let read = tried(&with_objects(far)).unwrap();
+    assert!(read.objects.is_empty());
+    assert!(read.idle.contains(&Idle::Unseen));
 }
