@@ -11,18 +11,7 @@ use crate::lang::keyword::Keyword;
 /// # Errors
 /// If there are new errors, or something else has changed.
 pub fn check(before: &Analysis, after: &Analysis, change: &Change) -> Result<(), Refusal> {
-    let errors = |analysis: &Analysis| -> Vec<String> {
-        let found = analysis.diagnostics().iter();
-        let errors = found.filter(|found| found.severity() == Severity::Error);
-        errors.map(|found| found.message.clone()).collect()
-    };
-    let (old, new) = (errors(before), errors(after));
-    if let Some(error) = new.iter().find(|error| !old.contains(error)) {
-        return Err(Refusal::new(format!("that would be an error: {error}")));
-    }
-    if new.len() > old.len() {
-        return Err(Refusal::new("there would be one more error"));
-    }
+    no_worse(before, after)?;
     let (old, new) = (&before.bindings().parts, &after.bindings().parts);
     if old.len() != new.len() {
         return Err(Refusal::new(
@@ -35,6 +24,29 @@ pub fn check(before: &Analysis, after: &Analysis, change: &Change) -> Result<(),
             let name = before.bindings().describe(before.drawing(), part);
             return Err(Refusal::new(format!("{what} of {name} would change, too")));
         }
+    }
+    Ok(())
+}
+
+/// Whether a drawing can be read, and has no error that it did not have before.
+///
+/// # Errors
+/// If it has one.
+pub(crate) fn no_worse(before: &Analysis, after: &Analysis) -> Result<(), Refusal> {
+    if before.is_sound() && !after.is_sound() {
+        return Err(Refusal::new("the drawing could not be read any more"));
+    }
+    let errors = |analysis: &Analysis| -> Vec<String> {
+        let found = analysis.diagnostics().iter();
+        let errors = found.filter(|found| found.severity() == Severity::Error);
+        errors.map(|found| found.message.clone()).collect()
+    };
+    let (old, new) = (errors(before), errors(after));
+    if let Some(error) = new.iter().find(|error| !old.contains(error)) {
+        return Err(Refusal::new(format!("that would be an error: {error}")));
+    }
+    if new.len() > old.len() {
+        return Err(Refusal::new("there would be one more error"));
     }
     Ok(())
 }
