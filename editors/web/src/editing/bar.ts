@@ -53,7 +53,7 @@ export class EditBar {
     const words = `${refusal.why.charAt(0).toUpperCase()}${refusal.why.slice(1)}.`;
     if (!this.refused.hidden && this.refused.dataset["why"] === words) return;
     this.refused.dataset["why"] = words;
-    const choices = refusal.choices.map(({ title, change }) => h("button", { class: "button choice", attributes: { type: "button" }, on: { click: () => void this.editing.make(change) } }, ...inCode(title)));
+    const choices = refusal.choices.map(({ title, change }) => h("button", { class: "button choice", attributes: { type: "button" }, on: { click: () => void this.editing.choose(change) } }, ...inCode(title)));
     const close = h("button", { class: "button choice", attributes: { type: "button" }, on: { click: () => this.dismiss() } }, choices.length > 0 ? "Leave it" : "Close");
     this.refused.hidden = false;
     fill(this.refused, h("p", {}, ...inCode(words)), h("div", { class: "choices" }, ...choices, close));

@@ -1,14 +1,20 @@
 // The controls of an attribute, by the types of its arguments.
 
-import { fill, h } from "../dom";
+import { fill, h, inCode } from "../dom";
 import type { Argument, Field, NumberControl, Variant } from "./messages";
 import { digits, flagsOf, hexOf, least, quoted, unquoted, valuesOf, withValue, words } from "./values";
 
 /** Called with the words that are to stand behind the attribute; with null it is to be taken away. */
 export type Sending = (value: string | null) => void;
 
+/** Text without the signs of code, for places that hold nothing but text. */
+const plain = (text: string): string => text.replaceAll("`", "");
+
 /** A key that is held down makes one change, this long after it is let go, in milliseconds. */
 const PAUSE = 350;
+
+/** What a slider says that was moved by keys, once its number is sent. */
+export const SETTLED = "settled";
 
 /** The controls of a field. */
 export function fieldControls(field: Field, send: Sending): HTMLElement[] {
@@ -50,7 +56,7 @@ function switchOf(field: Field, flag: Field["flags"][number], send: Sending): HT
     const variant = field.variants[field.chosen ?? 0];
     if (variant) send(words(field, variant, valuesOf(variant), on));
   });
-  return h("label", { class: "switch" }, box, h("span", {}, flag.summary));
+  return h("label", { class: "switch" }, box, h("span", {}, ...inCode(flag.summary)));
 }
 
 /** A list of the words that an attribute can begin with, and of the lists without one. */
@@ -58,7 +64,7 @@ function choose(field: Field, send: Sending, draw: (variant: Variant) => void): 
   const select = h("select", { class: "select", attributes: { "aria-label": `${field.attribute}: which`, "data-key": `${field.attribute} which` } });
   const title = ({ word, summary, arguments: all }: Variant): string => (word === null ? all.map(({ name }) => name).join(" and ") : summary === "" ? word : `${word} — ${summary}`);
   const nothing = field.value === null ? [h("option", { attributes: { value: "" } }, `(${field.default})`)] : [];
-  fill(select, ...nothing, ...field.variants.map((variant, at) => h("option", { attributes: { value: String(at) } }, title(variant))));
+  fill(select, ...nothing, ...field.variants.map((variant, at) => h("option", { attributes: { value: String(at) } }, plain(title(variant)))));
   select.value = field.chosen === null ? "" : String(field.chosen);
   select.addEventListener("change", () => {
     const variant = field.variants[Number(select.value)];
@@ -77,10 +83,10 @@ function control(field: Field, variant: Variant, argument: Argument, at: number,
   const key = `${field.attribute} ${variant.word ?? ""} ${at}`;
   const { takes } = argument;
   const head = h("span", { class: "argument-name", title: argument.summary }, argument.name);
-  const note = h("span", { class: "muted argument-note" }, argument.summary);
+  const note = h("span", { class: "muted argument-note" }, ...inCode(argument.summary));
   if (takes.type === "number") return h("div", { class: "argument" }, head, ...slider(takes, argument, label, key, set), note);
   if (takes.type === "choice") {
-    const select = h("select", { class: "select", attributes: { "aria-label": label, "data-key": key } }, ...takes.words.map(([word, summary]) => h("option", { attributes: { value: word } }, `${word} — ${summary}`)));
+    const select = h("select", { class: "select", attributes: { "aria-label": label, "data-key": key } }, ...takes.words.map(([word, summary]) => h("option", { attributes: { value: word } }, plain(`${word} — ${summary}`))));
     select.value = argument.value ?? "";
     select.addEventListener("change", () => set(select.value));
     return h("div", { class: "argument" }, head, select, note);
@@ -117,7 +123,11 @@ function slider(takes: NumberControl, argument: Argument, label: string, key: st
   let byKey = false;
   const later = (value: string): void => {
     clearTimeout(timer);
-    timer = setTimeout(() => commit(value), PAUSE);
+    timer = setTimeout(() => {
+      timer = undefined;
+      commit(value);
+      range.dispatchEvent(new Event(SETTLED, { bubbles: true }));
+    }, PAUSE);
   };
   const flush = (): void => {
     clearTimeout(timer);
@@ -151,10 +161,10 @@ function slider(takes: NumberControl, argument: Argument, label: string, key: st
 /** A swatch, which opens the browser's picker, and the colour as text. */
 function color(field: Field, send: Sending): HTMLElement {
   const now = field.value === null ? null : hexOf(field.value);
-  const swatch = h("input", { class: "color-field", attributes: { type: "color", "aria-label": "Color: swatch", "data-key": "Color swatch" } });
+  const swatch = h("input", { class: "color-field", attributes: { type: "color", "aria-label": `${field.attribute}: swatch`, "data-key": `${field.attribute} swatch` } });
   swatch.value = now?.hex ?? "#808080";
   swatch.addEventListener("change", () => send(`${swatch.value}${now?.opacity ?? ""}`));
-  const text = h("input", { class: "text-field", attributes: { type: "text", "aria-label": "Color: as text", "data-key": "Color text", spellcheck: "false" } });
+  const text = h("input", { class: "text-field", attributes: { type: "text", "aria-label": `${field.attribute}: as text`, "data-key": `${field.attribute} text`, spellcheck: "false" } });
   text.value = field.from === "builtin" ? (now?.hex ?? "") : (field.value ?? "");
   text.addEventListener("change", () => send(text.value.trim() === "" ? null : text.value.trim()));
   return h("div", { class: "argument color" }, swatch, text);

@@ -18,6 +18,8 @@ export class Editing {
   /** Shows the field for the name of the selected part; set by the page. */
   rename: () => void = () => {};
   private readonly listeners = new Map<EditingTopic, (() => void)[]>();
+  /** New names of parts, which the page has not seen in a build yet. */
+  private readonly names = new Map<string, string>();
   /** Changes are made one after the other. */
   private last: Promise<unknown> = Promise.resolve();
 
@@ -27,6 +29,7 @@ export class Editing {
       this.notify("mode");
     });
     state.on("current", () => this.clear());
+    state.on("build", () => this.names.clear());
     state.on("selection", () => {
       if (this.refusal) this.clear();
     });
@@ -73,16 +76,23 @@ export class Editing {
   }
 
   /** Makes a change; `true` if it was made. The part that it is about stays selected, also under another name. */
-  async make(change: Change | unknown): Promise<boolean> {
-    return this.send({ make: change });
+  async make(change: Change): Promise<boolean> {
+    return this.send(() => ({ make: { ...change, part: this.names.get(change.part) ?? change.part } }), (part) => {
+      if (change.change === "name" && part !== null) this.names.set(change.part, part);
+    });
+  }
+
+  /** Makes a change that the program has offered. */
+  async choose(change: unknown): Promise<boolean> {
+    return this.send(() => ({ make: change }));
   }
 
   undo(): void {
-    if (this.undoes !== null) void this.send("undo");
+    if (this.undoes !== null) void this.send(() => "undo");
   }
 
   redo(): void {
-    if (this.redoes !== null) void this.send("redo");
+    if (this.redoes !== null) void this.send(() => "redo");
   }
 
   /** What can be changed about a part; null if nothing can. */
@@ -110,13 +120,13 @@ export class Editing {
     return this.state.picker !== null;
   }
 
-  private send(what: unknown): Promise<boolean> {
-    const sent = this.last.then(() => this.sendNow(what));
+  private send(what: () => unknown, done: (part: string | null) => void = () => {}): Promise<boolean> {
+    const sent = this.last.then(() => this.sendNow(what(), done));
     this.last = sent;
     return sent;
   }
 
-  private async sendNow(what: unknown): Promise<boolean> {
+  private async sendNow(what: unknown, done: (part: string | null) => void): Promise<boolean> {
     const { current, key, drawing } = this.state;
     if (!this.on || current === null || key === null || !this.host.post) return false;
     this.busy = true;
@@ -128,6 +138,7 @@ export class Editing {
     if (answer.ok) {
       this.said = "Saved";
       const part = (answer.body as { part?: unknown } | null)?.part;
+      done(typeof part === "string" ? part : null);
       if (typeof part === "string" && current === this.state.current) this.state.select(part);
     } else {
       this.said = "";

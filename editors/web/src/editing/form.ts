@@ -1,9 +1,9 @@
 // The form of the selected part: its name, its parent and its attributes. What is changed here is sent at once.
 
 import { MousePointerClick, RotateCcw } from "lucide";
-import { button, fill, h, icon } from "../dom";
+import { button, fill, h, icon, inCode } from "../dom";
 import type { State } from "../state";
-import { fieldControls, type Sending } from "./controls";
+import { fieldControls, SETTLED, type Sending } from "./controls";
 import type { Editing } from "./editing";
 import type { Field, PartForm } from "./messages";
 
@@ -19,6 +19,8 @@ export class FormPanel {
   private asked = 0;
   /** Whether something is being typed or dragged; then the form is not drawn again. */
   private held = false;
+  /** Whether the name gets the focus as soon as it is there. */
+  private names = false;
   private late = false;
   /** Fields that a person opened. */
   private readonly opened = new Set<string>();
@@ -30,7 +32,9 @@ export class FormPanel {
       if (target instanceof HTMLInputElement && target.type !== "checkbox") this.held = true;
     });
     this.element.addEventListener("change", () => this.release());
-    this.element.addEventListener("focusout", () => this.release());
+    this.element.addEventListener(SETTLED, () => this.release());
+    // Only when the focus is where it goes can it stay there.
+    this.element.addEventListener("focusout", () => void setTimeout(() => this.release()));
     this.element.addEventListener("keydown", (event) => {
       const { target } = event;
       // What was typed, and not sent, is given up.
@@ -47,7 +51,7 @@ export class FormPanel {
     });
     editing.listen(["picking"], () => this.draw());
     state.on(["selection", "current"], () => {
-      this.held = false;
+      this.held = this.names = false;
       this.load();
     });
     state.on("build", (drawing) => {
@@ -57,8 +61,8 @@ export class FormPanel {
 
   /** Goes to the name of the part. */
   rename(): void {
-    this.name.focus();
-    this.name.select();
+    this.names = true;
+    this.draw();
   }
 
   private release(): void {
@@ -100,6 +104,11 @@ export class FormPanel {
       ...rest.map((field) => this.folded(form, field)),
       form.node && this.leaving(form),
     );
+    if (this.names && form.node && form.part === this.state.selected) {
+      this.names = false;
+      this.name.focus();
+      return this.name.select();
+    }
     if (key === undefined) return;
     const again = [...this.element.querySelectorAll<HTMLElement>("[data-key]")].find((one) => one.dataset["key"] === key);
     again?.focus({ preventScroll: true });
@@ -147,7 +156,7 @@ export class FormPanel {
     const open = field.from === "own" || this.opened.has(field.attribute);
     const value = field.value === null ? "" : field.value || "on";
     const details = h("details", { class: "field", attributes: { "data-attribute": field.attribute, open } });
-    const summary = h("summary", { class: "field-head", attributes: { "data-key": field.attribute } }, h("span", { class: "field-name" }, field.attribute), h("span", { class: "field-value muted" }, value || field.summary));
+    const summary = h("summary", { class: "field-head", attributes: { "data-key": field.attribute } }, h("span", { class: "field-name" }, field.attribute), h("span", { class: "field-value muted" }, value || field.summary.replaceAll("`", "")));
     details.addEventListener("toggle", () => {
       if (details.open) this.opened.add(field.attribute);
       else this.opened.delete(field.attribute);
@@ -168,7 +177,7 @@ export class FormPanel {
   private inside(form: PartForm, field: Field): HTMLElement[] {
     const send: Sending = (value) => void this.editing.make(value === null ? { change: "reset", part: form.part, attribute: field.attribute } : { change: "set", part: form.part, attribute: field.attribute, value });
     const shared = field.shared.length > 0 ? [h("p", { class: "muted field-note" }, `Shared with ${named(field.shared)}.`)] : [];
-    return [h("p", { class: "muted field-note" }, sentence(field.summary)), ...shared, ...fieldControls(field, send)];
+    return [h("p", { class: "muted field-note" }, ...inCode(sentence(field.summary))), ...shared, ...fieldControls(field, send)];
   }
 }
 
