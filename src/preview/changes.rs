@@ -18,7 +18,7 @@ use super::hub::Hub;
 use super::server::Shared;
 use super::starters::random_key;
 use crate::ide::changes::{Change, Choice, Refusal};
-use crate::watch::{Action, Editor, NotChanged};
+use crate::watch::{Action, Done, Editor, NotChanged};
 
 /// The longest request, in bytes.
 const MAX_REQUEST: usize = 64 << 10;
@@ -72,13 +72,6 @@ struct ToShow {
     part: String,
 }
 
-/// What was done.
-#[derive(Debug, Serialize)]
-struct Done {
-    /// The name of the part that it was about, as it is now.
-    part: Option<String>,
-}
-
 /// Why something was not done, and what could be done instead.
 #[derive(Debug, Serialize)]
 struct Refused {
@@ -102,8 +95,8 @@ pub(super) async fn change(
         ToDo::Redo => Action::Redo,
     };
     answered(move || {
-        let part = shared.hub.act(&asked.drawing, asked.revision, &action)?;
-        Ok(Done { part })
+        let Done { part, note } = shared.hub.act(&asked.drawing, asked.revision, &action)?;
+        Ok(serde_json::json!({ "part": part, "note": note }))
     })
     .await
 }

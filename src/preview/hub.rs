@@ -18,7 +18,7 @@ use crate::ide::changes::Refusal;
 use crate::render::{self, Options, PosedModel, write_png};
 use crate::report::{clips, everything};
 use crate::resolver::MemoryResolver;
-use crate::watch::{Action, BuildTimes, NotChanged, Steps};
+use crate::watch::{Action, BuildTimes, Done, NotChanged, Steps};
 
 /// How many texts of a drawing are kept: a page may still show an older build when somebody changes something there.
 const MAX_TEXTS: usize = 64;
@@ -333,16 +333,11 @@ impl Hub {
         });
     }
 
-    /// Does something to the file of a drawing; `revision` is the build that the page showed. Returns the part that it was about.
+    /// Does something to the file of a drawing; `revision` is the build that the page showed. Returns what was done.
     ///
     /// # Errors
     /// If that is not possible; then the file is as it was.
-    pub(super) fn act(
-        &self,
-        id: &str,
-        revision: u64,
-        action: &Action,
-    ) -> Result<Option<String>, NotChanged> {
+    pub(super) fn act(&self, id: &str, revision: u64, action: &Action) -> Result<Done, NotChanged> {
         let editing = self.editing_of(id)?;
         let shown = {
             let state = self.state();

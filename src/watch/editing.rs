@@ -69,6 +69,15 @@ fn unwritten(error: &WriteError) -> String {
     }
 }
 
+/// What was done to a drawing.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Done {
+    /// The part that it was about, by the name that it has now.
+    pub part: Option<String>,
+    /// What else has changed, as a sentence without a full stop.
+    pub note: Option<String>,
+}
+
 /// What can be undone and redone, in words.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Steps {
@@ -139,7 +148,7 @@ impl Editor {
     }
 
     /// Changes a drawing's file: reads it, makes the change in its text, compiles that, and writes it if nothing else has changed.
-    /// `shown` is the text for which the change was decided; `None` if that is not known any more. Returns the part that it was about.
+    /// `shown` is the text for which the change was decided; `None` if that is not known any more. Returns what was done.
     ///
     /// # Errors
     /// If the change is refused, or the file cannot be read or written, or has changed so that the change would mean something else.
@@ -149,15 +158,15 @@ impl Editor {
         path: &Path,
         action: &Action,
         shown: Option<&str>,
-    ) -> Result<Option<String>, NotChanged> {
+    ) -> Result<Done, NotChanged> {
         let mut drawings = self.drawings();
         let edited = drawings.entry(path.to_owned()).or_default();
         for _ in 0..TRIES {
             let before = self.settled(path, edited)?;
             let text = before.source();
-            let found = match action {
+            let (found, note) = match action {
                 Action::Make(change) => self.made(path, edited, &before, change, shown)?,
-                Action::Undo | Action::Redo => self.stepped(path, edited, &before, action)?,
+                Action::Undo | Action::Redo => (self.stepped(path, edited, &before, action)?, None),
             };
             let new: Arc<str> = applied(text, &found).into();
             if new != *text && !rewrite_if(path, text.as_bytes(), new.as_bytes())? {
@@ -180,14 +189,14 @@ impl Editor {
             if new != *text {
                 edited.know([text.clone(), new]);
             }
-            return Ok(part);
+            return Ok(Done { part, note });
         }
         Err(refused(
             "another program writes the drawing at the moment: try again",
         ))
     }
 
-    /// The edits of a change that a person made.
+    /// The edits of a change that a person made, and what else it does.
     fn made(
         &self,
         path: &Path,
@@ -195,7 +204,7 @@ impl Editor {
         before: &Analysis,
         change: &Change,
         shown: Option<&str>,
-    ) -> Result<Vec<Edit>, NotChanged> {
+    ) -> Result<(Vec<Edit>, Option<String>), NotChanged> {
         let shown = shown.ok_or_else(|| {
             Refusal::without_choice(
                 "the drawing has changed too often since: look at it again, and try once more",
@@ -212,10 +221,11 @@ impl Editor {
         let new = applied(text, &found);
         if new != **text {
             let after = self.compiled(path, edited, &new);
-            check(before, &after, change)?;
+            let note = check(before, &after, change)?;
             edited.last = Some(after);
+            return Ok((found, note));
         }
-        Ok(found)
+        Ok((found, None))
     }
 
     /// The edits that undo or redo a step. A step that does not fit any more is forgotten, so that those before it can be undone.

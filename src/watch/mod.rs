@@ -15,7 +15,7 @@ use std::time::{Duration, Instant, SystemTime};
 use crate::compile::{Compiled, TOLERANCE};
 use crate::disk::{ChangeDetection, FolderWatch, WatchError};
 use crate::export::{Exporter, GLB, Model};
-pub(crate) use editing::{Action, Editor, NotChanged, Steps};
+pub(crate) use editing::{Action, Done, Editor, NotChanged, Steps};
 use watcher::Watcher;
 
 /// How drawings are read.

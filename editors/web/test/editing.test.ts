@@ -8,9 +8,9 @@ import { join } from "node:path";
 import { after, test } from "node:test";
 import type { AxeResults } from "axe-core";
 import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
-import { CHROMIUM, launch, open, overlaps, picture, project, shown, still } from "./browser";
+import { CHROMIUM, launch, open, OUT, overlaps, picture, project, shown, still } from "./browser";
 import { closeAll, closing, PATIENCE, preview, TEST_LIMIT } from "./closing";
-import { FIGURE, source } from "./setup";
+import { example, FIGURE, source } from "./setup";
 
 const okoshi = process.env["OKOSHI"] ?? "";
 const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
@@ -272,6 +272,52 @@ edit("a double click in the model goes to the name, while it is edited", async (
   await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Name");
   assert.equal(await edited.label("Name").inputValue(), "Body");
 });
+
+edit("a drawing without a string becomes a figure, and nobody writes one", async (edited) => {
+  const { page } = edited;
+  const shot = async (name: string): Promise<void> => {
+    await page.mouse.move(5, 5);
+    await still(page);
+    await picture(page, name);
+    if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) copyFileSync(join(OUT, `${name}.png`), join("..", "..", "docs", "without-strings", `${name}.png`));
+  };
+  await page.getByRole("button", { name: "Edit" }).click();
+  const automatic = page.locator(".tree-item.automatic.main").first();
+  for (const name of ["Body", "Left arm", "Right arm", "Head"]) {
+    await automatic.click();
+    await page.keyboard.press("F2");
+    await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Name");
+    await page.keyboard.type(name);
+    if (name === "Left arm") await shot("1-name");
+    await page.keyboard.press("Enter");
+    await page.locator(`[data-part="${name}"][aria-selected=true]`).waitFor();
+  }
+  for (const name of ["Left arm", "Right arm", "Head"]) {
+    await edited.select(name);
+    const hangs = edited.label("Hangs on");
+    if ((await hangs.inputValue()) !== "@Body") {
+      await hangs.selectOption("@Body");
+      await page.getByText("Saved").waitFor();
+    }
+    await page.locator(`[data-part="${name}"][aria-level="2"]`).waitFor();
+  }
+  await edited.select("Body");
+  await edited.label("Color: swatch").fill("#2f7fc1");
+  await page.waitForFunction(() => document.querySelector<HTMLInputElement>('[aria-label="Color: as text"]')?.value === "#2f7fc1");
+  await shot("2-colour");
+  const text = edited.text();
+  await edited.label("Shape: which").selectOption("1");
+  const choice = page.getByRole("button", { name: /^Give Body this Shape/ });
+  await choice.waitFor();
+  assert.equal(edited.text(), text, "it is asked before");
+  await shot("3-question");
+  await choice.click();
+  await page.getByRole("button", { name: "Reset Shape" }).waitFor();
+  assert.match(edited.text(), /Shape roundv/);
+  await page.keyboard.press("Control+z");
+  await edited.has(text, "undone");
+  assert.equal(await page.locator(".finding .badge.error").count(), 0);
+}, { drawing: example(join("tutorial", "2-arms")), viewport: { width: 1060, height: 720 } });
 
 for (const colorScheme of ["light", "dark"] as const) {
   for (const [name, options] of [["desktop", { viewport: { width: 1400, height: 900 } }], ["phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]] as const) {

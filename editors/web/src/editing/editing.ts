@@ -136,8 +136,8 @@ export class Editing {
     const answer = await this.host.post("changes", key, request).catch(() => ({ ok: false, body: null }));
     this.busy = false;
     if (answer.ok) {
-      this.said = "Saved";
-      const part = (answer.body as { part?: unknown } | null)?.part;
+      const { part, note } = (answer.body ?? {}) as { part?: unknown; note?: unknown };
+      this.said = typeof note === "string" ? `Saved. ${note}` : "Saved";
       done(typeof part === "string" ? part : null);
       if (typeof part === "string" && current === this.state.current) this.state.select(part);
     } else {
