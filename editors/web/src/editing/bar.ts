@@ -43,6 +43,7 @@ export class EditBar {
     const { editing, state } = this;
     if (editing.isPicking) return `Click what ${state.selected ?? "it"} hangs on. Esc: give up`;
     if (editing.busy) return "Saving…";
+    if (editing.refusal) return "Nothing was changed";
     if (editing.said !== "") return editing.said;
     return state.selected === null ? "Click a part to change it" : "Changes are saved in the drawing";
   }

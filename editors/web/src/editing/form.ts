@@ -92,7 +92,8 @@ export class FormPanel {
     if (!form) return void fill(this.element);
     const active = document.activeElement;
     const key = active instanceof HTMLElement && this.element.contains(active) ? active.dataset["key"] : undefined;
-    const selection = active === this.name ? ([this.name.selectionStart, this.name.selectionEnd] as const) : null;
+    // All that was selected stays so, also if the text is another one now.
+    const selected = active instanceof HTMLInputElement && active.type === "text" && active.value !== "" && active.selectionStart === 0 && active.selectionEnd === active.value.length;
     const isFirst = (field: Field): boolean => FIRST.includes(field.attribute);
     const rest = form.fields.filter((field) => !isFirst(field));
     const first = FIRST.flatMap((attribute) => form.fields.filter((field) => field.attribute === attribute));
@@ -112,7 +113,7 @@ export class FormPanel {
     if (key === undefined) return;
     const again = [...this.element.querySelectorAll<HTMLElement>("[data-key]")].find((one) => one.dataset["key"] === key);
     again?.focus({ preventScroll: true });
-    if (selection) this.name.setSelectionRange(...selection);
+    if (selected && again instanceof HTMLInputElement) again.select();
   }
 
   private naming(form: PartForm): HTMLElement {

@@ -36,7 +36,6 @@ export class Toolbar {
       group("Projection", layers, parallel),
       group("Shading", ...shadings.map(([, element]) => element)),
       group("Pose", pose, commands.recordPuppet && button({ icon: Video, label: "Record a puppet", key: "R", press: () => commands.recordPuppet?.() })),
-      group("Edit", edit),
       h("span", { class: "spring" }),
       group(
         "Export",
@@ -46,7 +45,7 @@ export class Toolbar {
         button({ icon: CircleQuestionMark, label: "Help", key: "?", press: () => commands.help() }),
       ),
     ]);
-    const bar = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } }, group("Views", ...views, button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() })), folded, opener);
+    const bar = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } }, group("Views", ...views, button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() })), group("Edit", edit), folded, opener);
     fill(this.element, bar);
     const follow = (): void => {
       for (const [shading, element] of shadings) element.setAttribute("aria-pressed", String(viewer.shading === shading));
