@@ -280,7 +280,9 @@ fn made(drawing: &Drawing, change: &Change, counts: &mut Counts) -> Option<(Stri
                 format!("{place} changes more: {differs:?}")
             });
         }
-        let now = new.bindings.resolved(&new.drawing, PartId::from(but.0));
+        // With the first `Shape`, lines may be parts no longer.
+        let place = changed(new, change).map_or(but.0, |(index, _)| index);
+        let now = new.bindings.resolved(&new.drawing, PartId::from(place));
         let now = now.into_iter().find(|one| one.keyword == but.1);
         match change {
             Change::Set { value, .. } => {

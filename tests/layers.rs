@@ -255,6 +255,7 @@ const USES: &[(&str, &[&str])] = &[
             "compile",
             "diagnostic",
             "export",
+            "ide",
             "mark_tracks",
             "render",
             "report",
@@ -358,7 +359,18 @@ const USES: &[(&str, &[&str])] = &[
     ("texture", &["scene"]),
     ("threads", &["crash"]),
     ("tracking", &["mark_tracks", "regions"]),
-    ("watch", &["compile", "disk", "export", "memo", "resolver"]),
+    (
+        "watch",
+        &[
+            "compile",
+            "diagnostic",
+            "disk",
+            "export",
+            "ide",
+            "memo",
+            "resolver",
+        ],
+    ),
 ];
 
 /// Steps inside of modules, in their order: each may use those before it.

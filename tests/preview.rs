@@ -5,17 +5,16 @@
 mod common;
 
 use std::fs;
-use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::path::Path;
 
 use common::live::Live;
+use common::pages::{Socket, asked, got, heard, page, port_of, say, served, socket};
 use common::patience::{PATIENCE, wait_until};
 use common::program::Room;
 use serde_json::Value;
 use tungstenite::client::IntoClientRequest;
-use tungstenite::stream::MaybeTlsStream;
-use tungstenite::{Message, WebSocket, connect};
+use tungstenite::{Message, connect};
 
 const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
   <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
@@ -23,91 +22,10 @@ const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" he
 </svg>
 "##;
 
-/// A page of a drawing, and its port.
-fn served(folder: &Path, target: &str) -> (Live, u16) {
-    // On any free port.
-    let live = Live::start(folder, &["preview", target]);
-    let port = port_of(&live);
-    (live, port)
-}
-
-/// The port of a server that was started, once it watches.
-fn port_of(live: &Live) -> u16 {
-    // Drawings are watched, or waited for.
-    let [address, _] = live.lines(["http://127.0.0.1:", "press Ctrl-C to stop"]);
-    let port = address.rsplit_once("127.0.0.1:").map(|(_, rest)| rest);
-    let port = port.and_then(|port| port.trim_end_matches('/').parse().ok());
-    port.expect("a port")
-}
-
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("a.svg"), DRAWING).expect("written");
     folder
-}
-
-/// The status and the body of the answer to a raw request.
-fn asked(port: u16, request: &str) -> (u16, Vec<u8>) {
-    let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("connected");
-    stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
-    let request = request
-        .replace('\n', "\r\n")
-        .replace("PORT", &port.to_string());
-    stream.write_all(request.as_bytes()).expect("sent");
-    let mut answer = Vec::new();
-    let _ = stream.read_to_end(&mut answer);
-    let head = answer.windows(4).position(|bytes| bytes == b"\r\n\r\n");
-    let text = String::from_utf8_lossy(&answer).into_owned();
-    let status = text
-        .split(' ')
-        .nth(1)
-        .and_then(|status| status.parse().ok());
-    let body = head.map_or_else(Vec::new, |head| answer[head + 4..].to_vec());
-    (status.unwrap_or(0), body)
-}
-
-fn got(port: u16, path: &str) -> (u16, Vec<u8>) {
-    asked(
-        port,
-        &format!("GET {path} HTTP/1.1\nHost: 127.0.0.1:PORT\nConnection: close\n\n"),
-    )
-}
-
-type Socket = WebSocket<MaybeTlsStream<TcpStream>>;
-
-/// A page's web socket, with an origin.
-fn socket(port: u16, origin: Option<&str>) -> tungstenite::Result<Socket> {
-    let mut request = format!("ws://127.0.0.1:{port}/live").into_client_request()?;
-    if let Some(origin) = origin {
-        let origin = origin.parse().expect("an origin");
-        request.headers_mut().insert("origin", origin);
-    }
-    connect(request).map(|(socket, _)| socket)
-}
-
-/// The web socket of a page in a browser.
-fn page(port: u16) -> Socket {
-    socket(port, Some(&format!("http://127.0.0.1:{port}"))).expect("let in")
-}
-
-fn say(socket: &mut Socket, message: &Value) {
-    let text = Message::text(message.to_string());
-    socket.send(text).expect("sent");
-}
-
-/// The next message of a kind.
-fn heard(socket: &mut Socket, kind: &str) -> Value {
-    if let MaybeTlsStream::Plain(stream) = socket.get_ref() {
-        stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
-    }
-    loop {
-        if let Message::Text(text) = socket.read().expect("a message") {
-            let message: Value = serde_json::from_str(&text).expect("JSON");
-            if message["type"] == kind {
-                return message;
-            }
-        }
-    }
 }
 
 #[test]

@@ -24,7 +24,6 @@ mod vehicles;
 mod words;
 
 pub(crate) use crate::anatomy::Garment;
-#[cfg(test)]
 pub(crate) use attributes::plate_depth;
 pub(crate) use attributes::{
     Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,

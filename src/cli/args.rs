@@ -277,6 +277,9 @@ pub(super) struct Preview {
     /// A copy of the drawing as it is in an editor: shown until the drawing is saved, and again whenever the copy is written
     #[arg(long, value_name = "FILE")]
     pub(super) unsaved: Option<PathBuf>,
+    /// Change no file: the page has no Edit button
+    #[arg(long)]
+    pub(super) read_only: bool,
     #[command(flatten)]
     pub(super) noticing: Noticing,
     #[command(flatten)]

@@ -8,8 +8,8 @@ use super::new::starters;
 use super::watch::{describe_event, describe_shown, follow, options};
 use super::{Failure, Outcome};
 use crate::disk::{ReadError, write_new};
-use crate::preview::{Hub, Shown, Starters, bind, serve};
-use crate::watch::{Build, Event, Options};
+use crate::preview::{Editing, Hub, Shown, Starters, bind, serve};
+use crate::watch::{Build, Editor, Event, Options};
 
 /// Shows drawings on a live page until it is interrupted.
 pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failure> {
@@ -25,7 +25,16 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
         format!("port {port} is not available ({error}); choose another with --port, or leave --port out")
     })?;
     let url = bound.url();
+    let options = Options {
+        shows_incomplete: true,
+        unsaved: arguments.unsaved.clone(),
+        ..options(&arguments.reading, &arguments.noticing)
+    };
+    // Of a drawing that is open elsewhere, the program that has it open writes the file.
+    let is_read_only = arguments.read_only || arguments.unsaved.is_some();
+    let editing = (!is_read_only).then(|| Editing::new(Editor::new(options.clone())));
     let folder = path.is_dir().then(|| path.clone());
+    let folder = folder.filter(|_| !arguments.read_only);
     let offered = folder.map(|folder| {
         Starters::new(starters(), move |starter| {
             let drawing = folder.join(format!("{}.svg", starter.name));
@@ -33,7 +42,7 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
             written.map_err(|error| error.to_string())
         })
     });
-    let hub = Hub::new(|_, _| (), offered);
+    let hub = Hub::new(|_, _| (), offered, editing);
     let server = hub.clone();
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
@@ -47,11 +56,6 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
     {
         eprintln!("the browser cannot be opened ({error}); open {url} by hand");
     }
-    let options = Options {
-        shows_incomplete: true,
-        unsaved: arguments.unsaved.clone(),
-        ..options(&arguments.reading, &arguments.noticing)
-    };
     follow(std::slice::from_ref(path), &options, |event| {
         show(&hub, path, &event);
         match event {

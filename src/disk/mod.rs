@@ -24,7 +24,7 @@ pub use text::decode;
 pub(crate) use watch::{
     ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths, is_concerned,
 };
-pub(crate) use write::{WriteError, make_folder, write_new};
+pub(crate) use write::{WriteError, make_folder, rewrite_if, write_new};
 
 use std::path::Path;
 

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, Permissions};
-use std::io::{self, Seek as _};
+use std::io::{self, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, Once, PoisonError};
 use std::time::Duration;
@@ -82,6 +82,40 @@ impl Temporary {
         let named = self.named()?;
         named.persist(target).map_err(|error| error.error)?;
         Ok(())
+    }
+
+    /// Gives the file its name, in place of the file that has it, if that one holds these bytes. What another program has written there
+    /// in between keeps its name, or gets it back: then the answer is `false`.
+    ///
+    /// # Errors
+    /// If it cannot be renamed.
+    pub(super) fn replace_if(mut self, target: &Path, expected: &[u8]) -> io::Result<bool> {
+        let holds = |path: &Path, bytes: &[u8]| fs::read(path).is_ok_and(|found| found == bytes);
+        if !holds(target, expected) {
+            return Ok(false);
+        }
+        let mut content = vec![];
+        self.file().rewind()?;
+        self.file().read_to_end(&mut content)?;
+        let named = self.named()?;
+        if exchange(named.path(), target).is_err() {
+            // There is a moment between looking and renaming here.
+            if !holds(target, expected) {
+                return Ok(false);
+            }
+            named.persist(target).map_err(|error| error.error)?;
+            return Ok(true);
+        }
+        // Now the old file has the temporary name, and nobody else can find it.
+        if holds(named.path(), expected) {
+            return Ok(true);
+        }
+        exchange(named.path(), target)?;
+        if !holds(named.path(), &content) {
+            // It was saved once more meanwhile; the newest one stays.
+            exchange(named.path(), target)?;
+        }
+        Ok(false)
     }
 
     /// Gives the file its name, unless there is a file that has it.
@@ -228,6 +262,19 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
+/// Swaps the names of two files in one step.
+#[cfg(target_os = "linux")]
+fn exchange(one: &Path, other: &Path) -> io::Result<()> {
+    use rustix::fs::{CWD, RenameFlags};
+    let flags = RenameFlags::EXCHANGE;
+    Ok(rustix::fs::renameat_with(CWD, one, CWD, other, flags)?)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn exchange(_: &Path, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
 /// From now on, Ctrl-C and the signals that end a program remove the named temporary files first.
 fn remove_on_signals() {
     static ONCE: Once = Once::new();
@@ -323,6 +370,26 @@ mod tests {
                 .unwrap();
             drop(make(folder.path()));
             assert_eq!(names(folder.path()), ["a", "b"]);
+        }
+    }
+
+    #[test]
+    fn a_file_is_replaced_only_if_it_is_what_was_read() {
+        for make in [|folder: &Path| Temporary::new(folder).unwrap(), named] {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("a");
+            let replace = |expected: &str| {
+                let mut file = make(folder.path());
+                file.file().write_all(b"new").unwrap();
+                file.replace_if(&path, expected.as_bytes()).unwrap()
+            };
+            assert!(!replace("old"), "there is none");
+            fs::write(&path, "other").unwrap();
+            assert!(!replace("old"));
+            assert_eq!(fs::read_to_string(&path).unwrap(), "other");
+            assert!(replace("other"));
+            assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+            assert_eq!(names(folder.path()), ["a"]);
         }
     }
 

@@ -127,6 +127,35 @@ pub(super) fn write_atomic<T>(
     Ok(answer)
 }
 
+/// Writes a new version of a file that other programs write, too: completely or not at all, and only if it still holds what was read.
+/// Its permissions are kept, and symbolic links stay. `false` if it holds something else by now.
+///
+/// # Errors
+/// If the file cannot be written.
+pub(crate) fn rewrite_if(path: &Path, read: &[u8], content: &[u8]) -> Result<bool, WriteError> {
+    let failed = |source| failure(path, source);
+    let target = follow_links(path).map_err(failed)?;
+    let permissions = match fs::metadata(&target) {
+        Ok(metadata) if metadata.is_dir() => return Err(WriteError::Folder(path.to_owned())),
+        Ok(metadata) if !metadata.is_file() => {
+            return Err(failed(io::Error::other("it is no plain file")));
+        }
+        Ok(metadata) if metadata.permissions().readonly() => {
+            return Err(WriteError::Protected(path.to_owned()));
+        }
+        Ok(metadata) => metadata.permissions(),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
+        Err(error) => return Err(folder_failure(&target, path, error)),
+    };
+    let mut temporary =
+        Temporary::new(folder_of(&target)).map_err(|error| folder_failure(&target, path, error))?;
+    let mut file = Bounded::new(temporary.file());
+    file.write_all(content).map_err(failed)?;
+    let written = temporary.file().set_permissions(permissions);
+    written.map_err(failed)?;
+    temporary.replace_if(&target, read).map_err(failed)
+}
+
 /// A file in the folder of an output.
 ///
 /// # Errors

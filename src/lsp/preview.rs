@@ -85,7 +85,7 @@ impl Previews {
             });
         };
         // An editor begins drawings by itself.
-        let hub = Hub::new(show, None);
+        let hub = Hub::new(show, None, None);
         let previews = Arc::new(Self {
             hub,
             client,

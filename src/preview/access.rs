@@ -51,7 +51,8 @@ const HEADERS: [(HeaderName, &str); 6] = [
 
 /// Refuses requests that do not come from the page itself.
 pub(super) async fn control(State(hosts): State<Hosts>, request: Request, next: Next) -> Response {
-    let refusal = refusal(&hosts, request.method(), request.headers());
+    let (method, path) = (request.method(), request.uri().path());
+    let refusal = refusal(&hosts, method, path, request.headers());
     let mut response = match refusal {
         Some(refusal) => refusal.into_response(),
         None => next.run(request).await,
@@ -68,6 +69,7 @@ pub(super) async fn control(State(hosts): State<Hosts>, request: Request, next: 
 fn refusal(
     hosts: &Hosts,
     method: &Method,
+    path: &str,
     headers: &HeaderMap,
 ) -> Option<(StatusCode, &'static str)> {
     let text = |name: HeaderName| {
@@ -98,7 +100,15 @@ fn refusal(
     if !own_origin || !own_site {
         return Some((StatusCode::FORBIDDEN, "other pages may not read this one\n"));
     }
-    if !matches!(*method, Method::GET | Method::HEAD) {
+    // Browsers name the origin of whatever is not only read.
+    let is_posted = *method == Method::POST && super::server::POSTED.contains(&path);
+    if is_posted && !headers.contains_key(header::ORIGIN) {
+        return Some((
+            StatusCode::FORBIDDEN,
+            "only the page in a browser may change drawings\n",
+        ));
+    }
+    if !is_posted && !matches!(*method, Method::GET | Method::HEAD) {
         return Some((StatusCode::METHOD_NOT_ALLOWED, "this page is read-only\n"));
     }
     None
@@ -109,12 +119,41 @@ mod tests {
     use super::*;
 
     fn refused(headers: &[(&'static str, &str)]) -> bool {
+        answer(&Method::GET, "/", headers).is_some()
+    }
+
+    fn answer(method: &Method, path: &str, headers: &[(&'static str, &str)]) -> Option<u16> {
         let hosts = Hosts::of(([127, 0, 0, 1], 4173).into());
         let mut map = HeaderMap::new();
         for (name, value) in headers {
             map.append(*name, value.parse().unwrap());
         }
-        refusal(&hosts, &Method::GET, &map).is_some()
+        let refusal = refusal(&hosts, method, path, &map);
+        refusal.map(|(status, _)| status.as_u16())
+    }
+
+    #[test]
+    fn only_the_page_itself_sends_changes() {
+        let host = ("host", "127.0.0.1:4173");
+        let own = ("origin", "http://127.0.0.1:4173");
+        let post = |path, headers: &[_]| answer(&Method::POST, path, headers);
+        for path in ["/changes", "/forms"] {
+            assert_eq!(post(path, &[host, own]), None);
+            assert_eq!(post(path, &[host]), Some(403), "no origin");
+            assert_eq!(post(path, &[host, ("origin", "null")]), Some(403));
+            assert_eq!(
+                post(path, &[host, ("origin", "http://evil.example")]),
+                Some(403)
+            );
+            assert_eq!(
+                post(path, &[host, own, ("sec-fetch-site", "cross-site")]),
+                Some(403)
+            );
+            assert_eq!(post(path, &[("host", "evil.example"), own]), Some(403));
+            assert_eq!(answer(&Method::PUT, path, &[host, own]), Some(405));
+        }
+        assert_eq!(post("/live", &[host, own]), Some(405));
+        assert_eq!(post("/changes/", &[host, own]), Some(405));
     }
 
     #[test]

@@ -1,21 +1,29 @@
 //! The drawings that pages show, and their updates.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
+use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rustc_hash::FxHashMap;
 use serde_json::value::{RawValue, to_raw_value};
 use tokio::sync::{Semaphore, watch};
 
+use super::changes::Editing;
 use super::delta::delta;
 use super::message::{Build, Listed, PartOrKept, ToPage, findings};
 use super::starters::Starters;
 use crate::compile::Compiled;
 use crate::export::{self, GLB, Written};
+use crate::ide::changes::Refusal;
 use crate::render::{self, Options, PosedModel, write_png};
 use crate::report::{clips, everything};
 use crate::resolver::MemoryResolver;
-use crate::watch::BuildTimes;
+use crate::watch::{Action, BuildTimes, Done, NotChanged, Steps};
+
+/// How many texts of a drawing are kept: a page may still show an older build when somebody changes something there.
+const MAX_TEXTS: usize = 64;
+/// How many bytes they may have together, besides the last one.
+const MAX_TEXT_BYTES: usize = 16 << 20;
 
 /// The side of the thumbnails in the gallery, in pixels.
 const THUMBNAIL_SIZE: u32 = 320;
@@ -29,6 +37,8 @@ pub(crate) struct Hub {
     on_pick: Box<OnPick>,
     /// What pages offer while there are no drawings, if they may have some written.
     pub(super) starters: Option<Starters>,
+    /// What lets pages change drawings.
+    pub(super) editing: Option<Editing>,
     /// Thumbnails are drawn one at a time, so that they do not delay builds.
     pub(super) drawing_pictures: Semaphore,
 }
@@ -80,6 +90,10 @@ struct Entry {
     build: Option<StoredBuild>,
     gone: Option<u64>,
     light: (u64, Option<String>),
+    /// What can be undone and redone.
+    steps: (u64, Steps),
+    /// The last texts that were built, by their revisions, if pages may change the drawing.
+    texts: VecDeque<(u64, Arc<str>)>,
     /// The last two models: a page may still be about to fetch the older one.
     models: Vec<Arc<StoredModel>>,
     /// Whether a model of it without errors was shown.
@@ -133,6 +147,25 @@ impl StoredModel {
     }
 }
 
+impl Entry {
+    /// Keeps the text of the present revision, and lets old ones go.
+    fn keep_text(&mut self, text: &str) {
+        let text = match self.texts.back() {
+            Some((_, last)) if **last == *text => last.clone(),
+            _ => text.into(),
+        };
+        self.texts.push_back((self.revision, text));
+        let bytes = |texts: &VecDeque<(u64, Arc<str>)>| -> usize {
+            texts.iter().map(|(_, text)| text.len()).sum()
+        };
+        while self.texts.len() > MAX_TEXTS
+            || self.texts.len() > 1 && bytes(&self.texts) > MAX_TEXT_BYTES
+        {
+            self.texts.pop_front();
+        }
+    }
+}
+
 /// A small picture of a model in binary glTF, as PNG; `None` if it cannot be drawn.
 pub(super) fn thumbnail(model: &[u8]) -> Option<Bytes> {
     let model = render::read(model, &MemoryResolver::default()).ok()?;
@@ -169,10 +202,12 @@ pub(crate) struct Shown<'a> {
 }
 
 impl Hub {
-    /// A hub without drawings; `on_pick` is called when something is clicked on a page.
+    /// A hub without drawings; `on_pick` is called when something is clicked on a page. With `editing`, the ids of drawings are their
+    /// paths.
     pub(crate) fn new(
         on_pick: impl Fn(&str, Picked<'_>) + Send + Sync + 'static,
         starters: Option<Starters>,
+        editing: Option<Editing>,
     ) -> Arc<Self> {
         Arc::new(Self {
             // Who has got something has a time after 0, even if there is no drawing yet.
@@ -183,6 +218,7 @@ impl Hub {
             clock: watch::Sender::new(1),
             on_pick: Box::new(on_pick),
             starters,
+            editing,
             drawing_pictures: Semaphore::new(1),
         })
     }
@@ -209,6 +245,9 @@ impl Hub {
         let parts = parts.iter().flat_map(to_raw_value).collect::<Vec<_>>();
         let clips = to_raw_value(&clips(shown.compiled)).unwrap_or_default();
         let originals = shown.model.and_then(|_| originals(shown.compiled));
+        if let Some(editing) = &self.editing {
+            editing.editor.forget(Path::new(id));
+        }
         self.change(|state, now| {
             let number = state.models + 1;
             if !state.drawings.contains_key(id) {
@@ -219,6 +258,9 @@ impl Hub {
             entry.folder = folder.to_owned();
             entry.revision += 1;
             entry.gone = None;
+            if self.editing.is_some() {
+                entry.keep_text(shown.text);
+            }
             entry.was_good |= shown.model.is_some() && !shown.compiled.has_errors();
             if let Some((bytes, written)) = shown.model {
                 let is_equal = |last: &Arc<StoredModel>| {
@@ -289,6 +331,54 @@ impl Hub {
                 parts,
             });
         });
+    }
+
+    /// Does something to the file of a drawing; `revision` is the build that the page showed. Returns what was done.
+    ///
+    /// # Errors
+    /// If that is not possible; then the file is as it was.
+    pub(super) fn act(&self, id: &str, revision: u64, action: &Action) -> Result<Done, NotChanged> {
+        let editing = self.editing_of(id)?;
+        let shown = {
+            let state = self.state();
+            let mut texts = state
+                .drawings
+                .get(id)
+                .into_iter()
+                .flat_map(|entry| &entry.texts);
+            texts
+                .find(|(known, _)| *known == revision)
+                .map(|(_, text)| text.clone())
+        };
+        let path = Path::new(id);
+        let done = editing.editor.act(path, action, shown.as_deref());
+        let steps = editing.editor.steps(path);
+        self.change(|state, now| {
+            if let Some(entry) = state.drawings.get_mut(id)
+                && entry.steps.1 != steps
+            {
+                entry.steps = (now, steps);
+            }
+        });
+        done
+    }
+
+    /// What changes a drawing that is shown.
+    ///
+    /// # Errors
+    /// If it is not shown, or nothing may be changed.
+    pub(super) fn editing_of(&self, id: &str) -> Result<&Editing, NotChanged> {
+        let state = self.state();
+        let is_shown = state
+            .drawings
+            .get(id)
+            .is_some_and(|entry| entry.gone.is_none());
+        let editing = self.editing.as_ref().filter(|_| is_shown);
+        editing.ok_or_else(|| {
+            NotChanged::Refused(Refusal::without_choice(
+                "this drawing is not open here, or its file is missing",
+            ))
+        })
     }
 
     /// Reports that a drawing's file is gone; its last build stays.
@@ -385,6 +475,11 @@ impl Hub {
         {
             updates.push(json(&starters.message()));
         }
+        if let Some(editing) = &self.editing
+            && since == 0
+        {
+            updates.push(json(&ToPage::Editing { key: &editing.key }));
+        }
         if state.listed > since || since == 0 {
             let listed = drawings().map(|(id, entry)| Listed {
                 id,
@@ -406,6 +501,14 @@ impl Hub {
             }
             if entry.gone.is_some_and(|when| when > since) {
                 updates.push(json(&ToPage::Gone { drawing }));
+            }
+            let (when, steps) = &entry.steps;
+            if *when > since {
+                updates.push(json(&ToPage::Steps {
+                    drawing,
+                    undo: steps.undo.as_deref(),
+                    redo: steps.redo.as_deref(),
+                }));
             }
             let (when, part) = &entry.light;
             if *when > since {

@@ -31,6 +31,14 @@ pub(super) enum ToPage<'a> {
     /// Why the drawing that was chosen is not there.
     #[serde(rename = "unbegun")]
     NotBegun { why: &'a str },
+    /// The page may change drawings, with this key.
+    Editing { key: &'a str },
+    /// What can be undone and redone in a drawing, in words.
+    Steps {
+        drawing: &'a str,
+        undo: Option<&'a str>,
+        redo: Option<&'a str>,
+    },
     /// An editor's cursor is in the string of a part, or of none.
     Light {
         drawing: &'a str,

@@ -12,7 +12,7 @@ use axum::http::uri::PathAndQuery;
 use axum::http::{StatusCode, Uri, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
-use axum::routing::get;
+use axum::routing::{get, post};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
@@ -21,7 +21,7 @@ use tokio::sync::Semaphore;
 
 use super::access::{Hosts, control};
 use super::hub::Hub;
-use super::{camera, page, socket};
+use super::{camera, changes, page, socket};
 
 /// The port that is tried first, so that an open page finds the server again after a restart.
 const PORT: u16 = 4173;
@@ -37,6 +37,13 @@ const HEADER_TIMEOUT: Duration = Duration::from_secs(5);
 const CONNECTION_TIMEOUT: Duration = Duration::from_secs(300);
 /// How long to wait after the system refused a connection.
 const ACCEPT_RETRY_INTERVAL: Duration = Duration::from_millis(50);
+
+/// Where changes are sent to.
+const CHANGES: &str = "/changes";
+/// Where pages ask what can be changed.
+const FORMS: &str = "/forms";
+/// The addresses to which a page may send something other than a question.
+pub(super) const POSTED: [&str; 2] = [CHANGES, FORMS];
 
 /// A port to serve on.
 #[derive(Debug)]
@@ -124,6 +131,8 @@ fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
     let mut router = Router::new()
         .route("/live", get(socket::open))
         .route("/camera", get(camera::open))
+        .route(CHANGES, post(changes::change))
+        .route(FORMS, post(changes::form))
         .route("/builds/{file}", get(build))
         .route("/originals/{file}", get(originals))
         .route("/pictures/{file}", get(picture))

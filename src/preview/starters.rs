@@ -49,7 +49,7 @@ impl Starters {
             picture: OnceLock::new(),
         };
         Self {
-            key: [(); 2].map(|()| random()).concat(),
+            key: random_key(),
             offered: starters.into_iter().map(offer).collect(),
             begin: Box::new(begin),
         }
@@ -97,6 +97,11 @@ impl Starters {
         let offered = offered.ok_or_else(|| format!("there is no starter `{name}`"))?;
         (self.begin)(&offered.starter)
     }
+}
+
+/// A key that nobody can guess.
+pub(super) fn random_key() -> String {
+    [(); 2].map(|()| random()).concat()
 }
 
 /// Sixteen digits that nobody can guess: the standard library seeds its maps with them against collisions that are made on purpose.

@@ -4,6 +4,7 @@
 //! may come back. A drawing is built once per save, and only if it or a linked file differs from before.
 
 mod drawing;
+mod editing;
 mod source;
 mod watcher;
 
@@ -14,6 +15,7 @@ use std::time::{Duration, Instant, SystemTime};
 use crate::compile::{Compiled, TOLERANCE};
 use crate::disk::{ChangeDetection, FolderWatch, WatchError};
 use crate::export::{Exporter, GLB, Model};
+pub(crate) use editing::{Action, Done, Editor, NotChanged, Steps};
 use watcher::Watcher;
 
 /// How drawings are read.

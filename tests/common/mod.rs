@@ -9,6 +9,8 @@ pub(crate) mod editor;
 pub(crate) mod law;
 #[cfg(feature = "cli")]
 pub(crate) mod live;
+#[cfg(feature = "cli")]
+pub(crate) mod pages;
 pub(crate) mod patience;
 #[cfg(feature = "cli")]
 pub(crate) mod program;

@@ -1,5 +1,6 @@
 // The commands behind buttons and keys.
 
+import type { Editing } from "./editing/editing";
 import { partNode } from "./viewport/model";
 import { screenshot } from "./viewport/screenshot";
 import type { Host } from "./host/host";
@@ -13,6 +14,8 @@ const SHADINGS: readonly Shading[] = ["smooth", "flat", "wire", "edges"];
 export class Commands {
   private readonly listeners: (() => void)[] = [];
   pointer: Pointer | null = null;
+  /** Changes of the drawing; set by the page. */
+  editing: Editing | null = null;
   /** Opens the help; set by the page. */
   help: () => void = () => {};
   /** Opens the panel that records a puppet, where there are cameras; set by the page. */
@@ -49,6 +52,8 @@ export class Commands {
   /** Undoes one thing: a drag, a pose, the mode, the view of the layers, the selection. */
   escape(): void {
     if (this.pointer?.cancel()) return;
+    if (this.editing?.isPicking) return this.editing.pick(null);
+    if (this.editing?.refusal) return this.editing.clear();
     if (!this.viewer.pose.isEmpty) this.resetPose();
     else if (this.isPosing) this.togglePosing();
     else if (this.viewer.stack.isOn) this.viewer.stack.toggle();

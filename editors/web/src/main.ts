@@ -5,6 +5,9 @@ import { followAddress, openGallery } from "./address";
 import { CameraPanel } from "./camera/panel";
 import { Commands } from "./commands";
 import { h } from "./dom";
+import { EditBar } from "./editing/bar";
+import { Editing } from "./editing/editing";
+import { FormPanel } from "./editing/form";
 import { findHost } from "./host/host";
 import { Bar } from "./panels/bar";
 import { BendBar } from "./panels/bendbar";
@@ -32,6 +35,9 @@ function start(page: HTMLElement): void {
   const place = h("div", { class: "viewport" });
   const viewer = new Viewer(state, host, place);
   const commands = new Commands(viewer, state, host);
+  const editing = new Editing(state, host);
+  commands.editing = editing;
+  const form = new FormPanel(editing, state);
 
   const choose = (part: string): void => {
     state.select(part);
@@ -41,7 +47,7 @@ function start(page: HTMLElement): void {
     if (state.current !== null) host.send({ type: "pick", drawing: state.current, part });
   };
   const tree = new Tree(state, picked);
-  const inspector = new Inspector(state, viewer, commands, choose);
+  const inspector = new Inspector(state, viewer, commands, editing, form.element, choose);
   const findings = new Findings(state, {
     opening: host.showsFindings ? "byHand" : "byItself",
     go: ({ line, column }) => {
@@ -62,6 +68,21 @@ function start(page: HTMLElement): void {
   if (camera.isPossible) commands.recordPuppet = () => camera.toggle();
 
   const side = new Side(state, tree, inspector);
+  editing.rename = () => {
+    if (state.selected === null) return;
+    side.showPart();
+    form.rename();
+  };
+  editing.listen(["mode"], () => {
+    if (editing.isOn && state.selected !== null) side.showPart();
+  });
+  editing.listen(["picking"], () => place.classList.toggle("picking", editing.isPicking));
+  const byDoubleClick = (): void => {
+    if (editing.isOn) editing.rename();
+  };
+  viewer.canvas.addEventListener("dblclick", byDoubleClick);
+  tree.element.addEventListener("dblclick", byDoubleClick);
+  place.append(new EditBar(editing, state, viewer).element);
   place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer).element, findings.element, side.opener);
   const gallery = new Gallery(state, host);
   const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, side.element);

@@ -173,6 +173,8 @@ export type FromHost =
   | { readonly type: "gone"; readonly drawing: string }
   | ({ readonly type: "starters" } & Offer)
   | { readonly type: "unbegun"; readonly why: string }
+  | { readonly type: "editing"; readonly key: string }
+  | { readonly type: "steps"; readonly drawing: string; readonly undo: string | null; readonly redo: string | null }
   | { readonly type: "light"; readonly drawing: string; readonly part: string | null };
 
 export type ToHost =
@@ -234,6 +236,10 @@ export function read(data: unknown): FromHost | null {
       return { type: "light", drawing, part: textOrNull(raw["part"]) };
     case "starters":
       return { type: "starters", key: text(raw["key"]), starters: list(raw["starters"]).map(readStarter) };
+    case "editing":
+      return { type: "editing", key: text(raw["key"]) };
+    case "steps":
+      return { type: "steps", drawing, undo: textOrNull(raw["undo"]), redo: textOrNull(raw["redo"]) };
     case "unbegun":
       return { type: "unbegun", why: text(raw["why"]) };
     default:

@@ -40,6 +40,7 @@ export class Keys {
 export function listenToKeys(viewer: Viewer, commands: Commands, keys: Keys, places: Places, shows: () => boolean): void {
   const { view } = viewer;
   addEventListener("keydown", (event) => {
+    if (!event.defaultPrevented && shows() && steps(event)) return event.preventDefault();
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     const target = event.target instanceof Element ? event.target : null;
     // A field or an open dialog handles its own keys; buttons handle space and enter.
@@ -57,6 +58,18 @@ export function listenToKeys(viewer: Viewer, commands: Commands, keys: Keys, pla
     event.preventDefault();
     act();
   });
+
+  /** Undo and redo. While a text is being typed they are about that text. */
+  function steps({ key, ctrlKey, metaKey, altKey, shiftKey, target }: KeyboardEvent): boolean {
+    const { editing } = commands;
+    if (!editing?.isOn || !(ctrlKey || metaKey) || altKey) return false;
+    if (target instanceof HTMLInputElement && target.matches(":is([type=text], [type=number], [type=search])") && target.value !== target.defaultValue && !target.dataset["sent"]) return false;
+    const letter = key.toLowerCase();
+    if (letter === "z" && !shiftKey) editing.undo();
+    else if (letter === "y" || letter === "z") editing.redo();
+    else return false;
+    return true;
+  }
 
   /** Keys by their position on the keyboard, whatever Shift makes of them. */
   function byPlace({ code, shiftKey }: KeyboardEvent): Act {
@@ -99,6 +112,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, keys: Keys, pla
       j: () => clips.step(-1),
       k: () => clips.step(1),
       r: commands.recordPuppet,
+      w: commands.editing?.isPossible && (() => commands.editing?.toggle()),
+      F2: commands.editing?.isOn && (() => commands.editing?.rename()),
       c: () => clips.chart.toggle(),
       i: () => clips.performance.toggle(),
       o: () => clips.compare(),

@@ -4,11 +4,20 @@ import type { Link } from "./host/host";
 import { Parts } from "./parts";
 import type { Build, FromHost, Listed, Offer } from "./protocol";
 
+export interface Steps {
+  readonly undo: string | null;
+  readonly redo: string | null;
+}
+
+const NO_STEPS: Steps = { undo: null, redo: null };
+
 export interface Drawing extends Listed {
   readonly build: Build | null;
   readonly parts: Parts;
   /** Its file is missing at the moment. */
   readonly gone: boolean;
+  /** What can be undone and redone, in words. */
+  readonly steps: Steps;
   /** The connection that its build came from: addresses of models and pictures hold within one. */
   readonly connection: number;
 }
@@ -16,9 +25,9 @@ export interface Drawing extends Listed {
 /**
  * drawings: the list changed · build: that of the named drawing changed · current: another drawing, or none, is shown ·
  * starters: others are offered, or one was not begun · selection, hover: of another part · light: the editor's cursor moved to another part · hidden: parts were hidden or shown ·
- * link: the connection changed
+ * link: the connection changed · editing: the drawing may be changed from now on · steps: others can be undone or redone
  */
-export type Topic = "drawings" | "starters" | "build" | "current" | "selection" | "hover" | "light" | "hidden" | "link";
+export type Topic = "editing" | "steps" | "drawings" | "starters" | "build" | "current" | "selection" | "hover" | "light" | "hidden" | "link";
 
 const NO_PARTS = new Parts([]);
 
@@ -42,6 +51,10 @@ export class State {
   offer: Offer | null = null;
   /** Why the drawing that was chosen was not begun; empty if nothing is wrong. */
   refusal = "";
+  /** The host's key for changes; null if it takes none. */
+  key: string | null = null;
+  /** Gets the next part that is picked, in place of the selection. */
+  picker: ((part: string) => void) | null = null;
   /** Whether the host has sent its list of drawings. */
   known = false;
 
@@ -61,6 +74,10 @@ export class State {
     return this.current === null ? undefined : this.drawings.get(this.current);
   }
 
+  get steps(): Steps {
+    return this.drawing?.steps ?? NO_STEPS;
+  }
+
   get parts(): Parts {
     return this.drawing?.parts ?? NO_PARTS;
   }
@@ -76,7 +93,7 @@ export class State {
         this.drawings.clear();
         for (const listed of message.drawings) {
           const before = old.get(listed.id);
-          this.drawings.set(listed.id, { build: null, parts: NO_PARTS, gone: false, connection: 0, ...before, ...listed });
+          this.drawings.set(listed.id, { build: null, parts: NO_PARTS, gone: false, steps: NO_STEPS, connection: 0, ...before, ...listed });
         }
         this.known = true;
         return this.notify("drawings");
@@ -90,6 +107,14 @@ export class State {
       case "unbegun":
         this.refusal = message.why;
         return this.notify("starters");
+      case "editing":
+        this.key = message.key;
+        return this.notify("editing");
+      case "steps": {
+        const drawing = this.drawings.get(message.drawing);
+        if (drawing) this.drawings.set(message.drawing, { ...drawing, steps: { undo: message.undo, redo: message.redo } });
+        return this.notify("steps", message.drawing);
+      }
       case "gone":
         return this.change(message.drawing, { gone: true });
       case "light":
@@ -101,7 +126,12 @@ export class State {
 
   setLink(link: Link, note = ""): void {
     if (link === this.link && note === this.linkNote) return;
-    if (this.link === "open" && link !== "open") this.connection++;
+    if (this.link === "open" && link !== "open") {
+      this.connection++;
+      // The next program has a key and steps of its own.
+      this.key = null;
+      for (const [id, drawing] of this.drawings) this.drawings.set(id, { ...drawing, steps: NO_STEPS });
+    }
     this.link = link;
     this.linkNote = note;
     this.notify("link");
@@ -116,6 +146,7 @@ export class State {
   }
 
   select(name: string | null): void {
+    if (this.picker !== null && name !== null) return this.picker(name);
     if (name === this.selected) return;
     this.selected = name;
     this.notify("selection");

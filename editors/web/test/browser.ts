@@ -2,7 +2,7 @@
 
 import { accessSync, constants, existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import { chromium, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from "playwright-core";
 import { PNG } from "pngjs";
 import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { LAUNCH_LIMIT, PATIENCE, type Close } from "./closing";
@@ -31,10 +31,11 @@ export async function launch(more: readonly string[] = []): Promise<Browser> {
 }
 
 /** Opens a page, and registers its closing; errors, including violations of its policy, fail the test through `wrong`. */
-export async function open(browser: Browser, address: string, onClose: (close: Close) => void, options: BrowserContextOptions = {}): Promise<{ page: Page; wrong: string[] }> {
+export async function open(browser: Browser, address: string, onClose: (close: Close) => void, options: BrowserContextOptions = {}, prepare: (context: BrowserContext) => Promise<void> = async () => {}): Promise<{ page: Page; wrong: string[] }> {
   const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, reducedMotion: "reduce", ...options });
   onClose(() => context.close());
   context.setDefaultTimeout(PATIENCE);
+  await prepare(context);
   const page = await context.newPage();
   const wrong: string[] = [];
   page.on("pageerror", (error) => wrong.push(String(error)));

@@ -38,9 +38,9 @@ export function closing(t: Pick<TestContext, "after">): (close: Close) => void {
   return (close) => void open.push(close);
 }
 
-/** Starts `okoshi preview` in a folder. Returns its address. */
-export async function preview(okoshi: string, folder: string, target: string, onClose: (close: Close) => void): Promise<{ address: string; stop(): void }> {
-  const program = spawn(okoshi, ["preview", target, "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+/** Starts `okoshi preview` in a folder, with more arguments. Returns its address. */
+export async function preview(okoshi: string, folder: string, target: string, onClose: (close: Close) => void, more: readonly string[] = []): Promise<{ address: string; stop(): void }> {
+  const program = spawn(okoshi, ["preview", target, "--quiet", ...more], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
   const ended = new Promise<void>((resolve) => program.once("close", () => resolve()));
   onClose(() => stopped(program, ended));
   const address = new Promise<string>((found, failed) => {

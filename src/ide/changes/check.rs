@@ -4,13 +4,95 @@ use super::{Analysis, Change, Place, Refusal};
 use crate::bind::{Part, PartId, PartKind};
 use crate::diagnostic::Severity;
 use crate::lang::keyword::Keyword;
+use crate::svg::ShapeId;
 
 /// Compares a drawing before and after a change was made. A text that grows may come to mean another part, a first string changes
 /// what is built by rule, and an attribute may be wrong only beside others: then the change is refused.
 ///
+/// Nobody has said what parts without a string hang on: that is found by rule, from names and from what touches what. A name, or a
+/// parent that is said, may therefore hang others elsewhere; then the answer says so, as a sentence without a full stop.
+///
 /// # Errors
 /// If there are new errors, or something else has changed.
-pub fn check(before: &Analysis, after: &Analysis, change: &Change) -> Result<(), Refusal> {
+pub fn check(
+    before: &Analysis,
+    after: &Analysis,
+    change: &Change,
+) -> Result<Option<String>, Refusal> {
+    no_worse(before, after)?;
+    let (old, new) = (&before.bindings().parts, &after.bindings().parts);
+    if old.len() != new.len() && is_first_shape(before, change) {
+        // The person agreed to that.
+        return Ok(None);
+    }
+    if old.len() != new.len() {
+        return Err(Refusal::new(
+            "other shapes of the drawing would become parts, or no longer be: change it in the drawing",
+        ));
+    }
+    let mut moved = vec![];
+    for part in old.keys() {
+        let hangs_elsewhere = parent_of(before, &old[part]) != parent_of(after, &new[part]);
+        if hangs_elsewhere && is_hung_by_rule(&old[part], &new[part], change) {
+            moved.push(part);
+        }
+        let difference = compare(before, after, part, change);
+        if let Some(what) = difference {
+            let name = before.bindings().describe(before.drawing(), part);
+            return Err(Refusal::new(format!("{what} of {name} would change, too")));
+        }
+    }
+    Ok(match moved.as_slice() {
+        [] => None,
+        [one] => Some(format!(
+            "{} hangs elsewhere now, because nobody has said on what",
+            after.bindings().describe(after.drawing(), *one)
+        )),
+        many => Some(format!(
+            "{} parts hang elsewhere now, because nobody has said on what",
+            many.len()
+        )),
+    })
+}
+
+/// Whether a drawing gets its first `Shape`, after a person was told what that means for all others.
+fn is_first_shape(before: &Analysis, change: &Change) -> bool {
+    let is_agreed = matches!(
+        change,
+        Change::Set {
+            attribute: Keyword::Shape,
+            place: Place::Own,
+            ..
+        }
+    );
+    is_agreed && before.bindings().is_first_look
+}
+
+/// Whether a part has its parent by rule, and a change is one that such parents follow from.
+fn is_hung_by_rule(old: &Part, new: &Part, change: &Change) -> bool {
+    let by_rule = |part: &Part| part.string.is_none();
+    let is_followed = match change {
+        Change::Name { .. } => true,
+        Change::Hang { part, .. } => *part != old.name,
+        _ => false,
+    };
+    is_followed && by_rule(old) && by_rule(new)
+}
+
+/// The parent of a part, and its shape. A circle has no meaning to keep.
+fn parent_of(analysis: &Analysis, part: &Part) -> Option<(PartId, ShapeId)> {
+    let parent = part.parent?;
+    Some((parent, analysis.bindings().parts[parent].shape))
+}
+
+/// Whether a drawing can be read, and has no error that it did not have before.
+///
+/// # Errors
+/// If it has one.
+pub(crate) fn no_worse(before: &Analysis, after: &Analysis) -> Result<(), Refusal> {
+    if before.is_sound() && !after.is_sound() {
+        return Err(Refusal::new("the drawing could not be read any more"));
+    }
     let errors = |analysis: &Analysis| -> Vec<String> {
         let found = analysis.diagnostics().iter();
         let errors = found.filter(|found| found.severity() == Severity::Error);
@@ -22,19 +104,6 @@ pub fn check(before: &Analysis, after: &Analysis, change: &Change) -> Result<(),
     }
     if new.len() > old.len() {
         return Err(Refusal::new("there would be one more error"));
-    }
-    let (old, new) = (&before.bindings().parts, &after.bindings().parts);
-    if old.len() != new.len() {
-        return Err(Refusal::new(
-            "other shapes of the drawing would become parts, or no longer be: change it in the drawing",
-        ));
-    }
-    for part in old.keys() {
-        let difference = compare(before, after, part, change);
-        if let Some(what) = difference {
-            let name = before.bindings().describe(before.drawing(), part);
-            return Err(Refusal::new(format!("{what} of {name} would change, too")));
-        }
     }
     Ok(())
 }
@@ -60,11 +129,6 @@ fn compare(
     if !is_called_so(old, new, change) {
         return Some("the name");
     }
-    let parent = |analysis: &Analysis, part: &Part| {
-        // A circle has no meaning to keep.
-        part.parent
-            .map(|parent| (parent, analysis.bindings().parts[parent].shape))
-    };
     let hung = match change {
         Change::Hang { part, parent } if is_it(part) => {
             let found = new
@@ -72,7 +136,7 @@ fn compare(
                 .map(|parent| after.bindings().parts[parent].name.clone());
             return (found != *parent).then_some("the parent");
         }
-        _ => parent(before, old) == parent(after, new),
+        _ => parent_of(before, old) == parent_of(after, new) || is_hung_by_rule(old, new, change),
     };
     if !hung {
         return Some("the parent");

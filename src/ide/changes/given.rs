@@ -29,12 +29,18 @@ pub(in crate::ide) fn string_for(name: &str, parent: Option<&str>) -> String {
     string
 }
 
-/// The edit that names an element: its label if a person could have written that, else a description.
-fn label_or_string(source: &str, element: &Element, name: &str) -> Option<Edit> {
+/// The edit that names an element: its label if a person could have written that, else a description, in which the parent is said, too:
+/// what has a string hangs on what that says.
+fn label_or_string(
+    source: &str,
+    element: &Element,
+    name: &str,
+    parent: Option<&str>,
+) -> Option<Edit> {
     if written_by_a_person(name).as_deref() == Some(name) {
         return Some(label_edit(source, element.span, name));
     }
-    element.with_description(&as_description(string_for(name, None)))
+    element.with_description(&as_description(string_for(name, parent)))
 }
 
 impl Analysis {
@@ -50,6 +56,8 @@ impl Analysis {
         let is_called_so = |element: &Element| element.own_name() == found.name;
         match self.bindings().naming_element(self.drawing(), part) {
             Some(element) if is_called_so(element) => String::new(),
+            // With an automatic name written out, parts without a name would hang on it.
+            _ if found.is_automatic() => String::new(),
             _ => string_for(&found.name, None),
         }
     }
@@ -131,8 +139,11 @@ impl Analysis {
             .map_err(|refused| Refusal::new(refused.to_string()))?;
         if !is_named {
             let element = &self.drawing().shapes[part.shape].element;
-            let edit =
-                label_or_string(&self.source, element, &name).filter(|_| !self.is_copied(index));
+            let parent = part
+                .parent
+                .map(|parent| self.bindings().parts[parent].name.as_str());
+            let edit = label_or_string(&self.source, element, &name, parent)
+                .filter(|_| !self.is_copied(index));
             edits.push(edit.ok_or_else(|| {
                 Refusal::new(format!(
                     "`{old}` is a clone, or has a description already: name it in the drawing"

@@ -84,6 +84,16 @@ impl History {
         self.undone.last()
     }
 
+    /// Forgets the last step, because what it changed was changed elsewhere since.
+    pub fn forget_last(&mut self) {
+        self.done.pop();
+    }
+
+    /// Forgets the step that would be redone next, for the same reason.
+    pub fn forget_next(&mut self) {
+        self.undone.pop();
+    }
+
     /// Moves the last step to those that can be redone, after these edits of a text have undone it.
     pub fn undo(&mut self, now: &str, edits: &[Edit]) {
         if let Some(step) = self.done.pop() {

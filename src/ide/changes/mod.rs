@@ -5,14 +5,17 @@
 //! after: a change must do what it says, and nothing else.
 
 mod check;
+mod form;
 mod given;
 mod history;
+mod same;
 mod settings;
 mod strings;
 #[cfg(test)]
 mod tests;
 
 pub use check::check;
+pub(crate) use check::no_worse;
 pub use history::{History, Step, rebased};
 
 pub(super) use given::{as_description, string_for};
@@ -112,7 +115,50 @@ pub struct Choice {
     pub change: Change,
 }
 
+impl Change {
+    /// The part that it is about; `None` for a variable.
+    pub fn part(&self) -> Option<&str> {
+        match self {
+            Self::Set { part, .. }
+            | Self::Reset { part, .. }
+            | Self::Name { part, .. }
+            | Self::Hang { part, .. }
+            | Self::LeaveOut { part } => Some(part),
+            Self::Variable { .. } => None,
+        }
+    }
+
+    /// The same, by its name after the change.
+    pub fn part_after(&self) -> Option<String> {
+        match self {
+            Self::Name { name, .. } => crate::lang::quoting::read_name(name),
+            change => change.part().map(str::to_owned),
+        }
+    }
+
+    /// What it changes, for a list of steps: `Shape of Arm`.
+    pub fn title(&self) -> String {
+        match self {
+            Self::Set {
+                part, attribute, ..
+            }
+            | Self::Reset {
+                part, attribute, ..
+            } => format!("{} of {part}", attribute.name()),
+            Self::Name { name, .. } => format!("the name {name}"),
+            Self::Hang { part, .. } => format!("the parent of {part}"),
+            Self::LeaveOut { part } => format!("leaving out {part}"),
+            Self::Variable { name, .. } => format!("the number {name}"),
+        }
+    }
+}
+
 impl Refusal {
+    /// A refusal without anything that could be done instead.
+    pub fn without_choice(why: impl Into<String>) -> Self {
+        Self::new(why)
+    }
+
     fn new(why: impl Into<String>) -> Self {
         Self {
             why: why.into(),

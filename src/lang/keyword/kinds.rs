@@ -1,6 +1,6 @@
 //! The kinds of `Shape`.
 
-use super::signature::{Bounds, Form, Parameter, Restriction, Takes, number, parameter};
+use super::signature::{Bounds, Form, Parameter, Restriction, Takes, Usual, number, parameter};
 
 /// What the table says about a kind of `Shape`.
 #[derive(Debug)]
@@ -69,7 +69,7 @@ const Z1: Parameter = number(
 );
 const TOP: Parameter = number(
     "top",
-    Bounds::NOT_NEGATIVE,
+    Bounds::NOT_NEGATIVE.usually(Usual::Between(0., 1.)),
     "size at `z1` divided by the size at `z0`",
 );
 

@@ -1,6 +1,8 @@
 //! Rows of the table: motion, and figures on a stage.
 
-use super::signature::{Bounds, Form, Parameter, Restriction, Takes, choice, number, parameter};
+use super::signature::{
+    Bounds, Form, Parameter, Restriction, Takes, Usual, choice, number, parameter,
+};
 use super::{Allowed, Row, flag, vocabulary};
 
 const BVH: Parameter = parameter("file", Takes::File, "a file in the drawing's folder");
@@ -107,7 +109,7 @@ pub(super) static SWING: Row = Row {
     forms: &[Form::new(
         &[number(
             "stiffness",
-            Bounds::POSITIVE,
+            Bounds::POSITIVE.usually(Usual::Between(0.25, 8.)),
             "1 is like hair, 4 swings twice as fast",
         )],
         &[0, 1],

@@ -1,7 +1,7 @@
 //! Rows of the table: the shape, position and material of a part.
 
 use super::signature::{
-    Bounds, DISTANCE, Form, POINT, Parameter, Restriction, Takes, choice, number, parameter,
+    Bounds, DISTANCE, Form, POINT, Parameter, Restriction, Takes, Usual, choice, number, parameter,
 };
 use super::{Row, flag, vocabulary};
 
@@ -94,7 +94,7 @@ pub(super) static OFFSET: Row = Row {
 pub(super) static STACK: Row = Row {
     forms: &[Form::one(&number(
         "factor",
-        Bounds::NOT_NEGATIVE,
+        Bounds::NOT_NEGATIVE.usually(Usual::Between(0., 3.)),
         "0 is none, 1 is the usual distance",
     ))],
     default: "1",
@@ -126,7 +126,7 @@ pub(super) static ORIGIN: Row = Row {
 pub(super) static AXIS: Row = Row {
     forms: &[Form::one(&number(
         "degrees",
-        Bounds::ANY,
+        Bounds::ANY.usually(Usual::Between(-180., 180.)),
         "counter-clockwise from the drawing's right",
     ))],
     default: "the outline's long direction",
@@ -158,7 +158,7 @@ pub(super) static SIDE: Row = Row {
 pub(super) static SEGMENTS: Row = Row {
     forms: &[Form::one(&number(
         "n",
-        Bounds::new(1., 256., Restriction::Integer),
+        Bounds::new(1., 256., Restriction::Integer).usually(Usual::Between(2., 48.)),
         "steps per half turn",
     ))],
     default: "16",

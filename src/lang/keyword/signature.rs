@@ -62,6 +62,21 @@ pub struct Bounds {
     pub max: f64,
     /// What else holds for the numbers.
     pub restriction: Restriction,
+    /// Which of them people use: a slider is about these.
+    pub usual: Usual,
+}
+
+/// The numbers that people use.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Usual {
+    /// Those from one to another.
+    Between(f64, f64),
+    /// Lengths, drawing units: as far as the part is large, to both sides if there are numbers below 0.
+    Length,
+    /// From the left to the right of the page, drawing units.
+    Across,
+    /// From the top to the bottom of the page, drawing units.
+    Down,
 }
 
 /// Which numbers between two bounds are allowed.
@@ -95,7 +110,17 @@ impl Bounds {
             min,
             max,
             restriction,
+            usual: if min.is_finite() && max.is_finite() {
+                Usual::Between(min, max)
+            } else {
+                Usual::Length
+            },
         }
+    }
+
+    /// The same, of which people use these.
+    pub const fn usually(self, usual: Usual) -> Self {
+        Self { usual, ..self }
     }
 
     /// Whether `number` is allowed.
@@ -268,8 +293,16 @@ pub(super) const NO_ARGUMENTS: &[Form] = &[Form::new(&[], &[0])];
 
 /// A point of the drawing.
 pub(super) static POINT: [Parameter; 2] = [
-    number("x", Bounds::ANY, "to the right, in drawing units"),
-    number("y", Bounds::ANY, "down the page, in drawing units"),
+    number(
+        "x",
+        Bounds::ANY.usually(Usual::Across),
+        "to the right, in drawing units",
+    ),
+    number(
+        "y",
+        Bounds::ANY.usually(Usual::Down),
+        "down the page, in drawing units",
+    ),
 ];
 /// A depth.
 pub(super) static DISTANCE: [Parameter; 1] = [number(

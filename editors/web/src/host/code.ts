@@ -14,6 +14,8 @@ type Waiting = { readonly resolve: (bytes: ArrayBuffer) => void; readonly reject
 export class CodeHost implements Host {
   /** Webviews are not given cameras. */
   readonly openCamera = null;
+  /** The editor holds the text. */
+  readonly post = null;
   readonly showsFindings = true;
   /** Pending requests by address. */
   private readonly waiting = new Map<string, Waiting[]>();

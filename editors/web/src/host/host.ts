@@ -6,6 +6,12 @@ import { CodeHost, type CodeApi } from "./code";
 
 export type Link = "connecting" | "open" | "lost";
 
+/** An answer to a request, as JSON. */
+export interface Answer {
+  readonly ok: boolean;
+  readonly body: unknown;
+}
+
 export interface Host {
   /** Starts to report messages of the host and the state of the connection, with a note that explains it. */
   listen(handler: (message: FromHost) => void, link: (state: Link, note?: string) => void): void;
@@ -15,6 +21,8 @@ export interface Host {
   model(address: string): Promise<ArrayBuffer>;
   /** The address of a thumbnail, for an `<img>`. */
   picture(address: string): Promise<string>;
+  /** Asks for a change, or what can be changed, with the host's key; null where the page changes nothing. */
+  readonly post: ((what: "changes" | "forms", key: string, request: unknown) => Promise<Answer>) | null;
   /** Saves a file for the user. */
   save(name: string, content: Blob): Promise<void>;
   /** Whether the host is an editor that shows what is wrong with the drawing. */

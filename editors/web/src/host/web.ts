@@ -1,7 +1,7 @@
 // The host over HTTP: messages through a WebSocket, models and pictures by GET.
 
 import { Messages, type FromHost, type ToHost } from "../protocol";
-import type { Host, Link } from "./host";
+import type { Answer, Host, Link } from "./host";
 
 /** Delays between attempts to connect, in milliseconds. */
 const FIRST_PAUSE = 200;
@@ -62,6 +62,11 @@ export class WebHost implements Host {
     // The browser reads the blob after the click; it has started within a minute.
     setTimeout(() => URL.revokeObjectURL(address), 60_000);
   }
+
+  readonly post = async (what: "changes" | "forms", key: string, request: unknown): Promise<Answer> => {
+    const response = await fetch(what, { method: "POST", headers: { "content-type": "application/json", "okoshi-key": key }, body: JSON.stringify(request) });
+    return { ok: response.ok, body: await response.json().catch(() => null) };
+  };
 
   readonly openCamera = (): WebSocket => new WebSocket(socketAddress("camera"));
 

@@ -2,6 +2,7 @@
 
 import { Eye, EyeOff, Focus, ScanEye } from "lucide";
 import type { Commands } from "../commands";
+import type { Editing } from "../editing/editing";
 import { button, count, fill, h, icon, inCode } from "../dom";
 import { depthOf, depthReasonOf, isAside, withUndo } from "../parts";
 import type { ClipFacts, Part, Source } from "../protocol";
@@ -42,7 +43,7 @@ export class Inspector {
   private clip: string | undefined;
 
   /** `go` is called with parts that are clicked here. */
-  constructor(private readonly state: State, private readonly viewer: Viewer, commands: Commands, private readonly go: (part: string) => void) {
+  constructor(private readonly state: State, private readonly viewer: Viewer, commands: Commands, private readonly editing: Editing, form: HTMLElement, private readonly go: (part: string) => void) {
     this.hide = button({ icon: EyeOff, label: "Hide", key: "H", press: () => commands.hide() });
     fill(
       this.actions,
@@ -51,7 +52,8 @@ export class Inspector {
       button({ icon: ScanEye, label: "Show only this part", key: "Shift+H", press: () => commands.isolate() }),
     );
     // Head and buttons stay while the rest is drawn again, so that a pressed button keeps the focus.
-    fill(this.element, h("header", { class: "inspector-head" }, this.title, this.actions), this.body);
+    fill(this.element, h("header", { class: "inspector-head" }, this.title, this.actions), form, this.body);
+    editing.listen(["mode"], () => this.draw());
     state.on(["hidden", "selection"], () => this.followHidden());
     state.on(["selection", "current"], () => this.draw());
     state.on("build", (drawing) => {
@@ -88,7 +90,7 @@ export class Inspector {
       return fill(this.body, h("p", { class: "muted pad" }, "The drawing has no part of this name at the moment."));
     }
     fill(this.title, h("span", { class: "part-name" }, part.name), h("span", { class: "muted" }, KIND[part.kind]));
-    fill(this.body, this.string(part), this.facts(part), this.attributes(part));
+    fill(this.body, this.string(part), this.facts(part), !this.editing.isOn && this.attributes(part));
   }
 
   private followHidden(): void {

@@ -54,6 +54,11 @@ export class Side {
     this.tree.focusSearch();
   }
 
+  /** Shows the selected part, where there is room for it or the list. */
+  showPart(): void {
+    if (SMALL.matches) this.show("part");
+  }
+
   private show(tab: Tab): void {
     const wasOpen = this.open;
     this.choose(tab);

@@ -1,6 +1,6 @@
 // The buttons above the viewport.
 
-import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PersonStanding, Video } from "lucide";
+import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PencilLine, PersonStanding, Video } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
 import type { Shading } from "../viewport/model";
@@ -23,6 +23,7 @@ export class Toolbar {
     const parallel = h("button", { class: "button text", title: "Parallel projection (5)", attributes: { type: "button", "aria-keyshortcuts": "5" }, on: { click: () => commands.toggleParallel() } }, "Parallel");
     const layers = button({ icon: Layers, label: "Layers from the side", key: "L", press: () => viewer.stack.toggle() });
     const pose = button({ icon: PersonStanding, label: "Pose", key: "P", wide: true, press: () => commands.togglePosing() });
+    const edit = button({ icon: PencilLine, label: "Edit", key: "W", wide: true, press: () => commands.editing?.toggle() });
     const picture = menu({ icon: Camera, label: "Screenshot" }, [
       { label: "With background", key: "S", press: () => void commands.screenshot(false) },
       { label: "Only the model, transparent", key: "Shift+S", press: () => void commands.screenshot(true) },
@@ -44,7 +45,7 @@ export class Toolbar {
         button({ icon: CircleQuestionMark, label: "Help", key: "?", press: () => commands.help() }),
       ),
     ]);
-    const bar = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } }, group("Views", ...views, button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() })), folded, opener);
+    const bar = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } }, group("Views", ...views, button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() })), group("Edit", edit), folded, opener);
     fill(this.element, bar);
     const follow = (): void => {
       for (const [shading, element] of shadings) element.setAttribute("aria-pressed", String(viewer.shading === shading));
@@ -55,6 +56,12 @@ export class Toolbar {
       download.disabled = viewer.model === null;
     };
     viewer.on(["display", "model", "layers"], follow);
+    const followEditing = (): void => {
+      edit.parentElement!.hidden = !commands.editing?.isPossible;
+      edit.setAttribute("aria-pressed", String(commands.editing?.isOn === true));
+    };
+    commands.editing?.listen(["mode"], followEditing);
+    followEditing();
     commands.onMode(follow);
     follow();
   }

@@ -1,0 +1,171 @@
+// The controls of an attribute, by the types of its arguments.
+
+import { fill, h, inCode } from "../dom";
+import type { Argument, Field, NumberControl, Variant } from "./messages";
+import { digits, flagsOf, hexOf, least, quoted, unquoted, valuesOf, withValue, words } from "./values";
+
+/** Called with the words that are to stand behind the attribute; with null it is to be taken away. */
+export type Sending = (value: string | null) => void;
+
+/** Text without the signs of code, for places that hold nothing but text. */
+const plain = (text: string): string => text.replaceAll("`", "");
+
+/** A key that is held down makes one change, this long after it is let go, in milliseconds. */
+const PAUSE = 350;
+
+/** What a slider says that was moved by keys, once its number is sent. */
+export const SETTLED = "settled";
+
+/** The controls of a field. */
+export function fieldControls(field: Field, send: Sending): HTMLElement[] {
+  const all: HTMLElement[] = [];
+  const isColor = field.variants.some(({ arguments: [first] }) => first?.takes.type === "hex");
+  if (isColor) return [color(field, send)];
+  const variant = field.variants[field.chosen ?? -1] ?? field.variants.find(({ arguments: all }) => all.length > 0) ?? field.variants[0];
+  if (!variant) return [];
+  const place = h("div", { class: "arguments" });
+  const draw = (variant: Variant): void => fill(place, ...variant.arguments.map((argument, at) => control(field, variant, argument, at, send)));
+  const bare = field.variants.find(({ word, counts }) => word === null && counts.includes(0));
+  if (bare) all.push(onOff(field, bare, send));
+  if (field.variants.length > (bare ? 2 : 1)) all.push(choose(field, send, draw));
+  // Numbers of a list that is not chosen would be of something else.
+  if (field.variants.length === 1 || field.chosen !== null || bare) draw(variant);
+  all.push(place);
+  all.push(...field.flags.map((flag) => switchOf(field, flag, send)));
+  return all;
+}
+
+/** A switch for an attribute that needs no argument. */
+function onOff(field: Field, bare: Variant, send: Sending): HTMLElement {
+  const box = h("input", { attributes: { type: "checkbox", "data-key": `${field.attribute} on` } });
+  box.checked = field.value !== null;
+  // What others say cannot be unsaid here.
+  box.disabled = field.value !== null && field.from !== "own";
+  box.addEventListener("change", () => send(box.checked ? words(field, bare, [], flagsOf(field)) : null));
+  return h("label", { class: "switch" }, box, h("span", {}, field.attribute));
+}
+
+/** A flag, such as a second copy. */
+function switchOf(field: Field, flag: Field["flags"][number], send: Sending): HTMLElement {
+  const box = h("input", { attributes: { type: "checkbox", "data-key": `${field.attribute} -${flag.letter}` } });
+  box.checked = flag.on;
+  box.addEventListener("change", () => {
+    const on = new Set(flagsOf(field));
+    if (box.checked) on.add(flag.letter);
+    else on.delete(flag.letter);
+    const variant = field.variants[field.chosen ?? 0];
+    if (variant) send(words(field, variant, valuesOf(variant), on));
+  });
+  return h("label", { class: "switch" }, box, h("span", {}, ...inCode(flag.summary)));
+}
+
+/** A list of the words that an attribute can begin with, and of the lists without one. */
+function choose(field: Field, send: Sending, draw: (variant: Variant) => void): HTMLElement {
+  const select = h("select", { class: "select", attributes: { "aria-label": `${field.attribute}: which`, "data-key": `${field.attribute} which` } });
+  const title = ({ word, summary, arguments: all }: Variant): string => (word === null ? all.map(({ name }) => name).join(" and ") : summary === "" ? word : `${word} — ${summary}`);
+  const nothing = field.value === null ? [h("option", { attributes: { value: "" } }, `(${field.default})`)] : [];
+  fill(select, ...nothing, ...field.variants.map((variant, at) => h("option", { attributes: { value: String(at) } }, plain(title(variant)))));
+  select.value = field.chosen === null ? "" : String(field.chosen);
+  select.addEventListener("change", () => {
+    const variant = field.variants[Number(select.value)];
+    if (select.value === "" || !variant) return send(null);
+    const values = least(variant);
+    // Where something must be typed first, it is asked for.
+    if (values) send(words(field, variant, values, flagsOf(field)));
+    else draw(variant);
+  });
+  return select;
+}
+
+function control(field: Field, variant: Variant, argument: Argument, at: number, send: Sending): HTMLElement {
+  const set = (value: string): void => send(words(field, variant, withValue(variant, at, value), flagsOf(field)));
+  const label = `${field.attribute}: ${argument.name}`;
+  const key = `${field.attribute} ${variant.word ?? ""} ${at}`;
+  const { takes } = argument;
+  const head = h("span", { class: "argument-name", title: argument.summary }, argument.name);
+  const note = h("span", { class: "muted argument-note" }, ...inCode(argument.summary));
+  if (takes.type === "number") return h("div", { class: "argument" }, head, ...slider(takes, argument, label, key, set), note);
+  if (takes.type === "choice") {
+    const select = h("select", { class: "select", attributes: { "aria-label": label, "data-key": key } }, ...takes.words.map(([word, summary]) => h("option", { attributes: { value: word } }, plain(`${word} — ${summary}`))));
+    select.value = argument.value ?? "";
+    select.addEventListener("change", () => set(select.value));
+    return h("div", { class: "argument" }, head, select, note);
+  }
+  const input = h("input", { class: "text-field", attributes: { type: "text", "aria-label": label, "data-key": key, spellcheck: "false" } });
+  input.value = takes.type === "names" ? variant.arguments.length === 1 ? (field.value ?? "") : (argument.value ?? "") : unquoted(argument.value ?? "");
+  input.addEventListener("change", () => {
+    if (input.value.trim() === "") return send(null);
+    const value = takes.type === "names" ? input.value.trim() : quoted(input.value, takes.type === "file");
+    // Names stand for all that follow: they replace the whole list.
+    if (value !== null) takes.type === "names" ? send(words(field, variant, [value], flagsOf(field))) : set(value);
+  });
+  return h("div", { class: "argument" }, head, input, note);
+}
+
+/** A slider with the number beside it, which can be typed and may be outside of the slider. */
+function slider(takes: NumberControl, argument: Argument, label: string, key: string, set: (value: string) => void): HTMLElement[] {
+  const { low, high, step, min, max } = takes;
+  const written = argument.value === null ? NaN : Number(argument.value);
+  const known = Number.isFinite(written) ? written : takes.start;
+  const range = h("input", { class: "slider", attributes: { type: "range", min: low, max: high, step, "aria-label": label, "data-key": `${key} slider` } });
+  const number = h("input", { class: "number-field", attributes: { type: "number", min, max, step: "any", "aria-label": `${label}, as a number`, "data-key": `${key} number` } });
+  range.value = String(known ?? low);
+  number.value = argument.value !== null && Number.isFinite(written) ? argument.value : "";
+  number.placeholder = known === null ? "" : digits(known, step);
+  // A slider rests on multiples of its step only; one that was not moved says nothing.
+  let sent = number.value;
+  const commit = (value: string): void => {
+    if (value === sent) return;
+    sent = value;
+    set(value);
+  };
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  let byKey = false;
+  const later = (value: string): void => {
+    clearTimeout(timer);
+    timer = setTimeout(() => {
+      timer = undefined;
+      commit(value);
+      range.dispatchEvent(new Event(SETTLED, { bubbles: true }));
+    }, PAUSE);
+  };
+  const flush = (): void => {
+    clearTimeout(timer);
+    timer = undefined;
+  };
+  range.addEventListener("keydown", () => (byKey = true));
+  range.addEventListener("pointerdown", () => (byKey = false));
+  range.addEventListener("input", () => (number.value = digits(range.valueAsNumber, step)));
+  range.addEventListener("change", (event) => {
+    const value = digits(range.valueAsNumber, step);
+    if (!byKey) return flush(), commit(value);
+    // The form waits with what was typed, too.
+    event.stopPropagation();
+    later(value);
+  });
+  number.addEventListener("input", () => {
+    if (Number.isFinite(number.valueAsNumber)) range.value = number.value;
+  });
+  number.addEventListener("change", () => {
+    flush();
+    if (Number.isFinite(number.valueAsNumber)) commit(String(number.valueAsNumber));
+  });
+  range.addEventListener("blur", () => {
+    if (timer === undefined) return;
+    flush();
+    commit(digits(range.valueAsNumber, step));
+  });
+  return [range, number];
+}
+
+/** A swatch, which opens the browser's picker, and the colour as text. */
+function color(field: Field, send: Sending): HTMLElement {
+  const now = field.value === null ? null : hexOf(field.value);
+  const swatch = h("input", { class: "color-field", attributes: { type: "color", "aria-label": `${field.attribute}: swatch`, "data-key": `${field.attribute} swatch` } });
+  swatch.value = now?.hex ?? "#808080";
+  swatch.addEventListener("change", () => send(`${swatch.value}${now?.opacity ?? ""}`));
+  const text = h("input", { class: "text-field", attributes: { type: "text", "aria-label": `${field.attribute}: as text`, "data-key": `${field.attribute} text`, spellcheck: "false" } });
+  text.value = field.from === "builtin" ? (now?.hex ?? "") : (field.value ?? "");
+  text.addEventListener("change", () => send(text.value.trim() === "" ? null : text.value.trim()));
+  return h("div", { class: "argument color" }, swatch, text);
+}

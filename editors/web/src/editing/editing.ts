@@ -1,0 +1,154 @@
+// Editing: what is changed here is written into the drawing. It is off until a person turns it on.
+
+import type { Host } from "../host/host";
+import type { State } from "../state";
+import { readForm, readRefusal, type Change, type PartForm, type Refusal } from "./messages";
+
+/** mode: turned on or off, or no longer possible · done: something was changed, undone or refused · picking: a part is asked for, or no longer */
+export type EditingTopic = "mode" | "done" | "picking";
+
+export class Editing {
+  private on = false;
+  /** Why the last change was not made. */
+  refusal: Refusal | null = null;
+  /** What became of the last change, in words. */
+  said = "";
+  /** Whether a change is on its way. */
+  busy = false;
+  /** Shows the field for the name of the selected part; set by the page. */
+  rename: () => void = () => {};
+  private readonly listeners = new Map<EditingTopic, (() => void)[]>();
+  /** New names of parts, which the page has not seen in a build yet. */
+  private readonly names = new Map<string, string>();
+  /** Changes are made one after the other. */
+  private last: Promise<unknown> = Promise.resolve();
+
+  constructor(private readonly state: State, private readonly host: Host) {
+    state.on(["editing", "current", "link"], () => {
+      if (this.on && !this.isPossible) this.set(false);
+      this.notify("mode");
+    });
+    state.on("current", () => this.clear());
+    state.on("build", () => this.names.clear());
+    state.on("selection", () => {
+      if (this.refusal) this.clear();
+    });
+  }
+
+  listen(topics: readonly EditingTopic[], listener: () => void): void {
+    for (const topic of topics) this.listeners.set(topic, [...(this.listeners.get(topic) ?? []), listener]);
+  }
+
+  get isPossible(): boolean {
+    return this.host.post !== null && this.state.key !== null && this.state.current !== null;
+  }
+
+  get isOn(): boolean {
+    return this.on;
+  }
+
+  toggle(): void {
+    if (this.isPossible) this.set(!this.on);
+  }
+
+  private set(on: boolean): void {
+    this.on = on;
+    this.said = "";
+    this.refusal = null;
+    this.pick(null);
+    this.notify("mode");
+  }
+
+  /** Forgets a refusal that was read. */
+  clear(): void {
+    this.refusal = null;
+    this.said = "";
+    this.pick(null);
+    this.notify("done");
+  }
+
+  get undoes(): string | null {
+    return this.state.steps.undo;
+  }
+
+  get redoes(): string | null {
+    return this.state.steps.redo;
+  }
+
+  /** Makes a change; `true` if it was made. The part that it is about stays selected, also under another name. */
+  async make(change: Change): Promise<boolean> {
+    return this.send(() => ({ make: { ...change, part: this.names.get(change.part) ?? change.part } }), (part) => {
+      if (change.change === "name" && part !== null) this.names.set(change.part, part);
+    });
+  }
+
+  /** Makes a change that the program has offered. */
+  async choose(change: unknown): Promise<boolean> {
+    return this.send(() => ({ make: change }));
+  }
+
+  undo(): void {
+    if (this.undoes !== null) void this.send(() => "undo");
+  }
+
+  redo(): void {
+    if (this.redoes !== null) void this.send(() => "redo");
+  }
+
+  /** What can be changed about a part; null if nothing can. */
+  async form(part: string): Promise<PartForm | null> {
+    const { current, key } = this.state;
+    if (!this.on || current === null || key === null || !this.host.post) return null;
+    await this.last;
+    const answer = await this.host.post("forms", key, { drawing: current, part }).catch(() => null);
+    return answer?.ok === true ? readForm(answer.body) : null;
+  }
+
+  /** Asks for a part, which is clicked in the model or in the list; null gives up. */
+  pick(then: ((part: string) => void) | null): void {
+    if (this.state.picker === null && then === null) return;
+    this.state.picker =
+      then &&
+      ((part) => {
+        this.pick(null);
+        then(part);
+      });
+    this.notify("picking");
+  }
+
+  get isPicking(): boolean {
+    return this.state.picker !== null;
+  }
+
+  private send(what: () => unknown, done: (part: string | null) => void = () => {}): Promise<boolean> {
+    const sent = this.last.then(() => this.sendNow(what(), done));
+    this.last = sent;
+    return sent;
+  }
+
+  private async sendNow(what: unknown, done: (part: string | null) => void): Promise<boolean> {
+    const { current, key, drawing } = this.state;
+    if (!this.on || current === null || key === null || !this.host.post) return false;
+    this.busy = true;
+    this.refusal = null;
+    this.notify("done");
+    const request = { drawing: current, revision: drawing?.build?.revision ?? 0, do: what };
+    const answer = await this.host.post("changes", key, request).catch(() => ({ ok: false, body: null }));
+    this.busy = false;
+    if (answer.ok) {
+      const { part, note } = (answer.body ?? {}) as { part?: unknown; note?: unknown };
+      this.said = typeof note === "string" ? `Saved. ${note}` : "Saved";
+      done(typeof part === "string" ? part : null);
+      if (typeof part === "string" && current === this.state.current) this.state.select(part);
+    } else {
+      this.said = "";
+      this.refusal = readRefusal(answer.body);
+    }
+    this.notify("done");
+    return answer.ok;
+  }
+
+  private notify(topic: EditingTopic): void {
+    for (const listener of this.listeners.get(topic) ?? []) listener();
+  }
+}

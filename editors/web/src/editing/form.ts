@@ -1,0 +1,192 @@
+// The form of the selected part: its name, its parent and its attributes. What is changed here is sent at once.
+
+import { MousePointerClick, RotateCcw } from "lucide";
+import { button, fill, h, icon, inCode } from "../dom";
+import type { State } from "../state";
+import { fieldControls, SETTLED, type Sending } from "./controls";
+import type { Editing } from "./editing";
+import type { Field, PartForm } from "./messages";
+
+/** Attributes that are shown without being asked for. */
+const FIRST: readonly string[] = ["Color", "Shape", "Offset"];
+const FROM: Readonly<Record<string, string>> = { own: "set here", legend: "from a legend", default: "from the drawing's defaults", builtin: "" };
+
+export class FormPanel {
+  readonly element = h("form", { class: "part-form", hidden: true, attributes: { "aria-label": "Change the selected part", autocomplete: "off" } });
+  /** The form that is shown. */
+  private form: PartForm | null = null;
+  /** Counts what was asked for: an answer that is late is dropped. */
+  private asked = 0;
+  /** Whether something is being typed or dragged; then the form is not drawn again. */
+  private held = false;
+  /** Whether the name gets the focus as soon as it is there. */
+  private names = false;
+  private late = false;
+  /** Fields that a person opened. */
+  private readonly opened = new Set<string>();
+  private readonly name = h("input", { class: "text-field", attributes: { type: "text", "aria-label": "Name", "data-key": "name", spellcheck: "false", autocomplete: "off" } });
+
+  constructor(private readonly editing: Editing, private readonly state: State) {
+    this.element.addEventListener("submit", (event) => event.preventDefault());
+    this.element.addEventListener("input", ({ target }) => {
+      if (target instanceof HTMLInputElement && target.type !== "checkbox") this.held = true;
+    });
+    this.element.addEventListener("change", () => this.release());
+    this.element.addEventListener(SETTLED, () => this.release());
+    // Only when the focus is where it goes can it stay there.
+    this.element.addEventListener("focusout", () => void setTimeout(() => this.release()));
+    this.element.addEventListener("keydown", (event) => {
+      const { target } = event;
+      // What was typed, and not sent, is given up.
+      if (event.key !== "Escape" || !(target instanceof HTMLInputElement) || !this.held) return;
+      event.preventDefault();
+      this.held = false;
+      this.draw();
+    });
+    this.name.addEventListener("change", () => this.call());
+    editing.listen(["mode"], () => this.load());
+    // What was refused is shown as it is.
+    editing.listen(["done"], () => {
+      if (editing.refusal) this.load();
+    });
+    editing.listen(["picking"], () => this.draw());
+    state.on(["selection", "current"], () => {
+      this.held = this.names = false;
+      this.load();
+    });
+    state.on("build", (drawing) => {
+      if (drawing === state.current) this.load();
+    });
+  }
+
+  /** Goes to the name of the part. */
+  rename(): void {
+    this.names = true;
+    this.draw();
+  }
+
+  private release(): void {
+    this.held = false;
+    if (this.late) this.draw();
+  }
+
+  private load(): void {
+    const asked = ++this.asked;
+    const { selected } = this.state;
+    if (!this.editing.isOn || selected === null) {
+      this.form = null;
+      return this.draw();
+    }
+    void this.editing.form(selected).then((form) => {
+      if (asked !== this.asked) return;
+      this.form = form;
+      this.draw();
+    });
+  }
+
+  private draw(): void {
+    if (this.held) return void (this.late = true);
+    this.late = false;
+    const { form } = this;
+    this.element.hidden = form === null;
+    if (!form) return void fill(this.element);
+    const active = document.activeElement;
+    const key = active instanceof HTMLElement && this.element.contains(active) ? active.dataset["key"] : undefined;
+    // All that was selected stays so, also if the text is another one now.
+    const selected = active instanceof HTMLInputElement && active.type === "text" && active.value !== "" && active.selectionStart === 0 && active.selectionEnd === active.value.length;
+    const isFirst = (field: Field): boolean => FIRST.includes(field.attribute);
+    const rest = form.fields.filter((field) => !isFirst(field));
+    const first = FIRST.flatMap((attribute) => form.fields.filter((field) => field.attribute === attribute));
+    fill(
+      this.element,
+      ...(form.node ? [this.naming(form), this.parents(form)] : []),
+      ...first.map((field) => this.field(form, field)),
+      ...(rest.length > 0 ? [h("h3", { class: "form-more" }, "More")] : []),
+      ...rest.map((field) => this.folded(form, field)),
+      form.node && this.leaving(form),
+    );
+    if (this.names && form.node && form.part === this.state.selected) {
+      this.names = false;
+      this.name.focus();
+      return this.name.select();
+    }
+    if (key === undefined) return;
+    const again = [...this.element.querySelectorAll<HTMLElement>("[data-key]")].find((one) => one.dataset["key"] === key);
+    again?.focus({ preventScroll: true });
+    if (selected && again instanceof HTMLInputElement) again.select();
+  }
+
+  private naming(form: PartForm): HTMLElement {
+    this.name.value = form.named ? form.part : "";
+    this.name.placeholder = form.named ? "" : `${form.part}: type a name`;
+    return h("label", { class: "form-row" }, h("span", { class: "form-label" }, "Name"), this.name);
+  }
+
+  private call(): void {
+    const { form } = this;
+    const name = this.name.value.trim();
+    if (!form || name === "" || (name === form.part && form.named)) return void this.draw();
+    void this.editing.make({ change: "name", part: form.part, name });
+  }
+
+  private parents(form: PartForm): HTMLElement {
+    const select = h("select", { class: "select", attributes: { "aria-label": "Hangs on", "data-key": "parent" } });
+    const names = [...new Set([...form.parents, ...(form.parent === null ? [] : [form.parent])])];
+    fill(select, h("option", { attributes: { value: "" } }, "nothing"), ...names.map((name) => h("option", { attributes: { value: `@${name}` } }, name)));
+    select.value = form.parent === null ? "" : `@${form.parent}`;
+    const hang = (parent: string | null): void => void this.editing.make({ change: "hang", part: form.part, parent });
+    select.addEventListener("change", () => hang(select.value === "" ? null : select.value.slice(1)));
+    const { isPicking } = this.editing;
+    const pick = button({ icon: MousePointerClick, label: "Click what it hangs on", press: () => this.editing.pick(isPicking ? null : hang) });
+    pick.setAttribute("aria-pressed", String(isPicking));
+    pick.dataset["key"] = "pick";
+    return h("div", { class: "form-row" }, h("span", { class: "form-label" }, "Hangs on"), select, pick);
+  }
+
+  private leaving(form: PartForm): HTMLElement {
+    const leave = (): void => void this.editing.make({ change: "leave-out", part: form.part });
+    return h("p", { class: "form-end" }, h("button", { class: "button framed", attributes: { type: "button", "data-key": "leave-out" }, on: { click: leave } }, "Leave this part out of the model"));
+  }
+
+  private field(form: PartForm, field: Field): HTMLElement {
+    return h("section", { class: "field", attributes: { "data-attribute": field.attribute, "aria-label": field.attribute } }, h("div", { class: "field-head" }, h("h3", {}, field.attribute), ...this.origin(form, field)), ...this.inside(form, field));
+  }
+
+  /** A field that is opened when it is needed; one that is set here is open. */
+  private folded(form: PartForm, field: Field): HTMLElement {
+    const open = field.from === "own" || this.opened.has(field.attribute);
+    const value = field.value === null ? "" : field.value || "on";
+    const details = h("details", { class: "field", attributes: { "data-attribute": field.attribute, open } });
+    const summary = h("summary", { class: "field-head", attributes: { "data-key": field.attribute } }, h("span", { class: "field-name" }, field.attribute), h("span", { class: "field-value muted" }, value || field.summary.replaceAll("`", "")));
+    details.addEventListener("toggle", () => {
+      if (details.open) this.opened.add(field.attribute);
+      else this.opened.delete(field.attribute);
+    });
+    fill(details, summary, h("div", { class: "field-origin" }, ...this.origin(form, field)), ...this.inside(form, field));
+    return details;
+  }
+
+  /** From where the value is, and what takes it back. */
+  private origin(form: PartForm, field: Field): HTMLElement[] {
+    const from = FROM[field.from] ?? field.from;
+    const said = h("span", { class: "muted field-from", ...(field.string === null ? {} : { title: field.string }) }, from);
+    if (field.from !== "own") return [said];
+    const reset = h("button", { class: "button reset", title: `Take ${field.attribute} away: ${field.default}`, attributes: { type: "button", "aria-label": `Reset ${field.attribute}`, "data-key": `${field.attribute} reset` }, on: { click: () => void this.editing.make({ change: "reset", part: form.part, attribute: field.attribute }) } }, icon(RotateCcw), "Reset");
+    return [said, reset];
+  }
+
+  private inside(form: PartForm, field: Field): HTMLElement[] {
+    const send: Sending = (value) => void this.editing.make(value === null ? { change: "reset", part: form.part, attribute: field.attribute } : { change: "set", part: form.part, attribute: field.attribute, value });
+    const shared = field.shared.length > 0 ? [h("p", { class: "muted field-note" }, `Shared with ${named(field.shared)}.`)] : [];
+    return [h("p", { class: "muted field-note" }, ...inCode(sentence(field.summary))), ...shared, ...fieldControls(field, send)];
+  }
+}
+
+const sentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;
+
+/** A list of names that is not longer than it can be read. */
+function named(names: readonly string[]): string {
+  const shown = names.slice(0, 6).map((name) => name.replaceAll("`", ""));
+  const more = names.length - shown.length;
+  return more > 0 ? `${shown.join(", ")} and ${more} more` : shown.join(", ");
+}

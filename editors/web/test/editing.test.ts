@@ -1,0 +1,352 @@
+// Editing with the real program: what a person does on the page, and the bytes of the file.
+
+import assert from "node:assert/strict";
+import { copyFileSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import type { AxeResults } from "axe-core";
+import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
+import { CHROMIUM, launch, open, OUT, overlaps, picture, project, shown, still } from "./browser";
+import { closeAll, closing, PATIENCE, preview, TEST_LIMIT } from "./closing";
+import { example, FIGURE, source } from "./setup";
+
+const okoshi = process.env["OKOSHI"] ?? "";
+const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const TYPES: Readonly<Record<string, string>> = { "": "page.html", "page.js": "page.js", "page.css": "page.css" };
+
+let browser: Promise<Browser> | undefined;
+after(() => closeAll([async () => (await browser)?.close()]));
+
+class Edited {
+  constructor(readonly page: Page, readonly file: string) {}
+
+  text(): string {
+    return readFileSync(this.file, "utf8");
+  }
+
+  /** Waits until the file has exactly these bytes, and the page shows what is built of them. */
+  async has(expected: string, what: string): Promise<void> {
+    const end = Date.now() + PATIENCE;
+    while (this.text() !== expected && Date.now() < end) await new Promise((resolve) => setTimeout(resolve, 20));
+    assert.equal(this.text(), expected, what);
+  }
+
+  /** The form of a part. */
+  async select(part: string): Promise<void> {
+    await this.page.locator(`[data-part="${part}"]`).click();
+    await this.page.locator(".part-form").waitFor();
+    await this.page.waitForFunction((part) => document.querySelector(".inspector .part-name")?.textContent === part, part);
+  }
+
+  label(name: string): Locator {
+    return this.page.getByLabel(name, { exact: true });
+  }
+}
+
+/** A test with a drawing that is edited. The page is the one that was bundled for the tests, and is served as the program serves its own. */
+function edit(name: string, run: (edited: Edited) => Promise<void>, options: BrowserContextOptions & { drawing?: string; arguments?: readonly string[] } = {}): void {
+  test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
+    const onClose = closing(t);
+    const { drawing = FIGURE, arguments: more = [], ...context } = options;
+    const folder = mkdtempSync(join(tmpdir(), "okoshi-edit-"));
+    onClose(() => rmSync(folder, { recursive: true }));
+    const file = join(folder, "figure.svg");
+    copyFileSync(drawing, file);
+    const { address } = await preview(okoshi, folder, "figure.svg", onClose, more);
+    // To the browser, a page that a test hands over is not on this machine, and would not be let to it.
+    browser ??= launch(["--disable-features=LocalNetworkAccessChecks"]);
+    const { page, wrong } = await open(await browser, address, onClose, context, async (context) => {
+      for (const [path, name] of Object.entries(TYPES)) {
+        await context.route(address + path, async (route) => {
+          const { "content-length": _, ...headers } = (await route.fetch()).headers();
+          await route.fulfill({ headers, body: readFileSync(join("dist", name)) });
+        });
+      }
+    });
+    await shown(page, 1);
+    await run(new Edited(page, file));
+    // What is refused is answered with a status that the browser reports.
+    assert.deepEqual(wrong.filter((one) => !/status of 409/.test(one)), []);
+  });
+}
+
+const BEFORE = source(FIGURE);
+
+edit("by mouse: a thickness, a name, a parent, a colour and a kind reach the file, and undo brings the bytes back", async (edited) => {
+  const { page } = edited;
+  // Off at first: a double click names nothing.
+  assert.equal(await page.locator(".part-form").isVisible(), false);
+  await page.getByRole("button", { name: "Edit" }).click();
+  await edited.select("Arm");
+  const texts = [BEFORE];
+  const now = async (change: (text: string) => string, what: string): Promise<void> => {
+    texts.push(change(texts.at(-1)!));
+    assert.notEqual(texts.at(-1), texts.at(-2), what);
+    await edited.has(texts.at(-1)!, what);
+  };
+
+  // The slider is dragged to its end.
+  const slider = edited.label("Shape: z1");
+  const { x, y, width, height } = (await slider.boundingBox())!;
+  const most = await slider.getAttribute("max");
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(x + width + 20, y + height / 2, { steps: 8 });
+  assert.equal(edited.text(), BEFORE, "nothing is written before the slider is let go");
+  await page.mouse.up();
+  await now((text) => text.replace("default -8 8", `default -8 ${most}`), "thickness");
+
+  // A double click in the list goes to the name.
+  await page.locator("[data-part=Arm]").dblclick();
+  await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Name");
+  await page.keyboard.type("Left arm");
+  await page.locator(".inspector-title").click();
+  await now((text) => text.replace("Arm@Body", '"Left arm"@Body'), "name");
+  await page.locator('[data-part="Left arm"][aria-selected=true]').waitFor();
+
+  // A parent is clicked in the list.
+  await page.getByRole("button", { name: "Click what it hangs on" }).click();
+  await page.getByText("Click what Left arm hangs on").waitFor();
+  await page.locator("[data-part=Head]").click();
+  await now((text) => text.replace('"Left arm"@Body', '"Left arm"@Head'), "parent");
+
+  await edited.label("Color: swatch").fill("#123456");
+  await now((text) => text.replace("Bend 0", "Bend 0 Color #123456"), "colour");
+
+  await edited.label("Shape: which").selectOption({ label: "roundv — rounded about the part's axis: an arm, a leg, a trunk" });
+  await now((text) => text.replace(`default -8 ${most}`, "roundv"), "kind");
+
+  const undo = page.getByRole("button", { name: /^Undo/ });
+  for (const text of texts.slice(0, -1).reverse()) {
+    await undo.click();
+    await edited.has(text, "undone");
+  }
+  await page.locator('button[aria-label="Undo"]:disabled').waitFor();
+  const redo = page.getByRole("button", { name: /^Redo/ });
+  for (const text of texts.slice(1)) {
+    await redo.click();
+    await edited.has(text, "made again");
+  }
+});
+
+edit("by keyboard: the same", async (edited) => {
+  const { page } = edited;
+  await page.locator("canvas").focus();
+  await page.keyboard.press("w");
+  await page.keyboard.press("t");
+  await page.keyboard.press("a");
+  await page.waitForSelector("[data-part=Arm][aria-selected=true], [data-part=Arm][tabindex='0']");
+  await page.keyboard.press("Enter");
+  await page.locator(".part-form").waitFor();
+  // F2 goes to the name, and Enter sends it.
+  await page.keyboard.press("F2");
+  await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Name");
+  await page.keyboard.type("腕");
+  await page.keyboard.press("Enter");
+  const named = BEFORE.replace("Arm@", "腕@");
+  await edited.has(named, "name");
+  await page.keyboard.press("Tab");
+  await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Hangs on");
+  await page.keyboard.type("Head");
+  const hung = named.replace("@Body", "@Head");
+  await edited.has(hung, "parent");
+  await edited.label("Color: as text").focus();
+  // What is no colour is refused, and can be corrected at once.
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("tomatoe");
+  await page.keyboard.press("Enter");
+  await page.locator(".refusal").waitFor();
+  await page.waitForFunction(() => document.querySelector<HTMLInputElement>('[aria-label="Color: as text"]')?.value === "#00a000");
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("tomato");
+  await page.keyboard.press("Enter");
+  const red = hung.replace("Bend 0", "Bend 0 Color tomato");
+  await edited.has(red, "colour");
+  // Keys that are pressed after each other are one change.
+  const before = edited.label("Shape: z1");
+  await before.focus();
+  const step = Number(await before.getAttribute("step"));
+  for (let n = 0; n < 4; n++) await page.keyboard.press("ArrowRight");
+  const thick = red.replace("-8 8", `-8 ${Number((8 + 4 * step).toFixed(3))}`);
+  await edited.has(thick, "thickness");
+  await edited.label("Shape: which").focus();
+  await page.keyboard.type("inf");
+  await edited.has(thick.replace(/default -8 [\d.]+/, "inflate"), "kind");
+  for (const text of [thick, red, hung, named, BEFORE]) {
+    await page.keyboard.press("Control+z");
+    await edited.has(text, "undone");
+  }
+  await page.keyboard.press("Control+Shift+z");
+  await edited.has(named, "made again");
+});
+
+edit("a refusal is a sentence with its choices, and a choice is made", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await edited.select("Body");
+  await page.getByRole("button", { name: "Leave this part out" }).click();
+  const refusal = page.locator(".refusal");
+  await refusal.waitFor();
+  assert.match(await refusal.innerText(), /hang/i);
+  assert.equal(edited.text(), BEFORE);
+  await page.getByRole("button", { name: "Close" }).click();
+  await edited.label("Name").fill("Arm");
+  await page.keyboard.press("Enter");
+  await refusal.waitFor();
+  assert.match(await refusal.innerText(), /There is a part named Arm already/);
+  // The field shows what is so.
+  await page.waitForFunction(() => document.querySelector<HTMLInputElement>("[data-key=name]")?.value === "Body");
+  await page.keyboard.press("Escape");
+});
+
+edit("reset takes an attribute away", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await edited.select("Arm");
+  await page.getByRole("button", { name: "Reset Bend" }).click();
+  await edited.has(BEFORE.replace(" Bend 0", ""), "reset");
+  await page.getByRole("button", { name: "Reset Bend" }).waitFor({ state: "detached" });
+});
+
+edit("a save from elsewhere meanwhile is kept, and a change of the same is asked about", async (edited) => {
+  const { page, file } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await edited.select("Arm");
+  const number = edited.label("Shape: z1, as a number");
+  await number.fill("12");
+  // Another program saves before the number is sent.
+  const saved = BEFORE.replace("#ff0000", "#0000ff");
+  writeFileSync(file, saved);
+  await number.press("Enter");
+  const both = saved.replace("-8 8", "-8 12");
+  await edited.has(both, "both");
+  await page.waitForFunction(() => document.querySelector<HTMLInputElement>('[aria-label="Shape: z1, as a number"]')?.value === "12");
+  // Requests are held back until the other program has saved the very same attribute.
+  await page.route("**/changes", async (route) => {
+    writeFileSync(file, both.replace("-8 12", "-8 30"));
+    await route.continue();
+  }, { times: 1 });
+  await number.fill("14");
+  await number.press("Enter");
+  const choice = page.getByRole("button", { name: "Change it all the same" });
+  await choice.waitFor();
+  assert.equal(edited.text(), both.replace("-8 12", "-8 30"));
+  await page.waitForFunction(() => document.querySelector<HTMLInputElement>('[aria-label="Shape: z1, as a number"]')?.value === "30");
+  await choice.click();
+  await edited.has(both.replace("-8 12", "-8 14"), "all the same");
+});
+
+edit("read-only has no button", async ({ page }) => {
+  assert.equal(await page.getByRole("button", { name: "Edit" }).count(), 0);
+  await page.locator("canvas").focus();
+  await page.keyboard.press("w");
+  await page.locator("[data-part=Arm]").click();
+  assert.equal(await page.locator(".part-form").isVisible(), false);
+}, { arguments: ["--read-only"] });
+
+edit("a part without a name is named", async (edited) => {
+  const { page } = edited;
+  writeFileSync(edited.file, BEFORE.replace("</svg>", '  <rect x="20" y="240" width="60" height="40" fill="#00ffff"/>\n</svg>'));
+  await page.getByRole("button", { name: "Edit" }).click();
+  const automatic = page.locator(".tree-item.automatic.main");
+  await automatic.click();
+  await page.keyboard.press("F2");
+  await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Name");
+  assert.equal(await edited.label("Name").inputValue(), "");
+  await page.keyboard.type("Plate");
+  await page.keyboard.press("Enter");
+  await page.locator("[data-part=Plate][aria-selected=true]").waitFor();
+  assert.match(edited.text(), /Plate/);
+});
+
+edit("a double click in the model goes to the name, while it is edited", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await page.locator("canvas").focus();
+  await page.keyboard.press("1");
+  await still(page);
+  const { x, y } = await project(page, (140 - 180) / 100, (200 - 180) / 100, 0.2);
+  await page.mouse.dblclick(x, y);
+  await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Name");
+  assert.equal(await edited.label("Name").inputValue(), "Body");
+});
+
+edit("a drawing without a string becomes a figure, and nobody writes one", async (edited) => {
+  const { page } = edited;
+  const shot = async (name: string): Promise<void> => {
+    await page.mouse.move(5, 5);
+    await still(page);
+    await picture(page, name);
+    if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) copyFileSync(join(OUT, `${name}.png`), join("..", "..", "docs", "without-strings", `${name}.png`));
+  };
+  await page.getByRole("button", { name: "Edit" }).click();
+  const automatic = page.locator(".tree-item.automatic.main").first();
+  for (const name of ["Body", "Left arm", "Right arm", "Head"]) {
+    await automatic.click();
+    await page.keyboard.press("F2");
+    await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Name");
+    await page.keyboard.type(name);
+    if (name === "Left arm") await shot("1-name");
+    await page.keyboard.press("Enter");
+    await page.locator(`[data-part="${name}"][aria-selected=true]`).waitFor();
+  }
+  for (const name of ["Left arm", "Right arm", "Head"]) {
+    await edited.select(name);
+    const hangs = edited.label("Hangs on");
+    if ((await hangs.inputValue()) !== "@Body") {
+      await hangs.selectOption("@Body");
+      await page.getByText("Saved").waitFor();
+    }
+    await page.locator(`[data-part="${name}"][aria-level="2"]`).waitFor();
+  }
+  await edited.select("Body");
+  await edited.label("Color: swatch").fill("#2f7fc1");
+  await page.waitForFunction(() => document.querySelector<HTMLInputElement>('[aria-label="Color: as text"]')?.value === "#2f7fc1");
+  await shot("2-colour");
+  const text = edited.text();
+  await edited.label("Shape: which").selectOption("1");
+  const choice = page.getByRole("button", { name: /^Give Body this Shape/ });
+  await choice.waitFor();
+  assert.equal(edited.text(), text, "it is asked before");
+  await shot("3-question");
+  await choice.click();
+  await page.getByRole("button", { name: "Reset Shape" }).waitFor();
+  assert.match(edited.text(), /Shape roundv/);
+  await page.keyboard.press("Control+z");
+  await edited.has(text, "undone");
+  assert.equal(await page.locator(".finding .badge.error").count(), 0);
+}, { drawing: example(join("tutorial", "2-arms")), viewport: { width: 1060, height: 720 } });
+
+for (const colorScheme of ["light", "dark"] as const) {
+  for (const [name, options] of [["desktop", { viewport: { width: 1400, height: 900 } }], ["phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]] as const) {
+    edit(`axe finds nothing while a part is edited, ${name}, ${colorScheme}`, async (edited) => {
+      const { page } = edited;
+      const is = async (state: string): Promise<void> => {
+        if (!(await page.evaluate(() => "axe" in globalThis))) await page.evaluate(AXE);
+        const { violations } = await page.evaluate(() => (globalThis as unknown as { axe: { run(): Promise<AxeResults> } }).axe.run());
+        assert.deepEqual(violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.join(" ")} ${failureSummary ?? ""}`)), [], state);
+        assert.deepEqual(await overlaps(page), [], state);
+      };
+      await page.getByRole("button", { name: "Edit" }).click();
+      await is("nothing selected");
+      if (name === "phone") {
+        await page.locator(".drawer-opener").click();
+        await page.locator("[data-part=Arm]").click();
+        await page.locator(".drawer-tab").nth(1).click();
+      } else await edited.select("Arm");
+      await page.locator(".part-form").waitFor();
+      await is("form");
+      await picture(page, `edit-${name}-${colorScheme}`);
+      await page.evaluate(() => document.querySelectorAll("details.field").forEach((one) => ((one as HTMLDetailsElement).open = true)));
+      await is("all fields");
+      await edited.label("Name").fill("Body");
+      await edited.label("Name").press("Enter");
+      await page.locator(".refusal").waitFor();
+      await is("refused");
+      await picture(page, `edit-refused-${name}-${colorScheme}`);
+    }, { ...options, colorScheme });
+  }
+}

@@ -1,0 +1,205 @@
+//! Changes of the drawing that a page shows.
+//!
+//! A page asks by POST with JSON, and names the key of the server that it got in its first messages. Other pages in the same browser do
+//! not have that key, and `access` lets none of their requests pass.
+
+use std::path::Path;
+use std::time::Duration;
+
+use axum::body::{Body, Bytes, to_bytes};
+use axum::extract::State;
+use axum::http::header::HeaderName;
+use axum::http::{HeaderMap, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::hub::Hub;
+use super::server::Shared;
+use super::starters::random_key;
+use crate::ide::changes::{Change, Choice, Refusal};
+use crate::watch::{Action, Done, Editor, NotChanged};
+
+/// The longest request, in bytes.
+const MAX_REQUEST: usize = 64 << 10;
+/// How long a request may take to arrive.
+const ARRIVAL: Duration = Duration::from_secs(5);
+/// The header with the key of the server.
+const KEY: HeaderName = HeaderName::from_static("okoshi-key");
+
+/// What lets pages change drawings. Without it they only show them.
+#[derive(Debug)]
+pub(crate) struct Editing {
+    /// Only who has read the messages of this server knows it.
+    pub(super) key: String,
+    pub(super) editor: Editor,
+}
+
+impl Editing {
+    /// Changes are made by this editor. The ids of drawings are their paths.
+    pub(crate) fn new(editor: Editor) -> Self {
+        Self {
+            key: random_key(),
+            editor,
+        }
+    }
+}
+
+/// A request to change a drawing.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ToChange {
+    drawing: String,
+    /// The build that the page showed.
+    revision: u64,
+    #[serde(rename = "do")]
+    action: ToDo,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum ToDo {
+    Make(Change),
+    Undo,
+    Redo,
+}
+
+/// A request for what can be changed about a part.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ToShow {
+    drawing: String,
+    part: String,
+}
+
+/// Why something was not done, and what could be done instead.
+#[derive(Debug, Serialize)]
+struct Refused {
+    why: String,
+    choices: Vec<Choice>,
+}
+
+/// Makes a change, undoes or redoes one.
+pub(super) async fn change(
+    State(shared): State<Shared>,
+    headers: HeaderMap,
+    body: Body,
+) -> Response {
+    let asked: ToChange = match asked(&shared.hub, &headers, body).await {
+        Ok(asked) => asked,
+        Err(refused) => return refused,
+    };
+    let action = match asked.action {
+        ToDo::Make(change) => Action::Make(change),
+        ToDo::Undo => Action::Undo,
+        ToDo::Redo => Action::Redo,
+    };
+    answered(move || {
+        let Done { part, note } = shared.hub.act(&asked.drawing, asked.revision, &action)?;
+        Ok(serde_json::json!({ "part": part, "note": note }))
+    })
+    .await
+}
+
+/// Says what can be changed about a part.
+pub(super) async fn form(State(shared): State<Shared>, headers: HeaderMap, body: Body) -> Response {
+    let asked: ToShow = match asked(&shared.hub, &headers, body).await {
+        Ok(asked) => asked,
+        Err(refused) => return refused,
+    };
+    answered(move || {
+        let editing = shared.hub.editing_of(&asked.drawing)?;
+        let analysis = editing.editor.analysis(Path::new(&asked.drawing))?;
+        Ok(analysis.form(&asked.part)?)
+    })
+    .await
+}
+
+/// The request of a page that has the key.
+async fn asked<T: DeserializeOwned>(
+    hub: &Hub,
+    headers: &HeaderMap,
+    body: Body,
+) -> Result<T, Response> {
+    let Some(editing) = &hub.editing else {
+        return Err(said(
+            StatusCode::METHOD_NOT_ALLOWED,
+            "this page is read-only",
+        ));
+    };
+    let has = |name: HeaderName, value: &str| {
+        let mut all = headers.get_all(name).iter();
+        let first = all.next().and_then(|one| one.to_str().ok());
+        all.next().is_none() && first == Some(value)
+    };
+    if !has(KEY, &editing.key) {
+        return Err(said(
+            StatusCode::FORBIDDEN,
+            "the program was started anew: reload the page",
+        ));
+    }
+    if !has(header::CONTENT_TYPE, "application/json") {
+        return Err(said(
+            StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            "a change is sent as JSON",
+        ));
+    }
+    let length = headers.get(header::CONTENT_LENGTH);
+    let length = length.and_then(|length| length.to_str().ok()?.parse::<u64>().ok());
+    if length.is_some_and(|length| length > MAX_REQUEST as u64) {
+        return Err(said(
+            StatusCode::PAYLOAD_TOO_LARGE,
+            "that is too much for one change",
+        ));
+    }
+    let arrived: Bytes = match tokio::time::timeout(ARRIVAL, to_bytes(body, MAX_REQUEST)).await {
+        Ok(Ok(bytes)) => bytes,
+        Ok(Err(_)) => {
+            return Err(said(
+                StatusCode::PAYLOAD_TOO_LARGE,
+                "that is too much for one change",
+            ));
+        }
+        Err(_) => {
+            return Err(said(
+                StatusCode::REQUEST_TIMEOUT,
+                "the change did not arrive",
+            ));
+        }
+    };
+    serde_json::from_slice(&arrived).map_err(|error| {
+        said(
+            StatusCode::BAD_REQUEST,
+            format!("the change cannot be read: {error}"),
+        )
+    })
+}
+
+/// The answer of something that reads and writes files.
+async fn answered<T: Serialize + Send + 'static>(
+    work: impl FnOnce() -> Result<T, NotChanged> + Send + 'static,
+) -> Response {
+    match tokio::task::spawn_blocking(work).await {
+        Ok(Ok(answer)) => json(StatusCode::OK, &answer),
+        Ok(Err(NotChanged::Refused(Refusal { why, choices }))) => {
+            json(StatusCode::CONFLICT, &Refused { why, choices })
+        }
+        Ok(Err(error)) => said(StatusCode::CONFLICT, error.to_string()),
+        Err(_) => said(
+            StatusCode::INTERNAL_SERVER_ERROR,
+            "the program failed at this change; the drawing is as it was",
+        ),
+    }
+}
+
+fn said(status: StatusCode, why: impl Into<String>) -> Response {
+    let (why, choices) = (why.into(), vec![]);
+    json(status, &Refused { why, choices })
+}
+
+fn json(status: StatusCode, answer: &impl Serialize) -> Response {
+    // Answers hold only text and numbers, so this cannot fail.
+    let text = serde_json::to_string(answer).unwrap_or_default();
+    let kind = [(header::CONTENT_TYPE, "application/json")];
+    (status, kind, text).into_response()
+}
