@@ -122,6 +122,19 @@ pub(super) fn same_direction(bindings: &Bindings, layer: LayerId, first: LayerId
         ))
 }
 
+/// `Mirror` where there is nothing to mirror.
+pub(super) fn idle_mirror(
+    bindings: &Bindings,
+    layer: LayerId,
+    name: &str,
+    cause: &str,
+) -> Diagnostic {
+    let message = format!("`Mirror` has no effect on `{name}`: {cause}");
+    Diagnostic::new(Code::UnlikelyViews, span(bindings, layer), message).help(format!(
+        "draw it from the front (`{name}$View 0 0`) and from one side, or delete `Mirror`"
+    ))
+}
+
 /// Reports what was not matched, and views that do not fit each other.
 pub(super) fn report(
     drawing: &Drawing,

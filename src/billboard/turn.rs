@@ -8,21 +8,29 @@ use crate::scene::{Turn, ViewId};
 
 /// More views than this are joined in their order only.
 const MOST_TRIANGULATED: usize = 32;
+/// Views that are farther apart have nothing between them in which to turn, degrees: there are two ways from one to the other.
+const MOST_GAP: f64 = 179.0;
 
 /// The views, and the sets between which their weights are linear: the Delaunay triangles of (theta, phi), or the neighbours
-/// along a line.
+/// along a line. Views that go around the character are joined all around.
 pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
     let directions: TiVec<ViewId, [f64; 2]> =
         views.iter().map(|view| [view.theta, view.phi]).collect();
-    let places: Vec<DVec2> = directions.iter().copied().map(DVec2::from).collect();
-    let count = places.len();
+    let count = views.len();
+    let mut places: Vec<DVec2> = directions.iter().copied().map(DVec2::from).collect();
+    if count <= MOST_TRIANGULATED && goes_around(&places) {
+        for turn in [360.0, -360.0] {
+            let copies = directions.iter().copied().map(DVec2::from);
+            places.extend(copies.map(|place| place + DVec2::new(turn, 0.0)));
+        }
+    }
     let mut between = Vec::new();
     if count <= MOST_TRIANGULATED {
         for i in 0..count {
-            for j in i + 1..count {
-                for k in j + 1..count {
+            for j in i + 1..places.len() {
+                for k in j + 1..places.len() {
                     if is_delaunay(&places, [i, j, k]) {
-                        between.push([i, j, k].map(ViewId::from).to_vec());
+                        between.push(vec![i, j, k]);
                     }
                 }
             }
@@ -30,7 +38,7 @@ pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
     }
     if between.is_empty() {
         // All on a line: neighbours along it.
-        let mut order: Vec<usize> = (0..count).collect();
+        let mut order: Vec<usize> = (0..places.len()).collect();
         if count <= MOST_TRIANGULATED {
             order.sort_by(|a, b| {
                 let key = |i: &usize| (places[*i].x, places[*i].y);
@@ -39,13 +47,35 @@ pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
                     .unwrap_or(std::cmp::Ordering::Equal)
             });
         }
-        let neighbors = order.windows(2);
-        between.extend(neighbors.map(|pair| pair.iter().copied().map(ViewId::from).collect()));
+        between.extend(order.windows(2).map(<[usize]>::to_vec));
+    }
+    let mut sets: Vec<Vec<ViewId>> = Vec::new();
+    for set in between {
+        let is_copy = set.iter().all(|place| *place >= count);
+        let set: Vec<ViewId> = set.iter().map(|place| (place % count).into()).collect();
+        let of_same = |known: &Vec<ViewId>| set.iter().all(|view| known.contains(view));
+        let is_flat = set
+            .iter()
+            .enumerate()
+            .any(|(at, view)| set[..at].contains(view));
+        if !is_copy && !is_flat && !sets.iter().any(of_same) {
+            sets.push(set);
+        }
     }
     Turn {
         views: directions,
-        between,
+        between: sets,
     }
+}
+
+/// Whether neighbouring views are less than half a turn apart all around the upright axis.
+fn goes_around(places: &[DVec2]) -> bool {
+    let mut around: Vec<f64> = places.iter().map(|p| p.x.rem_euclid(360.0)).collect();
+    around.sort_by(f64::total_cmp);
+    let first = around.first().map(|first| first + 360.0);
+    let next = around.iter().copied().skip(1).chain(first);
+    let mut gaps = around.iter().zip(next).map(|(from, to)| to - from);
+    gaps.all(|gap| gap < MOST_GAP)
 }
 
 /// Whether no place is in the circle through three of them. Of places on a common circle, those with the smallest numbers win.
@@ -96,6 +126,40 @@ mod tests {
             sets(&[(45.0, 0.0), (-45.0, 0.0), (0.0, 0.0)]),
             [[1, 2], [2, 0]]
         );
+    }
+
+    #[test]
+    fn views_all_around_are_joined_in_a_ring() {
+        let ring = [(0.0, 0.0), (45.0, 0.0), (-45.0, 0.0), (180.0, 0.0)];
+        let mut found = sets(&ring);
+        for set in &mut found {
+            set.sort_unstable();
+        }
+        found.sort();
+        assert_eq!(found, [[0, 1], [0, 2], [1, 3], [2, 3]]);
+        // A half turn may go both ways.
+        assert_eq!(
+            sets(&[(0.0, 0.0), (90.0, 0.0), (180.0, 0.0)]),
+            [[0, 1], [1, 2]]
+        );
+        // From above as well: every direction up to there is in one triangle.
+        let turn = between(
+            &[(0.0, 0.0), (120.0, 0.0), (240.0, 0.0), (0.0, 30.0)]
+                .map(|(theta, phi)| Direction { theta, phi })
+                .into_iter()
+                .collect::<TiVec<_, _>>(),
+        );
+        for theta in (0..360).step_by(5) {
+            let theta = f64::from(theta);
+            let weights = turn.weights([theta, 1.0]);
+            let around: f64 = (turn.views.iter().zip(&weights))
+                .map(|(view, weight)| {
+                    let way = (view[0] - theta + 180.0).rem_euclid(360.0) - 180.0;
+                    way * weight
+                })
+                .sum();
+            assert!(around.abs() < 1e-6, "{theta}: {weights:?}");
+        }
     }
 
     #[test]

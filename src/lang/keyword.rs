@@ -72,6 +72,8 @@ keywords! {
     Height = terrain::HEIGHT;
     View = views::VIEW;
     Backing = views::BACKING;
+    Mirror = views::MIRROR;
+    Match = views::MATCH;
     Hidden = views::HIDDEN;
     Scale = drawing::SCALE;
     Axes = drawing::AXES;

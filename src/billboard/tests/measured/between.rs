@@ -91,7 +91,7 @@ fn model_picture(drawn: &[Drawn; 2], frame: &Frame, direction: Direction) -> Lab
     let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
     let turn = between(&directions);
     let mut shown = tracks.iter().flat_map(|track| &track.regions);
-    let stops = Stops::new(&turn, shown.all(Option::is_some));
+    let stops = Stops::new(&turn, shown.all(Option::is_some), Vec::new());
     let weights = stops.turn.weights([direction.theta, direction.phi]);
     let shape = |(track, placed): (&Track, &TrackPosition)| {
         let morph = shape_of(track, &views);

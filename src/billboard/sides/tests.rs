@@ -1,0 +1,161 @@
+use typed_index_collections::TiVec;
+
+use super::behind::{Back, Backs};
+use super::symmetry::symmetry;
+use super::*;
+use crate::billboard::region::{Region, View};
+use crate::billboard::tests::generated::{Drawn, FITTED, HELD_BACK, character};
+use crate::geometry::{area, intersect, union};
+
+fn direction(theta: f64) -> Direction {
+    Direction { theta, phi: 0.0 }
+}
+
+/// The area in which items of a kind are seen.
+fn seen(drawn: &Drawn, kinds: &[&str], kind: &str, axis: Option<f64>) -> crate::geometry::Outline {
+    let regions = drawn.view.regions.iter().zip(&drawn.items);
+    let own = regions.filter(|(_, item)| kinds[**item] == kind);
+    let own = own.map(|(region, _)| match axis {
+        Some(axis) => mirror::outline(&region.outline, axis),
+        None => (*region.outline).clone(),
+    });
+    union(&own.collect::<Vec<_>>())
+}
+
+/// How many characters count as symmetric, and the mean overlap of what the mirror image of a view shows with what is truly seen.
+fn measured(seeds: impl Iterator<Item = u64>) -> (usize, usize, f64) {
+    let (mut all, mut symmetric, mut overlaps) = (0, 0, Vec::new());
+    for seed in seeds {
+        let who = character(seed);
+        all += 1;
+        if !symmetry(&who.true_view(direction(0.0)).view).is_symmetric {
+            continue;
+        }
+        symmetric += 1;
+        let [left, right] = [45.0, -45.0].map(|theta| who.true_view(direction(theta)));
+        let kinds: Vec<&str> = who.items.iter().map(|item| item.kind).collect();
+        let mut of_kinds = kinds.clone();
+        of_kinds.sort_unstable();
+        of_kinds.dedup();
+        for kind in of_kinds {
+            // The centre of the true characters is at their origin.
+            let image = seen(&left, &kinds, kind, Some(0.0));
+            let truth = seen(&right, &kinds, kind, None);
+            let whole = area(&union(&[image.clone(), truth.clone()]));
+            if whole > 0.0 {
+                overlaps.push(area(&intersect(&image, &truth)) / whole);
+            }
+        }
+    }
+    let count = overlaps.len().max(1) as f64;
+    (all, symmetric, overlaps.iter().sum::<f64>() / count)
+}
+
+#[test]
+fn symmetric_characters_look_like_their_mirror_images_from_the_other_side() {
+    for seeds in [FITTED, HELD_BACK] {
+        let (all, symmetric, overlap) = measured(seeds.clone().take(60));
+        println!("seeds {seeds:?}: {symmetric} of {all} symmetric, overlap {overlap:.3}");
+        assert!(symmetric * 3 > all, "{symmetric} of {all}");
+        assert!(overlap > 0.95, "{overlap}");
+    }
+}
+
+#[test]
+fn what_has_a_large_part_on_one_side_only_is_not_symmetric() {
+    let (mut symmetric, mut of) = (0, 0);
+    for seed in HELD_BACK.take(60) {
+        let mut view = character(seed).true_view(direction(0.0)).view;
+        let found = symmetry(&view);
+        let areas: TiVec<RegionId, f64> = view.regions.iter().map(|r| area(&r.outline)).collect();
+        let largest = areas.iter().copied().fold(0.0, f64::max);
+        let partners = found.partners.iter_enumerated();
+        let mut pairs = partners.filter(|(id, partner)| {
+            partner.is_some_and(|other| other != *id) && areas[*id] > 0.1 * largest
+        });
+        let Some((id, _)) = pairs.next().filter(|_| found.is_symmetric) else {
+            continue;
+        };
+        of += 1;
+        // Up by half of the height.
+        let up = view
+            .bounds()
+            .map_or(0.0, |(low, high)| (high.y - low.y) / 2.0);
+        let region = &mut view.regions[id];
+        let moved =
+            |ring: &Vec<glam::DVec2>| ring.iter().map(|p| *p - glam::DVec2::Y * up).collect();
+        region.outline = std::sync::Arc::new(region.outline.map_rings(moved));
+        symmetric += usize::from(symmetry(&view).is_symmetric);
+    }
+    assert!(of > 10 && symmetric == 0, "{symmetric} of {of}");
+}
+
+/// A rectangle.
+fn rectangle([x, y, width, height]: [f64; 4], color: [f64; 3], container: Option<usize>) -> Region {
+    let corners = [
+        [x, y],
+        [x, y + height],
+        [x + width, y + height],
+        [x + width, y],
+    ];
+    let [r, g, b] = color;
+    Region {
+        name: None,
+        outline: std::sync::Arc::new(crate::geometry::resolve_overlaps(
+            vec![corners.map(glam::DVec2::from).to_vec()],
+            crate::geometry::FillRule::NonZero,
+        )),
+        color: [r, g, b, 1.0],
+        container: container.map(RegionId::from),
+        is_line: false,
+    }
+}
+
+#[test]
+fn hair_covers_a_face_and_a_shirt_does_not_cover_trousers() {
+    let (hair, skin, red, blue, white) = (
+        [0.3, 0.2, 0.1],
+        [0.9, 0.8, 0.6],
+        [0.8, 0.1, 0.1],
+        [0.1, 0.1, 0.8],
+        [1.0; 3],
+    );
+    let regions = vec![
+        rectangle([20.0, 0.0, 40.0, 40.0], hair, None),
+        rectangle([28.0, 12.0, 24.0, 32.0], skin, None),
+        rectangle([32.0, 20.0, 5.0, 5.0], white, Some(1)),
+        rectangle([43.0, 20.0, 5.0, 5.0], white, Some(1)),
+        // A neck, a shirt with bare arms beside it, a logo on it, and trousers as wide as it.
+        rectangle([35.0, 44.0, 10.0, 6.0], skin, None),
+        rectangle([22.0, 50.0, 36.0, 40.0], red, None),
+        rectangle([12.0, 52.0, 10.0, 36.0], skin, None),
+        rectangle([58.0, 52.0, 10.0, 36.0], skin, None),
+        rectangle([36.0, 60.0, 6.0, 6.0], white, Some(5)),
+        rectangle([22.0, 90.0, 36.0, 12.0], blue, None),
+        // A belly of another colour on something round.
+        rectangle([80.0, 0.0, 60.0, 100.0], red, None),
+        rectangle([90.0, 20.0, 40.0, 60.0], white, Some(10)),
+    ];
+    let view = View {
+        direction: direction(0.0),
+        regions: regions.into(),
+    };
+    let backs = Backs::of(&view);
+    let under = |cover: usize| Back::Under(RegionId::from(cover));
+    let (own, hidden) = (Back::Own, Back::Hidden);
+    let expected = [
+        own,
+        under(0),
+        hidden,
+        hidden,
+        own,
+        own,
+        own,
+        own,
+        hidden,
+        own,
+        own,
+        under(10),
+    ];
+    assert_eq!(backs.0.raw, expected);
+}
