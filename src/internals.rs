@@ -39,6 +39,12 @@ pub mod geometry {
 }
 pub mod ide {
     pub use crate::ide::Analysis;
+
+    pub mod changes {
+        pub use crate::ide::changes::{
+            Change, History, Place, Refusal, Step, can_set, check, edits, rebased,
+        };
+    }
 }
 pub mod import {
     pub use crate::import::{ImportError, read_static_model};

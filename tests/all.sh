@@ -324,6 +324,15 @@ blender_import() {
     --python $tools/blender_skin.py --
 }
 
+# Light on landscapes without textures.
+blender_light() {
+  [ $quick = no ] || skip "--quick"
+  built
+  command -v blender > /dev/null || install Blender blender python3-numpy
+  plain | grep -E '/(island|terrain/[a-z]+)\.glb$' | xargs blender -b --factory-startup --python-exit-code 1 \
+    --python $tools/blender_light.py --
+}
+
 # Gives Python Pillow, which puts pictures together, in an environment of its own.
 with_pillow() {
   local own=$target/pillow
@@ -337,15 +346,22 @@ with_pillow() {
   fi
 }
 
+# Makes the pictures of README and docs again, and compares them with the committed ones.
 gallery() {
   [ $quick = no ] || skip "--quick"
   command -v inkscape > /dev/null || install Inkscape inkscape
   need python3
   with_pillow
   use_program
-  OKOSHI=$(realpath "$okoshi") OUT="$target/gallery" bash $tools/gallery.sh
-  OKOSHI=$(realpath "$okoshi") OUT="$target/gallery" bash $tools/tutorial.sh
-  OKOSHI=$(realpath "$okoshi") python3 $tools/moving_picture.py "$target/gallery/girl.webp"
+  rm -rf "$target/gallery"
+  local OKOSHI OUT script
+  export OKOSHI OUT
+  OKOSHI=$(realpath "$okoshi")
+  OUT=$(realpath "$target")/gallery
+  for script in gallery tutorial motion_pictures puppet_picture tracking_picture; do bash $tools/$script.sh; done
+  OUT=$OUT/starters.png bash $tools/starters.sh
+  python3 $tools/moving_picture.py "$OUT/girl.webp"
+  python3 $tools/same_pictures.py "$OUT" docs gallery tutorial how-to motion
 }
 
 site() {
@@ -364,7 +380,7 @@ packages() {
   for tool in python3 npm objdump strip dpkg-deb curl; do need $tool; done
   python3 -c 'import ensurepip' 2> /dev/null || install "Python's venv" python3-venv
   use_program
-  OKOSHI=$(realpath "$okoshi") python3 $tools/release.py "$target/packages"
+  OKOSHI=$(realpath "$okoshi") with_web python3 $tools/release.py "$target/packages"
 }
 
 readme() {
@@ -427,7 +443,7 @@ step clippy lints
 # Each of the two rows takes about one core: what needs cargo, and what needs the program.
 if program; then is_built=yes; fi
 begin_aside examples:examples validator:validator schemas:schemas extension:extension page:page editors:editors inkscape:inkscape_extension \
-  blender:blender_import
+  blender:blender_import blender-light:blender_light
 step test tests
 step package package
 step clip-art clip_art

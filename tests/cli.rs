@@ -657,7 +657,15 @@ fn help_describes_every_command() {
     ] {
         room.run(&["--help"]).ends(0, topic, "");
     }
-    for command in ["new", "build", "check", "inspect", "explain", "completions"] {
+    for command in [
+        "new",
+        "build",
+        "check",
+        "inspect",
+        "explain",
+        "man",
+        "completions",
+    ] {
         room.run(&["--help"]).ends(0, command, "");
         room.run(&[command, "--help"]).ends(0, "Usage: okoshi ", "");
     }

@@ -108,6 +108,8 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::TooFine, "limit-corners"),
     (Code::TooMuchRound, "limit-round"),
     (Code::SoftShades, "view-soft-shades"),
+    (Code::NoFooting, "terrain-props-footing"),
+    (Code::Floats, "terrain-props-footing"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),
     (Code::AxisGuess, "shape-axis-guess"),

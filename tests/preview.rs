@@ -11,6 +11,7 @@ use std::path::Path;
 
 use common::live::Live;
 use common::patience::{PATIENCE, wait_until};
+use common::program::Room;
 use serde_json::Value;
 use tungstenite::client::IntoClientRequest;
 use tungstenite::stream::MaybeTlsStream;
@@ -32,7 +33,8 @@ fn served(folder: &Path, target: &str) -> (Live, u16) {
 
 /// The port of a server that was started, once it watches.
 fn port_of(live: &Live) -> u16 {
-    let [address, _] = live.lines(["http://127.0.0.1:", "watching"]);
+    // Drawings are watched, or waited for.
+    let [address, _] = live.lines(["http://127.0.0.1:", "press Ctrl-C to stop"]);
     let port = address.rsplit_once("127.0.0.1:").map(|(_, rest)| rest);
     let port = port.and_then(|port| port.trim_end_matches('/').parse().ok());
     port.expect("a port")
@@ -81,6 +83,16 @@ fn socket(port: u16, origin: Option<&str>) -> tungstenite::Result<Socket> {
         request.headers_mut().insert("origin", origin);
     }
     connect(request).map(|(socket, _)| socket)
+}
+
+/// The web socket of a page in a browser.
+fn page(port: u16) -> Socket {
+    socket(port, Some(&format!("http://127.0.0.1:{port}"))).expect("let in")
+}
+
+fn say(socket: &mut Socket, message: &Value) {
+    let text = Message::text(message.to_string());
+    socket.send(text).expect("sent");
 }
 
 /// The next message of a kind.
@@ -572,4 +584,129 @@ fn two_pages_record_apart_and_a_third_waits() {
         let answer = page.read();
         answer.is_ok_and(|answer| answer.to_text().is_ok_and(|text| text.contains("seen")))
     });
+}
+
+#[test]
+fn an_empty_folder_offers_starters_and_a_click_begins_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_live, port) = served(folder.path(), ".");
+    let mut shown = page(port);
+    let offer = heard(&mut shown, "starters");
+    let drawings = heard(&mut shown, "drawings");
+    assert_eq!(drawings["drawings"], serde_json::json!([]));
+    let offered = offer["starters"].as_array().expect("a list");
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let names: Vec<String> = offered.iter().map(|one| text(&one["name"])).collect();
+    let listed = Room::new().run(&["new", "--list"]).out;
+    let listed: Vec<&str> = listed
+        .lines()
+        .filter_map(|line| line.split(' ').next())
+        .collect();
+    assert_eq!(names, listed);
+    for one in offered {
+        assert!(!text(&one["about"]).is_empty(), "{one}");
+        assert_eq!(one["picture"].is_null(), one["name"] == "empty");
+    }
+    // Of the pictures, which take long without optimization, those of a figure and a landscape; the page's own tests see all.
+    for one in offered
+        .iter()
+        .filter(|one| one["name"] == "boy" || one["name"] == "island")
+    {
+        let (status, png) = got(port, &format!("/{}", text(&one["picture"])));
+        assert_eq!(status, 200, "{one}");
+        let picture = image::load_from_memory(&png).expect("a picture").to_rgba8();
+        let seen = picture.pixels().filter(|pixel| pixel[3] > 250).count();
+        assert!(seen > 8000, "{one} shows {seen} pixels");
+    }
+    for nothing in [
+        "/starters/wolf.png",
+        "/starters/girl",
+        "/starters/..%2Fgirl.png",
+    ] {
+        assert_eq!(got(port, nothing).0, 404, "{nothing}");
+    }
+
+    // Another page, for the pictures may have taken so long that this one counts as gone. The key is the same.
+    let mut shown = page(port);
+    assert_eq!(heard(&mut shown, "starters")["key"], offer["key"]);
+    heard(&mut shown, "drawings");
+    say(
+        &mut shown,
+        &serde_json::json!({"type": "begin", "key": offer["key"], "starter": "dog"}),
+    );
+    let drawings = heard(&mut shown, "drawings");
+    assert_eq!(drawings["drawings"][0]["name"], "dog.svg");
+    let build = heard(&mut shown, "build");
+    assert_eq!(build["build"]["stale"], false);
+    assert_eq!(build["build"]["incomplete"], false);
+    let written = fs::read_to_string(folder.path().join("dog.svg")).expect("a drawing");
+    let printed = Room::new().run(&["new", "--template", "dog", "-"]).out;
+    assert!(written == printed);
+
+    // Now there is one.
+    say(
+        &mut shown,
+        &serde_json::json!({"type": "begin", "key": offer["key"], "starter": "girl"}),
+    );
+    let why = text(&heard(&mut shown, "unbegun")["why"]);
+    assert!(why.contains("has drawings"), "{why}");
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
+}
+
+#[test]
+fn starters_are_begun_by_the_page_alone_and_replace_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // A folder of that name is no drawing.
+    fs::create_dir(folder.path().join("girl.svg")).expect("a folder");
+    let (_live, port) = served(folder.path(), ".");
+    let begin = |socket: &mut Socket, key: &Value, starter: &str| {
+        say(
+            socket,
+            &serde_json::json!({"type": "begin", "key": key, "starter": starter}),
+        );
+        heard(socket, "unbegun")["why"]
+            .as_str()
+            .unwrap_or_default()
+            .to_owned()
+    };
+    let mut shown = page(port);
+    let key = heard(&mut shown, "starters")["key"].clone();
+    assert_eq!(key.as_str().map(str::len), Some(32));
+    for (key, starter, why) in [
+        (&key, "girl", "exists"),
+        (&key, "../dog", "no starter"),
+        (&key, "", "no starter"),
+        (&Value::from(""), "dog", "reload"),
+        (&Value::from("0".repeat(32)), "dog", "reload"),
+    ] {
+        let said = begin(&mut shown, key, starter);
+        assert!(said.contains(why), "{starter}: {said}");
+    }
+    // A program is no page, and another server has another key.
+    let mut program = socket(port, None).expect("let in");
+    let said = begin(&mut program, &key, "dog");
+    assert!(said.contains("only the page"), "{said}");
+    let (_other, other_port) = served(folder.path(), ".");
+    let said = begin(&mut page(other_port), &key, "dog");
+    assert!(said.contains("reload"), "{said}");
+    // Where there is a drawing, nothing is offered.
+    let other = self::folder();
+    let (_other, other_port) = served(other.path(), ".");
+    let mut shown = page(other_port);
+    loop {
+        let text = shown.read().expect("a message").into_text();
+        let message: Value = serde_json::from_str(&text.expect("text")).unwrap_or_default();
+        assert_ne!(message["type"], "starters");
+        if message["type"] == "build" {
+            break;
+        }
+    }
+    let said = begin(&mut shown, &key, "dog");
+    assert!(said.contains("has drawings"), "{said}");
+    // Nor beside a single one.
+    fs::write(folder.path().join("girl.svg/a.svg"), DRAWING).expect("written");
+    let (_one, port) = served(folder.path(), "girl.svg/a.svg");
+    let said = begin(&mut page(port), &key, "dog");
+    assert!(said.contains("offers no drawings"), "{said}");
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
 }

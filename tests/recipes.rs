@@ -206,3 +206,27 @@ fn words_are_read_from_all_but_tests_and_documentation() {
         assert!(!words.contains(word), "{word}");
     }
 }
+
+#[test]
+fn every_manifest_has_the_version_of_the_program() {
+    let version = env!("CARGO_PKG_VERSION");
+    for (path, line) in [
+        (
+            "editors/vscode/package.json",
+            format!("\"version\": \"{version}\","),
+        ),
+        (
+            "editors/web/package.json",
+            format!("\"version\": \"{version}\","),
+        ),
+        ("editors/emacs/okoshi.el", format!(";; Version: {version}")),
+        (
+            "docs/motion/kick.svg",
+            format!("written by okoshi {version} "),
+        ),
+        ("CHANGELOG.md", format!("## {version}")),
+    ] {
+        let text = std::fs::read_to_string(path).expect("a file");
+        assert!(text.contains(&line), "{path} has no `{line}`");
+    }
+}

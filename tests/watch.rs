@@ -180,7 +180,8 @@ fn linked_files_are_watched_before_they_exist() {
 fn the_files_of_a_map_are_watched() {
     let (folder, live) = watched(&["a.svg"]);
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/terrain");
-    for name in ["harbour.tmx", "harbour.tsx", "harbour.png"] {
+    let files = "harbour.tmx harbour.tsx harbour.png harbour-things.tsx harbour-things.png";
+    for name in files.split(' ') {
         fs::copy(examples.join(name), folder.path().join(name)).expect("copied");
     }
     let linking = fs::read_to_string(examples.join("harbour.svg")).expect("a drawing");

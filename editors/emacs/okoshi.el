@@ -1,6 +1,6 @@
 ;;; okoshi.el --- Language support for drawings with okoshi strings  -*- lexical-binding: t; -*-
 
-;; Version: 0.1.0
+;; Version: 0.2.0
 ;; Package-Requires: ((emacs "27.1") (eglot "1.9"))
 ;; SPDX-License-Identifier: MIT OR Apache-2.0
 

@@ -5,7 +5,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::Owner;
 use super::textures::{Textured, Textures};
-use crate::bind::{Bindings, MaterialFactors, PartId, PartKind};
+use crate::bind::{Bindings, MaterialFactors, PartId};
 use crate::diagnostic::Diagnostic;
 use crate::figure::LinkedModels;
 use crate::memo::Memo;
@@ -117,7 +117,7 @@ impl Materials {
         };
         let mut of_part: TiVec<PartId, PartMaterial> = TiVec::with_capacity(bindings.parts.len());
         for (index, part) in bindings.parts.iter_enumerated() {
-            let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
+            let built = part.kind.is_solid();
             // Models bring their own materials.
             let own = built && !models.has(index);
             let Some(profile) = bindings.profile(drawing, index).filter(|_| own) else {

@@ -4,6 +4,8 @@
 //! node of each part, materials, the world transform.
 
 mod materials;
+mod objects;
+mod props;
 mod textures;
 mod world;
 
@@ -19,11 +21,12 @@ use crate::figure::{Behind, FigureNodes, Figures, FormInFigure, LinkedModels, No
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, FigureFacing, RestNode};
-use crate::scene::{MaterialId, PartMaterial, Scene, WorldTransform};
+use crate::scene::{MaterialId, NodeId, PartMaterial, Scene, WorldTransform};
 use crate::svg::Drawing;
 use crate::terrain::{self, LandscapeId, Layer};
 use materials::{LookMaterials, Materials, Sharing};
 
+pub(crate) use props::StandingProp;
 pub use world::world_transform;
 
 /// A drawing's scene, and what is in it.
@@ -45,6 +48,8 @@ pub(crate) struct Assembled {
     pub forms: Vec<(PartId, FormInFigure)>,
     /// Where figures look.
     pub facings: Vec<FigureFacing>,
+    /// Per prop of the bindings where it stands; empty without landscapes.
+    pub props: Vec<StandingProp>,
 }
 
 /// What a surface of a scene is made from.
@@ -83,6 +88,7 @@ pub(crate) fn assemble(
         facings,
         bends,
         of_part,
+        props,
         ..
     } = build(
         drawing,
@@ -131,6 +137,7 @@ pub(crate) fn assemble(
         behind: figures.behind,
         forms: figures.forms,
         facings,
+        props,
     }
 }
 
@@ -208,6 +215,8 @@ struct Built {
     /// Per part its material.
     of_part: TiVec<PartId, PartMaterial>,
     of_looks: LookMaterials,
+    /// Per prop where it stands.
+    props: Vec<StandingProp>,
 }
 
 /// Builds the figures and landscapes of a drawing, and the materials of some parts that are regions of characters.
@@ -251,21 +260,44 @@ fn build(
     diagnostics.extend(found);
     let (mut scene, of_part, of_looks) = materials.into_scene();
     models.add_materials(&mut scene);
-    let figures = figures.build(&models, &of_part, &world, &mut scene);
+    let mut figures = figures.build(&models, &of_part, &world, &mut scene);
+    let mut landscapes: TiVec<LandscapeId, NodeId> = TiVec::with_capacity(layers.len());
     for (index, layer) in layers.iter_enumerated() {
         let parent = layer
             .parent
             .and_then(|part| Some((figures.node_of_part[part]?, &figures.frames[part])));
         let material_of = |look| of_looks.of(index, look);
-        scene.add(terrain::node(
+        landscapes.push(scene.add(terrain::node(
             layer,
             drawing,
             bindings,
             &world,
             parent,
             material_of,
-        ));
+        )));
     }
+    objects::report(bindings, &layers, diagnostics);
+    objects::add(
+        bindings,
+        &layers,
+        &landscapes,
+        &of_looks,
+        world.scale,
+        &mut scene,
+    );
+    let mut props = props::places(bindings, &layers);
+    props::report(drawing, bindings, &layers, &props, diagnostics);
+    props::add(
+        drawing,
+        bindings,
+        &layers,
+        &landscapes,
+        &mut props,
+        &mut figures,
+        world.scale,
+        sharing == Sharing::Apart,
+        &mut scene,
+    );
     Built {
         scene,
         layers,
@@ -275,5 +307,6 @@ fn build(
         bends,
         of_part,
         of_looks,
+        props,
     }
 }

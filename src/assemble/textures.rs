@@ -6,7 +6,7 @@ use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiSlice, TiVec};
 
-use crate::bind::{Bindings, PartId, PartKind, StringId};
+use crate::bind::{Bindings, PartId, StringId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::figure::LinkedModels;
 use crate::memo::Memo;
@@ -82,7 +82,7 @@ impl Textures {
             reported: FxHashSet::default(),
         };
         for (index, part) in bindings.parts.iter_enumerated() {
-            let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
+            let built = part.kind.is_solid();
             if built && !models.has(index) && bindings.profile(drawing, index).is_some() {
                 collector.part(index, diagnostics);
             }

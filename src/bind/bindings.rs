@@ -15,6 +15,7 @@ use crate::svg::{Drawing, Element, GroupId, Paint, ShapeId};
 
 use super::attributes::Legend;
 use super::matching::{DrawingSettings, LayerId, Layers, Leaders};
+use super::props::Prop;
 
 index_type!(
     /// A string of a drawing.
@@ -47,6 +48,8 @@ pub struct Bindings {
     pub settings: DrawingSettings,
     /// The layers, in the order of their strings.
     pub layers: Layers,
+    /// The props, in paint order.
+    pub(crate) props: Vec<Prop>,
     /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.
     pub hierarchy_by_contact: bool,
     /// Per layer the main part that is its parent; `None` for a child of the root.
@@ -167,9 +170,16 @@ pub enum PartKind {
     Tile,
     /// Drawn in a view of a character: one of its regions.
     Region,
+    /// Stands by itself on the ground of a map, together with the rest of its group: it has no joint, and nothing hangs on it.
+    Prop,
 }
 
 impl PartKind {
+    /// Whether it is built as a solid: a part of a figure, or a prop.
+    pub fn is_solid(self) -> bool {
+        matches!(self, Self::Main | Self::Sub | Self::Prop)
+    }
+
     /// The word for `inspect`.
     pub fn name(self) -> &'static str {
         match self {
@@ -179,6 +189,7 @@ impl PartKind {
             Self::Unused => "unused",
             Self::Tile => "tile",
             Self::Region => "region",
+            Self::Prop => "prop",
         }
     }
 }
@@ -202,8 +213,10 @@ pub struct Part {
     pub outline: Arc<Outline>,
     /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
     pub(super) is_balloon: bool,
-    /// For a wheel that no string gives a `Shape`, half its thickness, drawing units.
-    pub(super) disc: Option<f64>,
+    /// For a prop or a wheel that no string gives a `Shape`, half its thickness, drawing units.
+    pub(super) plate: Option<f64>,
+    /// For a prop, the layer that says that it stands.
+    pub stands_in: Option<LayerId>,
     /// For cloth by its name, how far it reaches to either side of its plane at most if it is inflated without a `Shape` that says so,
     /// drawing units.
     pub(super) sheet: Option<f64>,
@@ -230,6 +243,11 @@ impl Part {
     /// Whether it is the main part candidate of its node.
     pub fn is_candidate(&self) -> bool {
         self.main == self.index
+    }
+
+    /// For a prop or a wheel that no string gives a `Shape`, half its thickness, drawing units.
+    pub(crate) fn plate(&self) -> Option<f64> {
+        self.plate
     }
 
     /// The axis, centre and ends of its node.
@@ -328,11 +346,11 @@ pub(super) fn paint(drawing: &Drawing, shape: ShapeId, is_stroke: bool) -> &Pain
 }
 
 impl Bindings {
-    /// Per main part the parts whose solids are in its node.
+    /// Per main part, and per prop's first part, the parts whose solids are in its node.
     pub fn parts_of_nodes(&self) -> TiVec<PartId, Vec<PartId>> {
         let mut parts_of_nodes = ti_vec![Vec::new(); self.parts.len()];
         for (index, part) in self.parts.iter_enumerated() {
-            if matches!(part.kind, PartKind::Main | PartKind::Sub) {
+            if part.kind.is_solid() {
                 parts_of_nodes[part.main].push(index);
             }
         }

@@ -23,7 +23,7 @@ pub(super) fn find(matched: &mut Matched, tree: &Tree) {
         }
         part.is_balloon = false;
         if main == index {
-            part.disc = diameter(&part.outline).map(|diameter| THICKNESS / 2.0 * diameter);
+            part.plate = diameter(&part.outline).map(|diameter| THICKNESS / 2.0 * diameter);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::bindings::{Bindings, Part, PartId, PartKind};
+use super::bindings::{Bindings, Part, PartId};
 use crate::budget::Work;
 use crate::diagnostic::{Code, Diagnostic, listed};
 use crate::solid::{self, LEAST_SEGMENTS, Placement, Profile};
@@ -86,7 +86,7 @@ fn small(drawing: &Drawing, bindings: &Bindings) -> Vec<PartId> {
 /// The parts that become solids.
 fn built(bindings: &Bindings) -> impl Iterator<Item = PartId> + '_ {
     let parts = bindings.parts.iter_enumerated();
-    let built = parts.filter(|(_, part)| matches!(part.kind, PartKind::Main | PartKind::Sub));
+    let built = parts.filter(|(_, part)| part.kind.is_solid());
     built.map(|(index, _)| index)
 }
 

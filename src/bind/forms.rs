@@ -23,7 +23,7 @@ impl Bindings {
             return None;
         }
         let is_soft = own.is_balloon && !own.is_stroke;
-        if own.disc.is_some() {
+        if own.plate.is_some() && own.stands_in.is_none() {
             Some(FormByName::Disc)
         } else if own.is_balloon && own.is_sheet() {
             Some(FormByName::Thin)

@@ -15,6 +15,7 @@ mod forms;
 mod hierarchy;
 mod matching;
 mod names;
+mod props;
 mod reports;
 mod sheets;
 #[cfg(test)]
@@ -39,6 +40,7 @@ pub(crate) use forms::FormByName;
 pub use matching::in_layers_of_pixels;
 pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
 pub(crate) use names::written_by_a_person;
+pub(crate) use props::Prop;
 pub(crate) use reports::locate;
 pub(crate) use vehicles::VehiclePart;
 
@@ -81,7 +83,10 @@ fn bind_as(
     bodies::soften(drawing, &mut matched, &tree);
     discs::find(&mut matched, &tree);
     diagnostics.extend(reports::all(drawing, texts, &matched, &attributes, &tree));
+    let groups = matched.parts.iter().map(|part| part.node_group).collect();
+    let groups: TiVec<PartId, _> = groups;
     let mut bindings = assembled(matched, attributes, tree);
+    props::find(drawing, &mut bindings, |part| groups[part]);
     fineness::limit(drawing, &mut bindings, diagnostics);
     reports::first_look(drawing, &bindings, diagnostics);
     bindings
@@ -99,7 +104,8 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         host: part.host,
         outline: part.outline,
         is_balloon: part.is_balloon,
-        disc: part.disc,
+        plate: part.plate,
+        stands_in: part.stands_in,
         sheet: None,
         is_too_fine: false,
         measure: tree.axes.turned(index).unwrap_or(part.measure),
@@ -126,6 +132,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         variables: matched.variables,
         settings: matched.settings,
         layers: matched.layers,
+        props: vec![],
         hierarchy_by_contact: tree.by_contact,
         parent_of_layer: tree.parent_of_layer,
         leaders: matched.leaders,

@@ -104,6 +104,13 @@ pub(super) enum Command {
     /// Editors start it by themselves; docs/editors describes how to set each up. Positions are in UTF-8 or
     /// UTF-16, as the editor prefers.
     Lsp,
+    /// Write a manual page, for `man`
+    ///
+    /// `okoshi man | man -l -` shows that of the program, `okoshi man build | man -l -` that of `okoshi build`.
+    Man {
+        /// The command that the page is about; without it, the program
+        command: Option<String>,
+    },
     /// Write a completion script for a shell
     Completions {
         /// The shell

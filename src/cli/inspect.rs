@@ -22,7 +22,7 @@ use crate::export;
 use crate::ide::{Subject, Which};
 use crate::lang::keyword::Keyword;
 use crate::report::{Fit, MatchedBy, Reasons, Undo, describe_character, figures, inspection_json};
-use crate::terrain::Layer;
+use crate::terrain::{LandscapeId, Layer, Place};
 
 /// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
 pub(super) fn run(arguments: &Inspect, common: Common) -> Result<Outcome, Failure> {
@@ -107,8 +107,8 @@ fn tree(loaded: &Loaded, numbers: Numbers) -> String {
         let (what, listed) = match subject.which {
             Which::Part(part) => (nodes.describe(subject, part), Vec::new()),
             Which::Landscape(layer) => {
-                let layer = &loaded.compiled.layers[layer];
-                (describe_layer(layer), contents(layer))
+                let own = &loaded.compiled.layers[layer];
+                (describe_layer(own), contents(&loaded.compiled, layer))
             }
             Which::Character(character) | Which::Region(character, _) => {
                 let character = &loaded.compiled.characters[character];
@@ -252,8 +252,9 @@ fn describe_layer(layer: &Layer) -> String {
 /// Most groups and houses of a landscape, or regions of a character, that are listed one by one.
 const MAX_LISTED: usize = 40;
 
-/// The groups of a landscape with their heights, its ponds and houses.
-fn contents(layer: &Layer) -> Vec<[String; 2]> {
+/// The groups of a landscape with their heights, its ponds, its houses, and what stands on it.
+fn contents(compiled: &Compiled, index: LandscapeId) -> Vec<[String; 2]> {
+    let layer = &compiled.layers[index];
     let cells = |count: usize| match count {
         1 => "1 tile".to_owned(),
         count => format!("{count} tiles"),
@@ -272,7 +273,19 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
         );
         [format!("house at {}", house.base), what]
     });
-    let all = groups.chain(houses);
+    let props = compiled.bindings.props.iter().zip(&compiled.props);
+    let props = props.filter(|(_, standing)| standing.landscape == index);
+    let props = props.map(|(prop, standing)| {
+        let Place { cell, point, .. } = standing.place;
+        let height = (point.y * 100.0).round() / 100.0;
+        let place = match cell {
+            Some([column, row]) => format!("column {}, row {}", column + 1, row + 1),
+            None => "beside the map".to_owned(),
+        };
+        let name = &compiled.bindings.parts[prop.main].name;
+        [format!("{name} at {height}"), format!("a prop, {place}")]
+    });
+    let all = groups.chain(houses).chain(props);
     let mut listed: Vec<[String; 2]> = all.collect();
     shorten(&mut listed);
     listed

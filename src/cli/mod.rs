@@ -16,6 +16,7 @@ mod explain;
 mod fix;
 mod inspect;
 mod loading;
+mod man;
 mod motion;
 mod new;
 mod parallel;
@@ -110,6 +111,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Watch(arguments) => watch::run(arguments, cli.common),
         Command::Preview(arguments) => preview::run(arguments, cli.common),
         Command::Lsp => lsp(),
+        Command::Man { command } => man::run(command.as_deref()),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "okoshi", &mut script);

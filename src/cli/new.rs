@@ -10,6 +10,7 @@ use super::args::{Common, New, Template};
 use super::terminal::Protocol;
 use super::{Failure, Outcome, print_out};
 use crate::disk::{WriteError, is_standard_stream, write_new};
+use crate::preview::Starter;
 
 impl Template {
     /// The template of a drawing that is called like one, and else the girl.
@@ -72,6 +73,25 @@ fn list() -> Outcome {
         let _ = writeln!(text, "{:<12}{help}", value.get_name());
     }
     print_out(&text)
+}
+
+/// All templates for the preview's page, in the order of the list.
+pub(super) fn starters() -> Vec<Starter> {
+    let starter = |template: &Template| {
+        let value = template.to_possible_value()?;
+        let help = value.get_help().map(ToString::to_string);
+        // Where one clicks, other names are of no use.
+        let about = help.unwrap_or_default();
+        let about = about.split("; also").next().unwrap_or_default();
+        Some(Starter {
+            name: value.get_name().to_owned(),
+            about: about.to_owned(),
+            drawing: template.drawing(),
+            has_model: *template != Template::Empty,
+        })
+    };
+    let all = Template::value_variants().iter();
+    all.filter_map(starter).collect()
 }
 
 /// The file of the drawing: the name, with `.svg` appended unless it has that extension.

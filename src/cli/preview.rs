@@ -4,10 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::args::{Common, Preview};
+use super::new::starters;
 use super::watch::{describe_event, describe_shown, follow, options};
 use super::{Failure, Outcome};
-use crate::disk::ReadError;
-use crate::preview::{Hub, Shown, bind, serve};
+use crate::disk::{ReadError, write_new};
+use crate::preview::{Hub, Shown, Starters, bind, serve};
 use crate::watch::{Build, Event, Options};
 
 /// Shows drawings on a live page until it is interrupted.
@@ -24,7 +25,15 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
         format!("port {port} is not available ({error}); choose another with --port, or leave --port out")
     })?;
     let url = bound.url();
-    let hub = Hub::new(|_, _| ());
+    let folder = path.is_dir().then(|| path.clone());
+    let offered = folder.map(|folder| {
+        Starters::new(starters(), move |starter| {
+            let drawing = folder.join(format!("{}.svg", starter.name));
+            let written = write_new(&drawing, starter.drawing.as_bytes());
+            written.map_err(|error| error.to_string())
+        })
+    });
+    let hub = Hub::new(|_, _| (), offered);
     let server = hub.clone();
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
@@ -55,6 +64,7 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
 fn show(hub: &Arc<Hub>, target: &Path, event: &Event<'_>) {
     match event {
         Event::Built(drawing, build) => publish(hub, target, drawing, build),
+        Event::Ready(0) => hub.offer_starters(),
         Event::Gone(drawing) => hub.gone(&drawing.display().to_string()),
         _ => {}
     }

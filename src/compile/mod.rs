@@ -79,6 +79,8 @@ pub struct Compiled {
     pub(crate) forms: Vec<(PartId, FormInFigure)>,
     /// Where figures look.
     pub(crate) facings: Vec<rig::FigureFacing>,
+    /// Per prop of the bindings where it stands; empty without landscapes.
+    pub(crate) props: Vec<assemble::StandingProp>,
     /// The drawing. Its outlines and texts are shared with the bindings.
     #[doc(hidden)]
     pub drawing: Arc<Drawing>,
@@ -197,6 +199,7 @@ impl Reading {
             behind,
             forms,
             facings,
+            props,
         } = assemble::assemble(&drawing, &bindings, &links, memo, &mut diagnostics);
         bind::locate(&drawing, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
@@ -212,6 +215,7 @@ impl Reading {
             behind,
             forms,
             facings,
+            props,
             drawing,
             diagnostics,
             dependencies: links.into_iter().collect(),

@@ -422,7 +422,7 @@ codes! {
     /// Put the string into the group or layer that contains the tiles.
     NoTiles = "W313", "tile layer without tiles";
     /// `Tiles`, `Bevel` or `Roof` is in a string that does not make a tile layer, `Height` outside of one, or `Depth` or `Hidden` in one outside of a
-    /// character's views, so it has no effect.
+    /// character's views, or `Stand` where nothing stands on a map, so it has no effect.
     ///
     /// ```text
     /// Hat@Head$Roof 0.5
@@ -656,6 +656,15 @@ codes! {
     /// Paint each area in one colour, in Krita or GIMP with *Posterize*, or trace the picture with few colours, in Inkscape with
     /// *Path → Trace Bitmap*.
     SoftShades = "W337", "picture with soft shades";
+    /// The foot of a prop, the middle of its lowest edge, is not drawn on ground: it is beside the map, where the prop stands at height 0, or on the
+    /// front of a wall, where it stands on top of the wall.
+    ///
+    /// ```text
+    /// Trees$Stand, with a tree that is drawn beside the island
+    /// ```
+    ///
+    /// Move the prop so that its lowest edge is on a top of the map, or write the point on which it stands into its string: `Tree$Stand 40 120`.
+    NoFooting = "W338", "prop beside the ground";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.
@@ -804,6 +813,14 @@ codes! {
     /// Leave it as it is if the texts are lettering. If they name parts, write a text with a keyword too, such as `%Scale 1`: then all
     /// texts are read as strings, and what is wrong with each is reported.
     Lettering = "H418", "texts are taken as lettering";
+    /// The foot of a prop, the middle of its lowest edge, is drawn on water: it floats, with its foot at the water's level.
+    ///
+    /// ```text
+    /// Boats$Stand, with a boat on the sea
+    /// ```
+    ///
+    /// Leave it as it is if it floats: a boat, a lily. Move a tree onto its shore.
+    Floats = "H419", "prop on water";
 }
 
 impl Code {

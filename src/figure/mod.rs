@@ -22,7 +22,7 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
 
 use crate::bend::{Bend, BentSurface, Bones};
-use crate::bind::{Bindings, PartId, Seen, SetBy, VehiclePart};
+use crate::bind::{Bindings, PartId, PartKind, Seen, SetBy, VehiclePart};
 use crate::budget::Work;
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness, y_up};
@@ -112,6 +112,8 @@ pub(crate) struct FigureNodes {
     pub behind: Vec<(PartId, Behind)>,
     /// What figures do to the forms of parts.
     pub forms: Vec<(PartId, FormInFigure)>,
+    /// Per prop its solids, if it has any, in a frame that stands upright on its foot: it has no node yet.
+    pub props: Vec<Option<Mesh>>,
     /// Per part the thickness of its solid, `None` without one; empty if the drawing has no motion.
     pub thicknesses: TiVec<PartId, Option<Thickness>>,
 }
@@ -132,10 +134,11 @@ impl<'a> Figures<'a> {
         let frames = parts.map(|part| {
             let solid = Frame::new(&part.measure, part.origin);
             let of_group = part.of_group.as_deref();
-            PartFrames {
-                node: of_group.map_or(solid, |measure| Frame::new(measure, part.origin)),
-                solid,
-            }
+            let node = match part.kind {
+                PartKind::Prop => Frame::upright(part.origin),
+                _ => of_group.map_or(solid, |measure| Frame::new(measure, part.origin)),
+            };
+            PartFrames { node, solid }
         });
         let frames: TiVec<PartId, PartFrames> = frames.collect::<Vec<_>>().into();
         let (layers, mut forms, buried) = Layers::arrange(&context, &frames, world, memo);
@@ -171,13 +174,17 @@ impl<'a> Figures<'a> {
                 texture,
             });
         }
-        let meshes: Vec<Option<Mesh>> = par_keys(&self.parts_of_node)
+        let mut meshes: Vec<Option<Mesh>> = par_keys(&self.parts_of_node)
             .with_min_len(GRAIN)
             .map(|main| self.mesh(main, &models.0, materials, &backs, world))
             .collect();
+        let bindings = self.context.bindings;
+        let props = bindings.props.iter();
+        let props = props
+            .map(|prop| meshes[usize::from(prop.main)].take())
+            .collect();
         let (nodes, node_of_part) =
             nodes::add(&self.context, self.tree, meshes.into(), world, scene);
-        let bindings = self.context.bindings;
         let thicknesses = if bindings.clip_requests().is_empty() {
             Vec::new()
         } else {
@@ -187,6 +194,7 @@ impl<'a> Figures<'a> {
                 .collect()
         };
         FigureNodes {
+            props,
             thicknesses: thicknesses.into(),
             frames: self.frames.into_iter().map(|frames| frames.node).collect(),
             parts_of_node: self.parts_of_node,

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::TiVec;
 
-use crate::bind::{Bindings, PartId, PartKind};
+use crate::bind::{Bindings, PartId};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Frame, Outline};
 use crate::import::{ImportError, StaticModel, read_static_model};
@@ -62,7 +62,7 @@ impl Models {
             let Some(link) = shape.value.file() else {
                 continue;
             };
-            if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
+            if !part.kind.is_solid() {
                 continue;
             }
             let found = known.entry(link).or_insert_with(|| {

@@ -43,6 +43,16 @@ impl Frame {
         }
     }
 
+    /// The frame of what stands upright on a point of the drawing.
+    pub(crate) fn upright(foot: DVec2) -> Self {
+        let origin = y_up(foot);
+        Self {
+            origin,
+            center: origin,
+            angle: 0.0,
+        }
+    }
+
     /// A point of the plane in this frame.
     pub(crate) fn to_local(self, point: DVec2) -> DVec2 {
         DVec2::from_angle(-self.angle).rotate(point - self.origin)

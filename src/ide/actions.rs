@@ -1,13 +1,11 @@
 //! Code actions: fixes of diagnostics, and rewrites of strings.
 
-use std::fmt::Write as _;
-
 use super::Analysis;
 use super::at::{At, Found, attributes};
+use super::changes::{as_description, string_for};
 use crate::bind::{BindRule, DistanceMode, Part, PartId, PartKind, StringId};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
-use crate::lang::quoting::{NamePlace, quoted_if_needed};
 use crate::source::{Span, Text, escape_xml};
 use crate::svg::PaintKey;
 
@@ -15,12 +13,6 @@ use crate::svg::PaintKey;
 const CHARACTER: f64 = 0.6;
 /// How small a text becomes to fit into a shape, as a share of the usual font size.
 const SMALLEST: f64 = 0.25;
-
-/// A string as a description. One that ends with a name in quotes, or has no letters, takes a `$` to be read as a string.
-pub(super) fn as_description(string: String) -> String {
-    let is_read = !string.ends_with('"') && string.contains(char::is_alphabetic);
-    if is_read { string } else { string + "$" }
-}
 
 /// A code action.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -112,12 +104,10 @@ impl Analysis {
             && self.part_named(own).is_none()
             && self.named_in(own).is_none();
         let name = if is_free { own } else { &part.name };
-        let mut string = quoted_if_needed(name, NamePlace::Head);
-        if let Some(parent) = part.parent {
-            let parent = &self.bindings().parts[parent].name;
-            let _ = write!(string, "@{}", quoted_if_needed(parent, NamePlace::Head));
-        }
-        string
+        let parent = part
+            .parent
+            .map(|parent| &self.bindings().parts[parent].name);
+        string_for(name, parent.map(String::as_str))
     }
 
     /// A text whose corner is at the part's centre, so that it lies on the part and is the nearest string; one that would reach

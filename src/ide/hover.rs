@@ -233,6 +233,14 @@ impl Analysis {
             PartKind::Legend => "**A legend's sample**, left out of the model".to_owned(),
             PartKind::Unused => "**Left out of the model**".to_owned(),
             PartKind::Tile => format!("**Tiles** of {}", of(bindings.tile_layer_of_group(group))),
+            PartKind::Prop if part.is_candidate() => {
+                let place = self.place_of_prop(index).unwrap_or_default();
+                format!("**{}**, a prop{place}", escaped(&part.name))
+            }
+            PartKind::Prop => {
+                let main = bindings.describe(self.drawing(), part.main);
+                format!("A solid of {main}, a prop")
+            }
             PartKind::Region => format!("**A region** of {}", of(bindings.view_of_group(group))),
         };
         if part.kind == PartKind::Main {
@@ -253,7 +261,7 @@ impl Analysis {
             Some(BoundBy::Nearest) => "by the string that is nearest to it",
         };
         let _ = write!(out, "\n\n{}, {why}", self.element_of(index));
-        if matches!(part.kind, PartKind::Main | PartKind::Sub)
+        if part.kind.is_solid()
             && let Some(subject) = Subject::of_part(&self.compiled, index)
         {
             // A list, since many editors do not render tables.
@@ -292,6 +300,22 @@ impl Analysis {
             }
         }
         out
+    }
+
+    /// Where a prop stands: on which landscape, in which cell, how high.
+    fn place_of_prop(&self, part: PartId) -> Option<String> {
+        let standing = self.compiled.props.get(self.bindings().prop_of(part)?)?;
+        let land = escaped(&self.compiled.layers[standing.landscape].name);
+        let height = standing.place.point.y;
+        Some(match standing.place.cell {
+            Some([column, row]) => format!(
+                " that stands on {land} at height {}: column {}, row {}",
+                (height * 100.0).round() / 100.0,
+                column + 1,
+                row + 1
+            ),
+            None => format!(" that stands beside {land} at height 0"),
+        })
     }
 
     /// `Root › Ubody › **Rarm**`
@@ -345,7 +369,7 @@ impl Analysis {
         let bindings = self.bindings();
         let keywords = attributes(&bindings.strings[string].annotation);
         let goes_by = |part: &PartId| {
-            let is_built = matches!(bindings.parts[*part].kind, PartKind::Main | PartKind::Sub);
+            let is_built = bindings.parts[*part].kind.is_solid();
             is_built
                 && keywords.iter().any(|attribute| {
                     let source = bindings.setting(*part, attribute.keyword);

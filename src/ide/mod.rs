@@ -8,6 +8,7 @@ mod actions;
 #[cfg(test)]
 mod agreement_tests;
 mod at;
+pub(crate) mod changes;
 mod colors;
 mod completion;
 #[cfg(test)]

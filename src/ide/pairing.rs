@@ -1,6 +1,7 @@
 //! Code actions that give two regions of a character the same name, so that they are a pair.
 
-use super::actions::{Action, as_description};
+use super::actions::Action;
+use super::changes::as_description;
 use super::regions::Region;
 use super::rename::label_edit;
 use super::uses::own_name;

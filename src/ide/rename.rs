@@ -67,30 +67,39 @@ impl Analysis {
     pub fn rename(&self, offset: usize, new_name: &str) -> Result<Vec<Edit>, RenameError> {
         let (symbol, _) = self.to_rename(offset)?;
         let name = read_name(new_name).ok_or(RenameError::NotAName)?;
+        self.rename_symbol(&symbol, &name)
+    }
+
+    /// The edits that rename a symbol wherever it is used, in order.
+    pub(super) fn rename_symbol(
+        &self,
+        symbol: &Symbol,
+        name: &str,
+    ) -> Result<Vec<Edit>, RenameError> {
         if name == symbol.name() {
             return Ok(vec![]);
         }
-        match &symbol {
-            Symbol::Part(_)
-                if self.part_named(&name).is_some() || self.named_in(&name).is_some() =>
-            {
-                return Err(RenameError::Taken(name));
+        match symbol {
+            Symbol::Part(_) if self.part_named(name).is_some() || self.named_in(name).is_some() => {
+                return Err(RenameError::Taken(name.to_owned()));
             }
-            Symbol::Variable(_) => self.check_variable(&name)?,
+            Symbol::Variable(_) => self.check_variable(name)?,
             Symbol::Part(_) | Symbol::Feature(_) => {}
         }
         let mut edits = vec![];
-        for found in self.uses(&symbol) {
+        for found in self.uses(symbol) {
             let string = &self.bindings().strings[found.string];
-            let new = rewritten(string, &found, &symbol, &name);
+            let new = rewritten(string, &found, symbol, name);
             let replaced = Edit::replacing(&string.text, found.range.clone(), &new);
             edits.extend(replaced.ok_or_else(|| RenameError::InEntity(symbol.name().to_owned()))?);
         }
-        if let Symbol::Part(old) = &symbol {
-            edits.extend(self.named_by_element(old, &name));
-            edits.extend(self.labeled(old, &name)?);
+        if let Symbol::Part(old) = symbol {
+            edits.extend(self.named_by_element(old, name));
+            edits.extend(self.labeled(old, name)?);
         }
         edits.sort_by_key(|edit| edit.span);
+        // Clones share the strings of their originals.
+        edits.dedup();
         Ok(edits)
     }
 

@@ -200,6 +200,11 @@ impl<'a> Subject<'a> {
                 let part = &self.compiled.bindings.parts[index];
                 let above = match part.kind {
                     PartKind::Main => part.parent,
+                    PartKind::Prop if part.main == index => {
+                        let prop = self.compiled.bindings.prop_of(index)?;
+                        let which = Which::Landscape(self.compiled.props.get(prop)?.landscape);
+                        return Some(Self { which, ..self });
+                    }
                     _ => Some(part.main).filter(|main| *main != index),
                 };
                 Which::Part(above?)

@@ -70,6 +70,7 @@ keywords! {
     Bevel = terrain::BEVEL;
     Roof = terrain::ROOF;
     Height = terrain::HEIGHT;
+    Stand = terrain::STAND;
     View = views::VIEW;
     Backing = views::BACKING;
     Mirror = views::MIRROR;
@@ -83,7 +84,6 @@ keywords! {
     Strokes = drawing::STROKES;
     Motion = motion::MOTION;
     Limited = motion::LIMITED;
-    Stand = motion::STAND;
     Size = motion::SIZE;
     Walk = motion::WALK;
     Pose = motion::POSE;

@@ -32,7 +32,7 @@ pub use parse::{Container, parse};
 pub(crate) use parse::{
     annotates, describes, is_name_char, is_word_char, looks_like_string, says_keyword, strings_in,
 };
-pub(crate) use variables::Variables;
+pub(crate) use variables::{Variables, solved};
 
 use std::ops::Range;
 

@@ -23,6 +23,9 @@ use super::normalize::Normalized;
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix, nearest_word};
 use crate::source::{Span, Text};
 
+/// Shorter keywords are too near to other words to be meant by one of these alone.
+const DISTINCT: usize = 5;
+
 /// The element that contains a string.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Container {
@@ -135,8 +138,8 @@ fn names_a_parent(text: &str) -> bool {
     rest.is_empty() || rest.starts_with('$')
 }
 
-/// Whether a text starts with a keyword, or with what could be a misspelled one and its arguments; it may have another sign
-/// before it.
+/// Whether a text starts with a keyword, or with what could be a misspelled one and its arguments, if it takes any; it may have
+/// another sign before it.
 fn starts_with_near_keyword(text: &str) -> bool {
     let text = text.trim_start_matches(|c: char| c.is_whitespace() || matches!(c, '%' | '$'));
     let Ok((rest, word)) = lexical::word(text) else {
@@ -146,10 +149,15 @@ fn starts_with_near_keyword(text: &str) -> bool {
     if rest.starts_with(['%', '$', '}']) {
         return false;
     }
-    let keywords = Keyword::ALL.iter().map(|keyword| keyword.name());
-    let can_be_misspelled = !rest.trim().is_empty() && word.starts_with(char::is_uppercase);
+    let is_alone = rest.trim().is_empty();
+    let stands_alone = |keyword: &Keyword| {
+        keyword.name().len() >= DISTINCT && keyword.row().forms.iter().any(|form| form.accepts(0))
+    };
+    let keywords = Keyword::ALL.iter();
+    let keywords = keywords.filter(|keyword| !is_alone || stands_alone(keyword));
+    let is_capital = word.starts_with(char::is_uppercase);
     Keyword::from_name(word).is_some()
-        || can_be_misspelled && nearest_word(word, keywords).is_some()
+        || is_capital && nearest_word(word, keywords.map(|keyword| keyword.name())).is_some()
 }
 
 /// Whether what follows a sign is a price or another number: `$5.99`, `% 20`.

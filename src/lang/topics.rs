@@ -15,7 +15,7 @@ pub(crate) struct Topic {
 }
 
 /// All topics, in the order of the overview.
-pub(crate) const TOPICS: [Topic; 14] = [
+pub(crate) const TOPICS: [Topic; 15] = [
     Topic {
         name: "names",
         words: &["name", "label", "labels", "string", "strings", "id"],
@@ -146,6 +146,14 @@ pub(crate) const TOPICS: [Topic; 14] = [
         text: "A line on a shape is ink on its surface, and a line that leaves a shape is a tube. Outlines of filled shapes are built as long \
                as no string says `Shape`. `%Strokes all` always builds them, `%Strokes lines` the lines beside shapes, `%Strokes none` none.",
         keywords: &[Keyword::Strokes],
+    },
+    Topic {
+        name: "map",
+        words: &["terrain", "landscape", "island", "trees", "fence", "props"],
+        text: "A layer with a text that says `Tiles 10` is a map of tiles, 10 units each, and becomes a landscape. A text that says `Stand` in \
+               another layer makes props of what is drawn there: trees, fences and signs stand on the map, each on the middle of its lowest edge. \
+               docs/terrain.md is the page on both.",
+        keywords: &[Keyword::Tiles, Keyword::Stand, Keyword::Height],
     },
     Topic {
         name: "leave out",

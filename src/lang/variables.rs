@@ -146,6 +146,28 @@ fn collect_string<'a>(
     }
 }
 
+/// The value of a variable for which an argument has another value, if they are in proportion: 6 for `w` if `(w * 1.5)` shall be 9.
+/// Variables that are calculated from it do not count.
+pub(crate) fn solved(
+    argument: &Argument,
+    variable: &str,
+    value: f64,
+    variables: &Variables,
+) -> Option<f64> {
+    let expression = as_expression(argument)?;
+    let with = |number: f64| {
+        let lookup = |name: &str| match name == variable {
+            true => Lookup::Value(number),
+            false => variables.lookup(name),
+        };
+        evaluate(&expression, &lookup).ok()
+    };
+    let (zero, slope) = (with(0.0)?, with(1.0)? - with(0.0)?);
+    let found = (value - zero) / slope;
+    let is_close = (with(found)? - value).abs() <= 1e-9 * (1.0 + value.abs());
+    (found.is_finite() && is_close).then_some(found)
+}
+
 /// The expression that an argument for a number stands for.
 pub(super) fn as_expression(argument: &Argument) -> Option<Expression> {
     match &argument.kind {

@@ -122,7 +122,8 @@ fn owners_of_parts(
         bindings, drawing, ..
     } = compiled;
     let owner = |(index, part): (PartId, &Part)| match part.kind {
-        PartKind::Main | PartKind::Sub => {
+        PartKind::Prop if !is_seen(compiled, index) => None,
+        PartKind::Main | PartKind::Sub | PartKind::Prop => {
             let is_built = bindings.profile(drawing, index).is_some();
             is_built.then_some(Owner::Part(index))
         }
@@ -131,6 +132,16 @@ fn owners_of_parts(
         PartKind::Legend | PartKind::Unused => None,
     };
     bindings.parts.iter_enumerated().map(owner).collect()
+}
+
+/// Whether a prop is seen as it is drawn: plain maps are compared from straight above, from where what stands on them shows its upper
+/// edge alone.
+fn is_seen(compiled: &Compiled, part: PartId) -> bool {
+    let standing = compiled
+        .bindings
+        .prop_of(part)
+        .and_then(|prop| compiled.props.get(prop));
+    standing.is_some_and(|standing| !compiled.layers[standing.landscape].map.is_plain())
 }
 
 /// The landscape that a shape belongs to.

@@ -58,7 +58,7 @@ impl Previews {
     pub(super) fn new(client: Client, runtime: Handle, documents: Arc<Documents>) -> Arc<Self> {
         let (client_of_hub, runtime_of_hub) = (client.clone(), runtime.clone());
         let texts = documents.clone();
-        let hub = Hub::new(move |uri, picked| {
+        let show = move |uri: &str, picked: Picked<'_>| {
             let found = texts.last(uri).and_then(|last| {
                 let span = match picked {
                     Picked::Part(part) => last.analysis.place_of(part)?,
@@ -83,7 +83,9 @@ impl Previews {
                 // A client that cannot show it needs no error.
                 let _ = client.show_document(params).await;
             });
-        });
+        };
+        // An editor begins drawings by itself.
+        let hub = Hub::new(show, None);
         let previews = Arc::new(Self {
             hub,
             client,

@@ -9,6 +9,7 @@ use tokio::sync::{Semaphore, watch};
 
 use super::delta::delta;
 use super::message::{Build, Listed, PartOrKept, ToPage, findings};
+use super::starters::Starters;
 use crate::compile::Compiled;
 use crate::export::{self, GLB, Written};
 use crate::render::{self, Options, PosedModel, write_png};
@@ -26,6 +27,8 @@ pub(crate) struct Hub {
     /// Counts the updates.
     clock: watch::Sender<u64>,
     on_pick: Box<OnPick>,
+    /// What pages offer while there are no drawings, if they may have some written.
+    pub(super) starters: Option<Starters>,
     /// Thumbnails are drawn one at a time, so that they do not delay builds.
     pub(super) drawing_pictures: Semaphore,
 }
@@ -37,7 +40,7 @@ impl std::fmt::Debug for Hub {
 }
 
 /// A file that is sent.
-type Bytes = Arc<[u8]>;
+pub(super) type Bytes = Arc<[u8]>;
 
 /// Called with the id of a drawing and what was clicked in it.
 type OnPick = dyn Fn(&str, Picked<'_>) + Send + Sync;
@@ -61,6 +64,8 @@ struct State {
     clock: u64,
     /// The time of the last change to the list of drawings.
     listed: u64,
+    /// Since when starters are offered; 0 if they are not.
+    offered: u64,
     drawings: BTreeMap<String, Entry>,
     /// The number of the last model; numbers are never reused.
     models: u64,
@@ -123,19 +128,22 @@ impl StoredModel {
 
     /// A thumbnail as PNG; `None` if it cannot be drawn. It is drawn on the first call.
     pub(super) fn picture(&self) -> Option<Bytes> {
-        let drawn = || {
-            let model = render::read(&self.bytes, &MemoryResolver::default()).ok()?;
-            let posed = PosedModel::new(&model, &model.rest()).ok()?;
-            let options = Options {
-                size: [THUMBNAIL_SIZE; 2],
-                ..Options::default()
-            };
-            let mut png = Vec::new();
-            write_png(&posed.picture(&options).ok()?, &mut png).ok()?;
-            Some(Bytes::from(png))
-        };
+        let drawn = || thumbnail(&self.bytes);
         self.picture.get_or_init(drawn).clone()
     }
+}
+
+/// A small picture of a model in binary glTF, as PNG; `None` if it cannot be drawn.
+pub(super) fn thumbnail(model: &[u8]) -> Option<Bytes> {
+    let model = render::read(model, &MemoryResolver::default()).ok()?;
+    let posed = PosedModel::new(&model, &model.rest()).ok()?;
+    let options = Options {
+        size: [THUMBNAIL_SIZE; 2],
+        ..Options::default()
+    };
+    let mut png = Vec::new();
+    write_png(&posed.picture(&options).ok()?, &mut png).ok()?;
+    Some(Bytes::from(png))
 }
 
 /// How builds are sent.
@@ -162,11 +170,19 @@ pub(crate) struct Shown<'a> {
 
 impl Hub {
     /// A hub without drawings; `on_pick` is called when something is clicked on a page.
-    pub(crate) fn new(on_pick: impl Fn(&str, Picked<'_>) + Send + Sync + 'static) -> Arc<Self> {
+    pub(crate) fn new(
+        on_pick: impl Fn(&str, Picked<'_>) + Send + Sync + 'static,
+        starters: Option<Starters>,
+    ) -> Arc<Self> {
         Arc::new(Self {
-            state: Mutex::default(),
-            clock: watch::Sender::new(0),
+            // Who has got something has a time after 0, even if there is no drawing yet.
+            state: Mutex::new(State {
+                clock: 1,
+                ..State::default()
+            }),
+            clock: watch::Sender::new(1),
             on_pick: Box::new(on_pick),
+            starters,
             drawing_pictures: Semaphore::new(1),
         })
     }
@@ -364,6 +380,11 @@ impl Hub {
         let wanted = |id: &&String| only.is_none_or(|only| *id == only);
         let drawings = || state.drawings.iter().filter(|(id, _)| wanted(id));
         let mut updates = vec![];
+        if let Some(starters) = &self.starters
+            && state.offered > since
+        {
+            updates.push(json(&starters.message()));
+        }
         if state.listed > since || since == 0 {
             let listed = drawings().map(|(id, entry)| Listed {
                 id,
@@ -403,6 +424,23 @@ impl Hub {
             (self.on_pick)(drawing, picked);
         }
     }
+
+    /// Offers drawings to start from, because there are none. Not before that is known: at first no drawing is listed.
+    pub(crate) fn offer_starters(&self) {
+        self.change(|state, now| state.offered = now);
+    }
+
+    /// Begins a drawing that a page offers; an error says why not.
+    pub(super) fn begin(&self, key: &str, starter: &str) -> Result<(), String> {
+        let starters = self.starters.as_ref();
+        let starters = starters.ok_or("this page offers no drawings to start from")?;
+        let state = self.state();
+        if state.offered == 0 || !state.drawings.is_empty() {
+            return Err("the folder has drawings already".to_owned());
+        }
+        drop(state);
+        starters.begin(key, starter)
+    }
 }
 
 /// The clips of a drawing before they were performed and limited, as binary glTF; `None` if none was either.
@@ -429,6 +467,6 @@ fn changed<'a>(before: &[Box<RawValue>], after: &'a [Box<RawValue>]) -> Vec<Part
 }
 
 /// Messages hold only text and numbers, so this cannot fail.
-fn json(message: &ToPage<'_>) -> Arc<str> {
+pub(super) fn json(message: &ToPage<'_>) -> Arc<str> {
     serde_json::to_string(message).unwrap_or_default().into()
 }

@@ -23,6 +23,14 @@ pub(super) enum ToPage<'a> {
     },
     /// A drawing's file is gone.
     Gone { drawing: &'a str },
+    /// What a page without drawings offers. `key` is asked for when one is chosen.
+    Starters {
+        key: &'a str,
+        starters: Vec<ListedStarter>,
+    },
+    /// Why the drawing that was chosen is not there.
+    #[serde(rename = "unbegun")]
+    NotBegun { why: &'a str },
     /// An editor's cursor is in the string of a part, or of none.
     Light {
         drawing: &'a str,
@@ -36,6 +44,15 @@ pub(super) struct Listed<'a> {
     pub(super) id: &'a str,
     pub(super) name: &'a str,
     pub(super) folder: &'a str,
+}
+
+/// A drawing to start from.
+#[derive(Debug, Serialize)]
+pub(super) struct ListedStarter {
+    pub(super) name: String,
+    pub(super) about: String,
+    /// The address of its picture.
+    pub(super) picture: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
@@ -179,6 +196,8 @@ pub(super) enum FromPage {
     },
     /// The page shows this drawing.
     Want {},
+    /// A drawing to start from was chosen.
+    Begin { key: String, starter: String },
     #[serde(other)]
     Other,
 }

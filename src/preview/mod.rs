@@ -7,7 +7,8 @@
 //! ```
 //!
 //! It is served on loopback only, and only to its own page: requests that name another host or come from another page are
-//! refused, and nothing is served but the page and what was built. A page that does not read blocks nobody.
+//! refused, and nothing is served but the page and what was built. A page that does not read blocks nobody. The one thing that a
+//! page can have written is a starter drawing, in a folder without drawings.
 
 mod access;
 mod camera;
@@ -17,6 +18,8 @@ mod message;
 mod page;
 mod server;
 mod socket;
+mod starters;
 
 pub(crate) use hub::{Builds, Hub, Picked, Shown};
 pub(crate) use server::{bind, serve};
+pub(crate) use starters::{Starter, Starters};

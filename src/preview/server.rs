@@ -126,7 +126,8 @@ fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
         .route("/camera", get(camera::open))
         .route("/builds/{file}", get(build))
         .route("/originals/{file}", get(originals))
-        .route("/pictures/{file}", get(picture));
+        .route("/pictures/{file}", get(picture))
+        .route("/starters/{file}", get(starter));
     for (path, kind, bytes) in page::ASSETS {
         router = router.route(
             path,
@@ -171,6 +172,16 @@ async fn picture(State(shared): State<Shared>, Path(file): Path<String>) -> Resp
     let _permit = shared.hub.drawing_pictures.acquire().await;
     let drawn = tokio::task::spawn_blocking(move || model.picture()).await;
     served("image/png", drawn.ok().flatten())
+}
+
+async fn starter(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
+    let hub = shared.hub.clone();
+    let _permit = shared.hub.drawing_pictures.acquire().await;
+    let drawn = tokio::task::spawn_blocking(move || {
+        let name = file.strip_suffix(".png")?;
+        hub.starters.as_ref()?.picture(name)
+    });
+    served("image/png", drawn.await.ok().flatten())
 }
 
 /// `12` of `12.glb`

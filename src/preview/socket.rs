@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use axum::extract::State;
 use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
-use axum::http::StatusCode;
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use super::hub::{Builds, Hub, Picked};
-use super::message::FromPage;
+use super::hub::{Builds, Hub, Picked, json};
+use super::message::{FromPage, ToPage};
 use super::server::Shared;
 
 /// The longest message that a page may send, in bytes.
@@ -22,7 +22,11 @@ pub(super) const PING_INTERVAL: Duration = Duration::from_secs(15);
 pub(super) const PONG_TIMEOUT: Duration = Duration::from_secs(50);
 
 /// Upgrades a request to a WebSocket.
-pub(super) async fn open(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
+pub(super) async fn open(
+    State(shared): State<Shared>,
+    headers: HeaderMap,
+    upgrade: WebSocketUpgrade,
+) -> Response {
     let Ok(permit) = shared.pages.clone().try_acquire_owned() else {
         let message = "too many pages are open; close some of them\n";
         return (StatusCode::SERVICE_UNAVAILABLE, message).into_response();
@@ -30,14 +34,16 @@ pub(super) async fn open(State(shared): State<Shared>, upgrade: WebSocketUpgrade
     let upgrade = upgrade
         .max_message_size(MAX_MESSAGE)
         .max_frame_size(MAX_MESSAGE);
+    // Browsers always send it with such requests, and `access` let no other than the page's own pass.
+    let is_page = headers.contains_key(header::ORIGIN);
     upgrade.on_upgrade(move |socket| async move {
-        converse(socket, &shared.hub).await;
+        converse(socket, &shared.hub, is_page).await;
         drop(permit);
     })
 }
 
-/// Sends all updates to a page until it disconnects.
-async fn converse(mut socket: WebSocket, hub: &Arc<Hub>) {
+/// Sends all updates to a page until it disconnects. Only a page in a browser can have something written.
+async fn converse(mut socket: WebSocket, hub: &Arc<Hub>, is_page: bool) {
     let mut clock = hub.clock();
     let mut since = 0;
     let mut last_message = Instant::now();
@@ -59,7 +65,14 @@ async fn converse(mut socket: WebSocket, hub: &Arc<Hub>) {
             message = socket.recv() => match message {
                 Some(Ok(message)) => {
                     last_message = Instant::now();
-                    handle(&message, hub);
+                    if let Some(begin) = handle(&message, hub)
+                        && let Err(why) = begun(begin, hub, is_page).await
+                    {
+                        let answer = json(&ToPage::NotBegun { why: &why });
+                        if !send(&mut socket, Message::text(answer.as_ref())).await {
+                            return;
+                        }
+                    }
                 }
                 _ => return,
             },
@@ -79,9 +92,19 @@ pub(super) async fn send(socket: &mut WebSocket, message: Message) -> bool {
     matches!(sent, Ok(Ok(())))
 }
 
-fn handle(message: &Message, hub: &Hub) {
-    let Message::Text(text) = message else { return };
+/// A wish to begin a drawing: the key of the server, and which one.
+struct Begin {
+    key: String,
+    starter: String,
+}
+
+/// Handles a message at once, unless that takes longer.
+fn handle(message: &Message, hub: &Hub) -> Option<Begin> {
+    let Message::Text(text) = message else {
+        return None;
+    };
     match serde_json::from_str(text) {
+        Ok(FromPage::Begin { key, starter }) => return Some(Begin { key, starter }),
         Ok(FromPage::Pick { drawing, part }) => hub.picked(&drawing, Picked::Part(&part)),
         Ok(FromPage::Open {
             drawing,
@@ -90,4 +113,16 @@ fn handle(message: &Message, hub: &Hub) {
         }) => hub.picked(&drawing, Picked::Position { line, column }),
         Ok(FromPage::Want {} | FromPage::Other) | Err(_) => {}
     }
+    None
+}
+
+/// Writes a drawing to start from; an error says why not.
+async fn begun(begin: Begin, hub: &Arc<Hub>, is_page: bool) -> Result<(), String> {
+    if !is_page {
+        return Err("only the page in a browser may begin drawings".to_owned());
+    }
+    let hub = hub.clone();
+    let written = tokio::task::spawn_blocking(move || hub.begin(&begin.key, &begin.starter));
+    let crashed = |_| Err("the drawing was not written".to_owned());
+    written.await.unwrap_or_else(crashed)
 }

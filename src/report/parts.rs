@@ -23,7 +23,7 @@ pub(crate) struct Part<'a> {
     pub named_by: Option<&'static str>,
     /// The name of its parent; `None` for the root.
     pub parent: Option<&'a str>,
-    /// `main`, `sub`, `legend` or `unused`; in [`everything`] also `terrain`, `character` and `region`.
+    /// `main`, `sub`, `legend`, `unused` or `prop`; in [`everything`] also `terrain`, `character` and `region`.
     pub kind: &'static str,
     /// For ink, the name of the part on which it lies.
     #[serde(skip_serializing_if = "Option::is_none")]

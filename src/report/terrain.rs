@@ -19,6 +19,8 @@ pub(crate) struct Terrain<'a> {
     pub groups: Vec<Group>,
     /// The houses.
     pub houses: Vec<House>,
+    /// What stands on it.
+    pub props: Vec<Prop<'a>>,
 }
 
 /// A group of ground or a body of water.
@@ -49,10 +51,44 @@ pub(crate) struct House {
     pub ridge: f64,
 }
 
+/// A prop.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Prop<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// What its foot is drawn on: `ground`, `roof`, `water`, `front`, `outside`.
+    pub on: &'static str,
+    /// Column and row of that cell, counted from 1; `None` beside the map.
+    pub cell: Option<[usize; 2]>,
+    /// The height on which it stands.
+    pub height: f64,
+    /// The first prop with the same mesh, if it is not the first one itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub same_as: Option<&'a str>,
+}
+
+/// What stands on a landscape.
+fn props(compiled: &Compiled, landscape: usize) -> Vec<Prop<'_>> {
+    let bindings = &compiled.bindings;
+    let name = |index: usize| &*bindings.parts[bindings.props[index].main].name;
+    let all = compiled.props.iter().enumerate();
+    let own = all.filter(|(_, standing)| usize::from(standing.landscape) == landscape);
+    own.map(|(index, standing)| Prop {
+        name: name(index),
+        on: standing.place.footing.name(),
+        cell: standing.place.cell.map(|cell| cell.map(|at| at + 1)),
+        height: standing.place.point.y,
+        same_as: Some(bindings.props[index].like)
+            .filter(|like| *like != index)
+            .map(name),
+    })
+    .collect()
+}
+
 /// The landscapes of a drawing.
 pub(crate) fn terrain(compiled: &Compiled) -> Vec<Terrain<'_>> {
-    let layers = compiled.layers.iter();
-    let report = layers.map(|layer| {
+    let layers = compiled.layers.iter().enumerate();
+    let report = layers.map(|(index, layer)| {
         let (map, land) = (&layer.map, &layer.landscape);
         let tops = (0..map.rows).map(|row| {
             let columns = 0..map.columns;
@@ -78,6 +114,7 @@ pub(crate) fn terrain(compiled: &Compiled) -> Vec<Terrain<'_>> {
             tops: tops.collect(),
             groups: groups.collect(),
             houses: houses.collect(),
+            props: props(compiled, index),
         }
     });
     report.collect()

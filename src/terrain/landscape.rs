@@ -134,6 +134,10 @@ impl Landscape {
         self.context.plain.is_some()
     }
 
+    pub(super) fn context(&self) -> &MapContext {
+        &self.context
+    }
+
     fn kind_at(&self, column: usize, row: usize) -> GroupKind {
         let context = &self.context;
         context.groups.kind(column * context.grid.rows + row)

@@ -9,6 +9,7 @@ mod column;
 mod constraints;
 mod flush;
 mod grid;
+mod ground;
 mod groups;
 mod hidden_houses;
 mod houses;
@@ -24,8 +25,9 @@ mod surface;
 mod tiled;
 
 pub use ambiguities::AmbiguityKind;
+pub(crate) use ground::{Footing, Place};
 pub use landscape::{DEFAULT_ROOF, HouseInfo, Landscape};
 pub(crate) use map::MAX_CELLS;
 pub use map::{EDGE_BELOW, EDGE_RIGHT, Map, Tile, UNSET};
 pub(crate) use nodes::node;
-pub(crate) use reading::{LandscapeId, Layer, TileMaterial, TileTexture, read};
+pub(crate) use reading::{LandscapeId, Layer, LayerObject, TileMaterial, TileTexture, read};

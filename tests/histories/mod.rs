@@ -93,8 +93,7 @@ const SUBJECTS: &[Subject] = &[
                 "$Motion -l \"motion.bvh\"",
                 "$Motion -i \"motion.bvh\"",
                 "$Motion \"motion.bvh\" Perform \"marks.csv\" Limited 1 4",
-                "$Stand 40 -120",
-                "$Stand 40 -120 Size 1.5",
+                "$Size 1.5",
             ],
             // The last two are not strings of the part that they lie on.
             &[
@@ -220,6 +219,30 @@ const SUBJECTS: &[Subject] = &[
         strings: &[
             &["$View 0 0", "$View 0 0 Backing", "$View 5 0"],
             &["$View 30 0", "$View 45 0", "$View 45 10", "$View 0 30"],
+        ],
+    },
+    // A landscape with props: clones, copies, loose shapes, one with a string of its own.
+    Subject {
+        drawing: r##"<svg xmlns="http://www.w3.org/2000/svg" width="120" height="100">
+<g><rect width="100" height="40" fill="#4caf50"/><rect y="40" width="60" height="20" fill="#8d6e63"/><rect x="60" y="40" width="40" height="20" fill="#42a5f5"/>
+<text y="90" font-size="6">Land{}</text></g>
+<g><text x="20" y="90" font-size="6">Props{}</text>
+<g id="t"><rect x="10" y="10" width="4" height="12" fill="#6b4a2f"/><circle cx="12" cy="8" r="7" fill="#2f7d3b"/><text x="10" y="8" font-size="2">Tree{}</text></g>
+<use href="#t" x="20" y="4"/><use href="#t" x="70" y="30"/>
+<rect x="40" y="20" width="4" height="12" fill="#6b4a2f"/><circle cx="42" cy="20" r="5" fill="#2f7d3b"/>
+<image x="50" y="10" width="12" height="12" href="picture.png"/></g>
+<text x="60" y="90" font-size="6">%{}</text></svg>"##,
+        strings: &[
+            &["$Tiles 10", "$Tiles 20", "$Tiles 10 Height 1", ""],
+            &[
+                "$Stand",
+                "$Stand Shape inflate",
+                "$Stand Shape flat",
+                "",
+                "$Tiles 10",
+            ],
+            &["", "$Shape round", "$Stand 30 40", "$Color 1 0 0", "@Land"],
+            &["Smooth 0", "Stand", "Shape default -1 1", "Scale 5"],
         ],
     },
     // A landscape, drawn and in a picture.

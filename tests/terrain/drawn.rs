@@ -54,9 +54,14 @@ fn drawn(map: &Map) -> String {
     )
 }
 
-/// The cells of each landscape that are not visible in the material of their tile.
+/// The cells of each landscape that are not visible in the material of their tile. What stands on it is left out.
 fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
-    let written = to_memory(&GLB, &compiled.scene, None).expect("written");
+    let mut scene = compiled.scene.clone();
+    let is_landscape = |name: &str| compiled.layers.iter().any(|layer| layer.name == name);
+    for node in &mut scene.nodes {
+        node.mesh = node.mesh.filter(|_| is_landscape(&node.name));
+    }
+    let written = to_memory(&GLB, &scene, None).expect("written");
     let model = render::read(&written.bytes, resolver).expect("a model");
     let posed = PosedModel::new(&model, &model.rest()).expect("something to see");
     let mut wrong = vec![];
@@ -67,7 +72,7 @@ fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
             .iter()
             .find(|node| node.name == layer.name);
         let place = node.expect("the layer's node").translation;
-        let tile = layer.size * 0.01;
+        let tile = layer.size * 0.01 * compiled.bindings.settings.scale;
         let [columns, rows] = [layer.map.columns, layer.map.rows];
         let is_plain = layer.landscape.is_plain();
         let (pitch, up, back) = match is_plain {

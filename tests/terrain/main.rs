@@ -7,6 +7,7 @@ mod byhand;
 mod drawn;
 mod letters;
 mod plain;
+mod props;
 mod rules;
 mod surfaces;
 mod worlds;

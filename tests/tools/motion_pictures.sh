@@ -2,8 +2,8 @@
 # Makes the pictures of docs/motion.md from the drawings in examples/motion/: bash tests/tools/motion_pictures.sh [NAME…]
 #
 # NAME is a drawing there, without extension. The film strips show the limited clip (NAME-limited.png) and the full one
-# (NAME-full.png); drawings with only one of them get NAME.png, and those that play a clip that comes along NAME-WORD.png. Requires okoshi and Python's Pillow. OKOSHI is a binary to use instead
-# of building one.
+# (NAME-full.png); drawings with only one of them get NAME.png, and those that play a clip that comes along NAME-WORD.png. Requires okoshi
+# and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a folder to use instead of docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
@@ -11,6 +11,8 @@ trap 'rm -rf "$room"' EXIT
 okoshi=${OKOSHI:-target/release/okoshi}
 [ -n "${OKOSHI:-}" ] || cargo build --release --quiet
 okoshi=$(realpath "$okoshi")
+out=${OUT:-docs}
+mkdir -p "$out/motion"
 cp examples/motion/* "$room"
 mkdir "$room/full"
 cp "$room"/*.bvh "$room/full"
@@ -33,12 +35,12 @@ strip() {
 }
 pair() {
   want "$1" || return 0
-  strip "$room/full/$1.svg" "docs/motion/$1-full.png" "${@:2}"
-  strip "$room/$1.svg" "docs/motion/$1-limited.png" "${@:2}"
+  strip "$room/full/$1.svg" "$out/motion/$1-full.png" "${@:2}"
+  strip "$room/$1.svg" "$out/motion/$1-limited.png" "${@:2}"
 }
 single() {
   want "$1" || return 0
-  strip "$room/$1.svg" "docs/motion/$2.png" "${@:3}"
+  strip "$room/$1.svg" "$out/motion/$2.png" "${@:3}"
 }
 # clip DRAWING WORD VIEW SIZE CELLS: the drawing plays a clip that comes along, in place.
 clip() {
@@ -46,8 +48,8 @@ clip() {
   local name
   name=$(basename "$1" .svg)-$2
   sed -E "s/Motion( -[il]+)?( \"[^\"]*\"( \"[^\"]*\")?| [a-z]+)/Motion -i $2/; s/ ?Limited [0-9]+ [0-9]+//" "$1" > "$room/$name.svg"
-  "$okoshi" render --quiet "$room/$name.svg" -o "docs/motion/$name.png" --clip 1 --view="$3" --size "$4" --strip "$5" --background '#ffffff'
-  smaller "docs/motion/$name.png" 96
+  "$okoshi" render --quiet "$room/$name.svg" -o "$out/motion/$name.png" --clip 1 --view="$3" --size "$4" --strip "$5" --background '#ffffff'
+  smaller "$out/motion/$name.png" 96
 }
 # A walk has no fast part from which in-betweens could be omitted.
 sed -i 's/Motion "walk.bvh" "walk"/& Limited 0 24/' "$room/dog.svg"
@@ -73,8 +75,8 @@ clip examples/motion/spider.svg walk 20,14 160x120 8
 alone() {
   want "$1" || return 0
   sed -E 's/Motion</Motion -i</' "examples/motion/$1.svg" > "$room/$1.svg"
-  "$okoshi" render --quiet "$room/$1.svg" -o "docs/motion/$1-$2.png" --clip "$2" --view="$3" --size "$4" --strip "$5" --background '#ffffff'
-  smaller "docs/motion/$1-$2.png" 96
+  "$okoshi" render --quiet "$room/$1.svg" -o "$out/motion/$1-$2.png" --clip "$2" --view="$3" --size "$4" --strip "$5" --background '#ffffff'
+  smaller "$out/motion/$1-$2.png" 96
 }
 alone parade float 20,10 260x190 4
 alone girl walk -30,8 150x180 8
@@ -84,13 +86,13 @@ alone motorbike drive 20,10 200x150 6
 # perform OUT CLIP [OPTIONS…]: a clip of the performed hook, as a strip.
 perform() {
   want ant-hook || return 0
-  "$okoshi" render --quiet "$room/ant-hook.svg" -o "docs/motion/$1.png" --clip "$2" --size 120x160 --strip 8 --background '#ffffff' "${@:3}"
-  smaller "docs/motion/$1.png" 64
+  "$okoshi" render --quiet "$room/ant-hook.svg" -o "$out/motion/$1.png" --clip "$2" --size 120x160 --strip 8 --background '#ffffff' "${@:3}"
+  smaller "$out/motion/$1.png" 64
 }
 perform ant-hook-before before --view 0,5
 perform ant-hook-after after --view 0,5
 perform ant-hook-camera after --camera
 if want kick; then
-  "$okoshi" render --quiet "$room/kick.svg" -o docs/motion/kick.gif --clip kick --view=-60,8 --size 260x240 --background '#ffffff'
-  "$okoshi" motion --quiet "$room/kick.bvh" -o docs/motion/kick.svg
+  "$okoshi" render --quiet "$room/kick.svg" -o "$out"/motion/kick.gif --clip kick --view=-60,8 --size 260x240 --background '#ffffff'
+  "$okoshi" motion --quiet "$room/kick.bvh" -o "$out"/motion/kick.svg
 fi

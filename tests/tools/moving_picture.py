@@ -47,7 +47,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         room = Path(scratch)
         text = DRAWING.read_text()
-        walking = re.sub("%Motion walk", "%Motion -i walk", text)
+        walking = re.sub("Motion walk", "Motion -i walk", text)
         assert walking != text, "the drawing walks"
         (room / "girl.svg").write_text(walking)
         run(okoshi, "build", "-q", room / "girl.svg", "-o", room / "girl.glb")

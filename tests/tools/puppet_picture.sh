@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Makes the picture of docs/puppet.md, a sheet as Inkscape shows it: bash tests/tools/puppet_picture.sh
 #
-# Requires okoshi, Inkscape and Python's Pillow. OKOSHI is a binary to use instead of building one.
+# Requires okoshi, Inkscape and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a
+# folder to use instead of docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
@@ -14,4 +15,4 @@ python3 -c "
 import sys
 from PIL import Image, ImageOps
 sheet = Image.open(sys.argv[1]).convert('RGB')
-ImageOps.expand(sheet, 1, '#d1d9e0').quantize(96).save(sys.argv[2], optimize=True)" "$room/sheet.png" docs/puppet.png
+ImageOps.expand(sheet, 1, '#d1d9e0').quantize(96).save(sys.argv[2], optimize=True)" "$room/sheet.png" "${OUT:-docs}/puppet.png"

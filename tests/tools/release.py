@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
-"""Makes packages of okoshi that need neither Rust nor Node, and tries each in a bare folder:
+"""Makes packages of okoshi that need neither Rust nor Node, and tries each where there is neither:
 
     OKOSHI=PROGRAM python3 tests/tools/release.py OUT
 
-PROGRAM is `cargo build --profile dist`'s, or any other with the page inside. For Linux on this machine's kind of processor: an archive, a
-Debian package, a Python wheel (`pip install` puts `okoshi` on the path) and an npm package (`npx okoshi`); and Inkscape's extension
-with its installers. Beside them are their checksums and a list of what is inside (SBOM, CycloneDX). Requires binutils, dpkg-deb, pip and npm.
+PROGRAM is `cargo build --profile dist`'s, or any other with the page inside, for this system and its processor. On Linux: an archive, a
+Debian package, a Python wheel (`pip install` puts `okoshi` on the path), an npm package, and the extension for VS Code with the
+program inside; on macOS and Windows the same but for the Debian package, which was not run there yet. And Inkscape's extension with its
+installers. Beside them are their checksums and a list of what is inside (SBOM, CycloneDX). first_figure.py installs each as docs/install.md says,
+and makes a figure with it as the tutorial says. Requires cargo, pip and npm, and on Linux binutils and dpkg-deb.
 """
 
 import base64
+import gzip
 import hashlib
 import io
 import json
@@ -21,7 +24,10 @@ import sys
 import tarfile
 import tempfile
 import zipfile
+from dataclasses import dataclass
 from pathlib import Path
+
+import first_figure
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 SUMMARY = "Turns one annotated 2D drawing into a moving 3D model: SVG in, glTF out"
@@ -29,52 +35,83 @@ TEXTS = ("README.md", "LICENSE-MIT", "LICENSE-APACHE")
 SHELLS = {"bash": "bash-completion/completions/okoshi", "zsh": "zsh/site-functions/_okoshi", "fish": "fish/vendor_completions.d/okoshi.fish"}
 # Dates in packages, so that the same program gives the same bytes.
 EPOCH = 315532800
+SYSTEM = {"linux": "linux", "darwin": "macos", "win32": "windows"}[sys.platform]
+MACHINE = {"AMD64": "x86_64", "arm64": "aarch64", "ARM64": "aarch64"}.get(platform.machine(), platform.machine())
+NAME = "okoshi.exe" if SYSTEM == "windows" else "okoshi"
+
+
+@dataclass(frozen=True)
+class Program:
+    """The program that is packaged. `libc` is the lowest version of glibc that it runs with; None if it needs none."""
+
+    path: Path
+    version: str
+    libc: tuple[int, int] | None
+
+    @property
+    def platform(self):
+        """The system and the processor, as archives are called."""
+        libc = {"linux": f"-glibc{self.libc[0]}.{self.libc[1]}" if self.libc else "-static"}.get(SYSTEM, "")
+        return f"{MACHINE}-{SYSTEM}{libc}"
+
+    @property
+    def tags(self):
+        """The same, as wheels are called."""
+        if SYSTEM == "linux":
+            return f"manylinux_{self.libc[0]}_{self.libc[1]}_{MACHINE}" if self.libc else f"manylinux_2_17_{MACHINE}.musllinux_1_1_{MACHINE}"
+        if SYSTEM == "macos":
+            # The oldest that Rust builds for.
+            return "macosx_11_0_arm64" if MACHINE == "aarch64" else "macosx_10_12_x86_64"
+        return "win_arm64" if MACHINE == "aarch64" else "win_amd64"
 
 
 def run(*command, **more):
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, **more)
-    if done.returncode != 0:
-        sys.exit(f"error: {' '.join(map(str, command))}:\n{done.stdout}{done.stderr}")
-    return done.stdout
+    """Runs a command, and returns what it printed."""
+    name, *words = map(str, command)
+    # Some of the tools are scripts, which Windows finds by their whole name alone.
+    return first_figure.done([shutil.which(name) or name, *words], **more)
 
 
 def metadata():
-    return json.loads(run("cargo", "metadata", "--format-version", "1", "--locked", "--filter-platform", "x86_64-unknown-linux-gnu", cwd=ROOT))
+    host = re.search(r"^host: (.*)$", run("rustc", "-vV"), re.M)[1]
+    return json.loads(run("cargo", "metadata", "--format-version", "1", "--locked", "--filter-platform", host, cwd=ROOT))
 
 
 def lowest_libc(program):
-    """The lowest version of glibc that a program runs with."""
+    """The lowest version of glibc that a program runs with; None for one that needs no library of the system."""
     found = re.findall(r"GLIBC_(\d+)\.(\d+)", run("objdump", "-T", program))
-    return max((int(major), int(minor)) for major, minor in found)
+    return max(((int(major), int(minor)) for major, minor in found), default=None)
 
 
-def files(program, okoshi):
+def files(program):
     """What an installation has below its prefix: per path the bytes, and whether it is a program."""
-    content = {"bin/okoshi": (program.read_bytes(), True)}
+    content = {f"bin/{NAME}": (program.path.read_bytes(), True)}
     for name in TEXTS:
         content[f"share/doc/okoshi/{name}"] = ((ROOT / name).read_bytes(), False)
     for shell, path in SHELLS.items():
-        content[f"share/{path}"] = (run(okoshi, "completions", shell).encode(), False)
+        content[f"share/{path}"] = (run(program.path, "completions", shell).encode(), False)
+    page = run(program.path, "man")
+    content["share/man/man1/okoshi.1"] = (page.encode(), False)
+    # The page of the program lists those of its commands.
+    for command in re.findall(r"okoshi\\-(\w+)\(1\)", page):
+        content[f"share/man/man1/okoshi-{command}.1"] = (run(program.path, "man", command).encode(), False)
     return content
 
 
 def archive(path, content, folder):
-    """A .tar.gz with the content in a folder."""
-    with tempfile.TemporaryFile() as plain:
-        with tarfile.open(fileobj=plain, mode="w", format=tarfile.GNU_FORMAT) as tar:
-            for name, (data, is_program) in sorted(content.items()):
-                entry = tarfile.TarInfo(f"{folder}/{name}")
-                entry.size, entry.mtime, entry.mode = len(data), EPOCH, 0o755 if is_program else 0o644
-                tar.addfile(entry, io.BytesIO(data))
-        plain.seek(0)
-        path.write_bytes(run_bytes("gzip", "-9n", input=plain.read()))
+    """A .tar.gz with the content in a folder; a .zip if the path ends so."""
+    if path.suffix == ".zip":
+        return zipped(path, {f"{folder}/{name}": value for name, value in sorted(content.items())})
+    plain = io.BytesIO()
+    with tarfile.open(fileobj=plain, mode="w", format=tarfile.GNU_FORMAT) as tar:
+        for name, (data, is_program) in sorted(content.items()):
+            entry = tarfile.TarInfo(f"{folder}/{name}")
+            entry.size, entry.mtime, entry.mode = len(data), EPOCH, 0o755 if is_program else 0o644
+            tar.addfile(entry, io.BytesIO(data))
+    path.write_bytes(gzip.compress(plain.getvalue(), mtime=EPOCH))
 
 
-def run_bytes(*command, input):
-    return subprocess.run(command, input=input, stdout=subprocess.PIPE, check=True).stdout
-
-
-def debian(path, content, version, libc, scratch):
+def debian(path, content, program, scratch):
     root = scratch / "debian"
     for name, (data, is_program) in content.items():
         file = root / "usr" / name
@@ -83,26 +120,28 @@ def debian(path, content, version, libc, scratch):
         file.chmod(0o755 if is_program else 0o644)
     machine = run("dpkg", "--print-architecture").strip()
     size = sum(len(data) for data, _ in content.values()) // 1024
+    depends = f"Depends: libc6 (>= {program.libc[0]}.{program.libc[1]}), libgcc-s1\n" if program.libc else ""
     (root / "DEBIAN").mkdir()
     (root / "DEBIAN/control").write_text(
-        f"Package: okoshi\nVersion: {version}\nArchitecture: {machine}\nMaintainer: The okoshi developers <nobody@okoshi.invalid>\n"
-        f"Installed-Size: {size}\nDepends: libc6 (>= {libc[0]}.{libc[1]}), libgcc-s1\nSuggests: inkscape\nSection: graphics\nPriority: optional\n"
+        f"Package: okoshi\nVersion: {program.version}\nArchitecture: {machine}\nMaintainer: The okoshi developers <nobody@okoshi.invalid>\n"
+        f"Installed-Size: {size}\n{depends}Suggests: inkscape\nSection: graphics\nPriority: optional\n"
         f"Description: {SUMMARY}\n"
     )
     environment = {**os.environ, "SOURCE_DATE_EPOCH": str(EPOCH)}
     run("dpkg-deb", "--root-owner-group", "-Zxz", "--build", root, path, env=environment)
 
 
-def wheel(folder, program, version, libc):
-    tag = f"py3-none-manylinux_{libc[0]}_{libc[1]}_{platform.machine()}"
+def wheel(folder, program):
+    version = program.version
     info = f"okoshi-{version}.dist-info"
+    tags = "".join(f"Tag: py3-none-{tag}\n" for tag in program.tags.split("."))
     content = {
-        f"okoshi-{version}.data/scripts/okoshi": program.read_bytes(),
+        f"okoshi-{version}.data/scripts/{NAME}": program.path.read_bytes(),
         f"{info}/METADATA": (
             f"Metadata-Version: 2.4\nName: okoshi\nVersion: {version}\nSummary: {SUMMARY}\nLicense-Expression: MIT OR Apache-2.0\n"
-            "License-File: LICENSE-MIT\nLicense-File: LICENSE-APACHE\nDescription-Content-Type: text/markdown\n\n" + (ROOT / "README.md").read_text()
+            "License-File: LICENSE-MIT\nLicense-File: LICENSE-APACHE\nDescription-Content-Type: text/markdown\n\n" + (ROOT / "README.md").read_text(encoding="utf-8")
         ).encode(),
-        f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: okoshi\nRoot-Is-Purelib: false\nTag: {tag}\n".encode(),
+        f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: okoshi\nRoot-Is-Purelib: false\n{tags}".encode(),
         f"{info}/licenses/LICENSE-MIT": (ROOT / "LICENSE-MIT").read_bytes(),
         f"{info}/licenses/LICENSE-APACHE": (ROOT / "LICENSE-APACHE").read_bytes(),
     }
@@ -111,7 +150,7 @@ def wheel(folder, program, version, libc):
         digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
         record += f"{name},sha256={digest},{len(data)}\n"
     content[f"{info}/RECORD"] = f"{record}{info}/RECORD,,\n".encode()
-    path = folder / f"okoshi-{version}-{tag}.whl"
+    path = folder / f"okoshi-{version}-py3-none-{program.tags}.whl"
     zipped(path, {name: (data, "/scripts/" in name) for name, data in content.items()})
     return path
 
@@ -125,12 +164,18 @@ def zipped(path, content):
             out.writestr(entry, data)
 
 
-def npm(path, program, version):
+def node_platform():
+    """The system and the processor in Node's words."""
+    return {"linux": "linux", "macos": "darwin", "windows": "win32"}[SYSTEM], {"x86_64": "x64", "aarch64": "arm64"}[MACHINE]
+
+
+def npm(path, program):
+    system, processor = node_platform()
     package = {
-        "name": "okoshi", "version": version, "description": SUMMARY, "license": "MIT OR Apache-2.0", "bin": {"okoshi": "bin/okoshi"},
-        "os": ["linux"], "cpu": [{"x86_64": "x64", "aarch64": "arm64"}[platform.machine()]], "libc": ["glibc"],
+        "name": "okoshi", "version": program.version, "description": SUMMARY, "license": "MIT OR Apache-2.0", "bin": {"okoshi": f"bin/{NAME}"},
+        "os": [system], "cpu": [processor], **({"libc": ["glibc"]} if program.libc else {}),
     }
-    content = {"package.json": (json.dumps(package, indent=2).encode(), False), "bin/okoshi": (program.read_bytes(), True)}
+    content = {"package.json": (json.dumps(package, indent=2).encode(), False), f"bin/{NAME}": (program.path.read_bytes(), True)}
     content |= {name: ((ROOT / name).read_bytes(), False) for name in TEXTS}
     archive(path, content, "package")
 
@@ -142,7 +187,7 @@ def inkscape(path):
     content = {}
     for file in sources:
         if file.is_file() and "__pycache__" not in file.parts:
-            content[f"okoshi-inkscape/{file.relative_to(folder)}"] = (file.read_bytes(), file.suffix == ".sh")
+            content[f"okoshi-inkscape/{file.relative_to(folder).as_posix()}"] = (file.read_bytes(), file.suffix == ".sh")
     zipped(path, content)
 
 
@@ -155,60 +200,68 @@ def bill(path, packages, version):
     ]
     components.sort(key=lambda component: (component["name"], component["version"]))
     about = {"component": {"type": "application", "name": "okoshi", "version": version}}
-    path.write_text(json.dumps({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "metadata": about, "components": components}, indent=1))
+    path.write_text(json.dumps({"bomFormat": "CycloneDX", "specVersion": "1.5", "version": 1, "metadata": about, "components": components}, indent=1), encoding="utf-8", newline="\n")
 
 
-def tried(okoshi, room):
-    """From nothing to a walking figure, with a system's own programs alone."""
-    room.mkdir(parents=True)
-    bare = {"PATH": "/usr/bin:/bin", "HOME": str(room)}
-    for command in (["new", "me"], ["check", "me.svg"], ["build", "me.svg"], ["render", "-q", "me.svg", "-o", "me.png", "--size", "200x200"]):
-        run(okoshi, *command, cwd=room, env=bare)
-    assert (room / "me.glb").stat().st_size > 100_000 and (room / "me.png").stat().st_size > 1000
-    server = subprocess.Popen([okoshi, "preview", "--port", "0", "me.svg"], cwd=room, env=bare, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    try:
-        address = server.stdout.readline().strip()
-        page = run("curl", "-sSf", address)
-        assert "page.js" in page, f"no page at {address}"
-    finally:
-        server.kill()
+def vscode(path, program):
+    """The extension for VS Code with the program inside."""
+    run("node", ROOT / "editors/vscode/scripts/package.mjs", path, program.path, cwd=ROOT)
+
+
+def extension_tried(package, program, room):
+    """The program that the extension brings runs where it is unpacked."""
+    with zipfile.ZipFile(package) as archive:
+        name = f"extension/bin/{NAME}"
+        archive.extract(name, room)
+        (room / name).chmod(archive.getinfo(name).external_attr >> 16 & 0o777)
+    said = run(room / name, "--version", env={"PATH": ""} if SYSTEM != "windows" else None).strip()
+    assert said == f"okoshi {program.version}", said
 
 
 def main():
     out = Path(sys.argv[1]).resolve()
-    okoshi = Path(os.environ.get("OKOSHI", ROOT / "target/dist/okoshi")).resolve()
+    okoshi = Path(os.environ.get("OKOSHI", ROOT / "target/dist" / NAME)).resolve()
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     about = metadata()
     version = next(package["version"] for package in about["packages"] if package["name"] == "okoshi")
     with tempfile.TemporaryDirectory() as scratch:
         scratch = Path(scratch)
-        program = scratch / "okoshi"
-        run("strip", "-o", program, okoshi)
-        libc = lowest_libc(program)
-        content = files(program, okoshi)
-        name = f"okoshi-{version}-{platform.machine()}-linux"
-        archive(out / f"{name}.tar.gz", content, name)
-        debian(out / f"okoshi_{version}_{run('dpkg', '--print-architecture').strip()}.deb", content, version, libc, scratch)
-        made = wheel(out, program, version, libc)
-        npm(out / f"okoshi-{version}.tgz", program, version)
+        path = scratch / NAME
+        # Elsewhere, symbols are in files of their own.
+        if SYSTEM == "linux":
+            run("strip", "-o", path, okoshi)
+        else:
+            shutil.copy(okoshi, path)
+        program = Program(path, version, lowest_libc(path) if SYSTEM == "linux" else None)
+        content = files(program)
+        name = f"okoshi-{version}-{program.platform}"
+        archived = out / f"{name}{'.zip' if SYSTEM == 'windows' else '.tar.gz'}"
+        archive(archived, content, name)
+        packages = [archived]
+        if SYSTEM == "linux":
+            packages.append(out / f"okoshi_{version}_{run('dpkg', '--print-architecture').strip()}.deb")
+            debian(packages[-1], content, program, scratch)
+        packages.append(wheel(out, program))
+        packages.append(out / f"okoshi-{version}.tgz")
+        npm(packages[-1], program)
+        extension = out / f"okoshi-{'-'.join(node_platform())}-{version}.vsix"
+        vscode(extension, program)
         inkscape(out / f"okoshi-inkscape-{version}.zip")
         bill(out / f"okoshi-{version}.cdx.json", about["packages"], version)
 
-        run("tar", "xf", out / f"{name}.tar.gz", "-C", scratch)
-        tried(scratch / name / "bin/okoshi", scratch / "rooms/archive")
-        run("dpkg-deb", "-x", next(out.glob("*.deb")), scratch / "installed")
-        tried(scratch / "installed/usr/bin/okoshi", scratch / "rooms/debian")
-        run(sys.executable, "-m", "venv", scratch / "python")
-        run(scratch / "python/bin/pip", "install", "-q", "--no-index", made)
-        tried(scratch / "python/bin/okoshi", scratch / "rooms/wheel")
-        run("npm", "install", "--silent", "--offline", "--prefix", scratch / "node", out / f"okoshi-{version}.tgz")
-        tried(scratch / "node/node_modules/.bin/okoshi", scratch / "rooms/npm")
-    packages = sorted(file for file in out.iterdir())
-    (out / "SHA256SUMS").write_text("".join(f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.name}\n" for file in packages))
-    for file in packages:
+        if not first_figure.HAS_ROOT:
+            print("skipped: packages are tried in folders, for only root on Linux may change the root folder")
+        for package in packages:
+            tutorial, readme = first_figure.tried(package, scratch / "rooms", to_the_end=package is archived)
+            print(f"{package.name}: installed as the page says; {tutorial} commands to a walking figure with the tutorial, {readme} with the README")
+        extension_tried(extension, program, scratch / "rooms/extension")
+    made = sorted(out.iterdir())
+    (out / "SHA256SUMS").write_text("".join(f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.name}\n" for file in made), encoding="utf-8", newline="\n")
+    for file in made:
         print(f"{file.name}: {file.stat().st_size // 1024} KiB")
-    print(f"runs with glibc {libc[0]}.{libc[1]} or newer; each of the four was installed and made a figure")
+    if SYSTEM == "linux":
+        print(f"runs with glibc {'.'.join(map(str, program.libc))} or newer" if program.libc else "needs no library of the system")
 
 
 if __name__ == "__main__":

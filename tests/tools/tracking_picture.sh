@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the picture of docs/tracking.md from tests/tracking/data/sticks.webp: bash tests/tools/tracking_picture.sh
 #
-# Requires okoshi and Python's Pillow. OKOSHI is a binary to use instead of building one.
+# Requires okoshi and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a folder to use instead of docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
@@ -16,4 +16,4 @@ frames = [Image.open(f'{sys.argv[1]}/a-{number}.png').convert('RGB') for number 
 picture = Image.new('RGB', (648, 240), 'white')
 for index, frame in enumerate(frames):
     picture.paste(frame, (index * 328, 0))
-picture.save('docs/tracking.jpg', quality=88)" "$room"
+picture.save(f'{sys.argv[2]}/tracking.jpg', quality=88)" "$room" "${OUT:-docs}"

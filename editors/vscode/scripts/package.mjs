@@ -1,8 +1,14 @@
-// Creates okoshi.vsix, from a clean clone too: installs the locked dependencies, checks types, bundles, packages. Same sources, same
+// Creates the package, from a clean clone too: installs the locked dependencies, checks types, bundles, packages. Same sources, same
 // bytes: the archive's times are fixed unless SOURCE_DATE_EPOCH is set.
+//
+//   node scripts/package.mjs [OUTPUT [PROGRAM]]
+//
+// OUTPUT is okoshi.vsix, for all systems, unless another is named. With PROGRAM the package brings that program, and is for the system and
+// the processor that this runs on.
 
 import { spawnSync } from "node:child_process";
-import { dirname, join } from "node:path";
+import { chmodSync, copyFileSync, mkdirSync, rmSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { install } from "../../web/scripts/install.mjs";
 
@@ -16,11 +22,34 @@ function run(command, ...args) {
   if (status !== 0) process.exit(status ?? 1);
 }
 
-export function pack(output) {
+/** Installs what the package is built with, checks, and bundles. */
+export function prepare() {
   install(here);
   run("npx", "--no-install", "tsc", "--noEmit");
   run("node", "scripts/build.mjs");
-  run("npx", "--no-install", "vsce", "package", "--no-dependencies", "--allow-missing-repository", "-o", output);
 }
 
-if (process.argv[1] === fileURLToPath(import.meta.url)) pack(process.argv[2] ?? "okoshi.vsix");
+/** Packages what `prepare` bundled, with a program if its path is given. */
+export function pack(output, program) {
+  const bin = join(here, "bin");
+  rmSync(bin, { recursive: true, force: true });
+  const target = program === undefined ? [] : ["--target", `${process.platform}-${process.arch}`];
+  try {
+    if (program !== undefined) {
+      const copy = join(bin, process.platform === "win32" ? "okoshi.exe" : "okoshi");
+      mkdirSync(bin);
+      copyFileSync(program, copy);
+      chmodSync(copy, 0o755);
+    }
+    // Without a program, no file is in `bin`.
+    run("npx", "--no-install", "vsce", "package", "--no-dependencies", "--allow-missing-repository", "--allow-unused-files-pattern", ...target, "-o", output);
+  } finally {
+    rmSync(bin, { recursive: true, force: true });
+  }
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const [, , output, program] = process.argv;
+  prepare();
+  pack(resolve(output ?? join(here, "okoshi.vsix")), program && resolve(program));
+}

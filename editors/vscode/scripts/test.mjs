@@ -2,15 +2,25 @@
 // OKOSHI names a binary that compiles the snippets; without it that test is skipped.
 
 import { spawnSync } from "node:child_process";
-import { readdirSync, rmSync } from "node:fs";
+import { chmodSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { pack } from "./package.mjs";
+import { pack, prepare } from "./package.mjs";
 
 const here = join(dirname(fileURLToPath(import.meta.url)), "..");
 const okoshi = process.env.OKOSHI ? { OKOSHI: resolve(process.env.OKOSHI) } : {};
 process.chdir(here);
+prepare();
 pack("okoshi.vsix");
+// A package with a program: a small one that says its name.
+const room = mkdtempSync(join(tmpdir(), "okoshi-vsix-"));
+const program = join(room, "okoshi");
+writeFileSync(program, "#!/bin/sh\necho okoshi 1.2.3\n");
+// As programs are that were unpacked without their rights.
+chmodSync(program, 0o644);
+pack("okoshi-with-program.vsix", program);
+rmSync(room, { recursive: true });
 
 const { build } = await import("esbuild");
 const out = join("dist", "test");

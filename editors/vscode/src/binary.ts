@@ -2,6 +2,9 @@
 
 import { posix, win32 } from "node:path";
 
+/** The program, if no other is set. */
+export const DEFAULT = "okoshi";
+
 /** Where the extension runs. */
 export interface Environment {
   /** `process.platform`. */
@@ -11,18 +14,21 @@ export interface Environment {
   readonly home: string;
   /** The first workspace folder, if there is one. */
   readonly folder: string | undefined;
+  /** The extension's own folder: packages for one system bring the program in its `bin`. */
+  readonly extension: string;
 }
 
 /**
  * The possible paths of the program, most likely first, for a value of the setting `okoshi.path`.
  *
- * A bare name is looked up on the `PATH` and then in `~/.cargo/bin`, which programs started from a desktop often lack.
+ * The default, `okoshi`, is the program that the extension brings, if it brings one. A bare name is looked up on the `PATH` and then in
+ * `~/.cargo/bin`, which programs started from a desktop often lack.
  * Relative folders on the `PATH` are ignored: with them a drawing's folder could choose the program.
  */
-export function candidates(setting: string, { platform, env, home, folder }: Environment): string[] {
+export function candidates(setting: string, { platform, env, home, folder, extension }: Environment): string[] {
   const windows = platform === "win32";
   const path = windows ? win32 : posix;
-  let name = setting.trim() || "okoshi";
+  let name = setting.trim() || DEFAULT;
   if (name === "~" || name.startsWith("~/") || (windows && name.startsWith("~\\"))) name = path.join(home, name.slice(1));
   if (name.includes("${workspaceFolder}")) {
     if (folder === undefined) return [];
@@ -35,7 +41,8 @@ export function candidates(setting: string, { platform, env, home, folder }: Env
   }
   const variable = windows ? Object.keys(env).find((key) => key.toUpperCase() === "PATH") : "PATH";
   const listed = (variable === undefined ? "" : (env[variable] ?? "")).split(path.delimiter);
-  const folders = [...listed.map((entry) => entry.replace(/^"(.*)"$/, "$1")), path.join(home, ".cargo", "bin")];
+  const own = name === DEFAULT ? [path.join(extension, "bin")] : [];
+  const folders = [...own, ...listed.map((entry) => entry.replace(/^"(.*)"$/, "$1")), path.join(home, ".cargo", "bin")];
   const files = folders.filter((entry) => path.isAbsolute(entry)).flatMap((entry) => named(path.join(entry, name)));
   return [...new Set(files)];
 }

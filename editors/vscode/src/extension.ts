@@ -11,7 +11,7 @@ let server: Server | undefined;
 
 export function activate(context: vscode.ExtensionContext): void {
   const output = vscode.window.createOutputChannel("Okoshi", { log: true });
-  server = new Server(output);
+  server = new Server(context.extensionUri, output);
   const started = server;
   const previews = new Previews(context.extensionUri, started, output);
   context.subscriptions.push(

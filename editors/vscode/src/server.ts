@@ -65,7 +65,8 @@ export class Server implements vscode.Disposable {
   /** Fires when the server has messages for a drawing's page. */
   readonly onPreviewMessages = this.previewMessages.event;
 
-  constructor(private readonly output: vscode.LogOutputChannel) {
+  /** `extension`: the folder of the extension. */
+  constructor(private readonly extension: vscode.Uri, private readonly output: vscode.LogOutputChannel) {
     this.tracing = new TraceChannel(output, settings().traced);
   }
 
@@ -125,6 +126,7 @@ export class Server implements vscode.Disposable {
       env: process.env,
       home: homedir(),
       folder: vscode.workspace.workspaceFolders?.find(({ uri }) => uri.scheme === "file")?.uri.fsPath,
+      extension: this.extension.fsPath,
     });
     this.found = await firstExecutable(places, canRun);
     if (this.found === undefined) {

@@ -1,5 +1,7 @@
 // Validates the settings, because settings.json may contain anything. Independent of the editor.
 
+import { DEFAULT } from "./binary";
+
 /** When the server checks drawings. */
 export type Analyse = "onType" | "onSave";
 
@@ -15,7 +17,7 @@ export function settingsFrom(get: (name: string) => unknown): Settings {
   const path = get("path");
   const trace = get("trace.server");
   return {
-    path: typeof path === "string" && path.trim() !== "" ? path.trim() : "okoshi",
+    path: typeof path === "string" && path.trim() !== "" ? path.trim() : DEFAULT,
     analyse: get("analyse") === "onSave" ? "onSave" : "onType",
     traced: trace === "messages" || trace === "compact" || trace === "verbose",
   };

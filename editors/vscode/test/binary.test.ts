@@ -7,21 +7,36 @@ const linux: Environment = {
   env: { PATH: "/usr/local/bin:relative/bin::/usr/bin:." },
   home: "/home/ann",
   folder: "/home/ann/drawings",
+  extension: "/home/ann/.vscode/extensions/okoshi",
 };
 const windows: Environment = {
   platform: "win32",
   env: { Path: 'C:\\Tools;"C:\\Program Files\\Okoshi";.' },
   home: "C:\\Users\\Ann",
   folder: "D:\\drawings",
+  extension: "C:\\Users\\Ann\\.vscode\\extensions\\okoshi",
 };
 
 test("a bare name is looked up on the PATH and where cargo installs", () => {
-  assert.deepEqual(candidates("okoshi", linux), ["/usr/local/bin/okoshi", "/usr/bin/okoshi", "/home/ann/.cargo/bin/okoshi"]);
-  assert.deepEqual(candidates("okoshi", windows), [
-    "C:\\Tools\\okoshi.exe",
-    "C:\\Program Files\\Okoshi\\okoshi.exe",
-    "C:\\Users\\Ann\\.cargo\\bin\\okoshi.exe",
+  assert.deepEqual(candidates("okoshi-next", linux), ["/usr/local/bin/okoshi-next", "/usr/bin/okoshi-next", "/home/ann/.cargo/bin/okoshi-next"]);
+  assert.deepEqual(candidates("okoshi-next", windows), [
+    "C:\\Tools\\okoshi-next.exe",
+    "C:\\Program Files\\Okoshi\\okoshi-next.exe",
+    "C:\\Users\\Ann\\.cargo\\bin\\okoshi-next.exe",
   ]);
+});
+
+test("the program that the extension brings comes first, unless another is set", () => {
+  assert.deepEqual(candidates("okoshi", linux), [
+    "/home/ann/.vscode/extensions/okoshi/bin/okoshi",
+    "/usr/local/bin/okoshi",
+    "/usr/bin/okoshi",
+    "/home/ann/.cargo/bin/okoshi",
+  ]);
+  assert.equal(candidates("okoshi", windows)[0], "C:\\Users\\Ann\\.vscode\\extensions\\okoshi\\bin\\okoshi.exe");
+  for (const set of ["okoshi-next", "/opt/okoshi", "~/bin/okoshi", "./okoshi", "${workspaceFolder}/okoshi"]) {
+    for (const path of candidates(set, linux)) assert.ok(!path.startsWith(linux.extension), `${set}: ${path}`);
+  }
 });
 
 test("relative folders on the PATH are ignored", () => {
@@ -53,7 +68,7 @@ test("without a workspace folder there is no place for what hangs on it", () => 
 });
 
 test("without a PATH cargo's folder is left", () => {
-  assert.deepEqual(candidates("okoshi", { ...linux, env: {} }), ["/home/ann/.cargo/bin/okoshi"]);
+  assert.deepEqual(candidates("okoshi-next", { ...linux, env: {} }), ["/home/ann/.cargo/bin/okoshi-next"]);
 });
 
 test("the first that runs is taken, and no more are asked", async () => {

@@ -1,37 +1,44 @@
 // The content of the package: everything it needs and nothing else.
 
 import assert from "node:assert/strict";
-import { readFileSync, statSync } from "node:fs";
+import { spawnSync } from "node:child_process";
+import { chmodSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { builtinModules } from "node:module";
-import { join } from "node:path";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
 import { test } from "node:test";
 import { fromBuffer } from "yauzl";
 import manifest from "../package.json";
+import { candidates, firstExecutable, parseVersion } from "../src/binary";
 import { repository } from "./paths";
 
 /** Bytes. */
 const LARGEST = 600_000;
 
-const entries = new Promise<Map<string, Buffer>>((resolve, reject) => {
-  const found = new Map<string, Buffer>();
-  fromBuffer(readFileSync("okoshi.vsix"), { lazyEntries: true }, (error, archive) => {
-    if (error) return reject(error);
-    archive.on("error", reject);
-    archive.on("end", () => resolve(found));
-    archive.on("entry", (entry) => {
-      archive.openReadStream(entry, (error, stream) => {
-        if (error) return reject(error);
-        const pieces: Buffer[] = [];
-        stream.on("data", (piece: Buffer) => pieces.push(piece));
-        stream.on("end", () => {
-          found.set(entry.fileName, Buffer.concat(pieces));
-          archive.readEntry();
+/** The files of a package; `modes` gets their rights. */
+const read = (name: string, modes = new Map<string, number>()) =>
+  new Promise<Map<string, Buffer>>((resolve, reject) => {
+    const found = new Map<string, Buffer>();
+    fromBuffer(readFileSync(name), { lazyEntries: true }, (error, archive) => {
+      if (error) return reject(error);
+      archive.on("error", reject);
+      archive.on("end", () => resolve(found));
+      archive.on("entry", (entry) => {
+        modes.set(entry.fileName, (entry.externalFileAttributes >>> 16) & 0o777);
+        archive.openReadStream(entry, (error, stream) => {
+          if (error) return reject(error);
+          const pieces: Buffer[] = [];
+          stream.on("data", (piece: Buffer) => pieces.push(piece));
+          stream.on("end", () => {
+            found.set(entry.fileName, Buffer.concat(pieces));
+            archive.readEntry();
+          });
         });
       });
+      archive.readEntry();
     });
-    archive.readEntry();
   });
-});
+const entries = read("okoshi.vsix");
 
 test("it holds what it should", async () => {
   const pictures = ["drawing.png", "install.md", "model.png", "problems.png", "string.md"];
@@ -85,4 +92,31 @@ test("it names both licences and those of what it bundles", async () => {
   assert.match(await text("LICENSE.txt"), /MIT License/i);
   assert.match(await text("LICENSE.txt"), /Apache License/);
   assert.match(await text("dist/NOTICES.txt"), /vscode-languageclient \d/);
+});
+
+test("a package for one system brings the program, which the extension finds first", { skip: process.platform === "win32" ? "the stand-in is a shell script" : false }, async () => {
+  const modes = new Map<string, number>();
+  const files = await read("okoshi-with-program.vsix", modes);
+  assert.deepEqual([...files.keys()].filter((name) => name.startsWith("extension/bin/")), ["extension/bin/okoshi"]);
+  assert.equal(files.size, (await entries).size + 1);
+  assert.match(files.get("extension.vsixmanifest")?.toString("utf8") ?? "", new RegExp(`TargetPlatform="${process.platform}-${process.arch}"`));
+  assert.doesNotMatch((await entries).get("extension.vsixmanifest")?.toString("utf8") ?? "", /TargetPlatform/);
+
+  // Unpacked with the rights in the archive, as VS Code does.
+  const room = mkdtempSync(join(tmpdir(), "okoshi-vsix-"));
+  try {
+    for (const [name, bytes] of files) {
+      const path = join(room, name);
+      mkdirSync(dirname(path), { recursive: true });
+      writeFileSync(path, bytes);
+      chmodSync(path, modes.get(name) || 0o644);
+    }
+    const environment = { platform: process.platform, env: { PATH: dirname(process.execPath) }, home: room, folder: undefined, extension: join(room, "extension") };
+    const runs = async (path: string) => spawnSync(path, ["--version"]).status === 0;
+    const found = await firstExecutable(candidates(manifest.contributes.configuration.properties["okoshi.path"].default, environment), runs);
+    assert.equal(found, join(room, "extension", "bin", "okoshi"));
+    assert.equal(parseVersion(spawnSync(found, ["--version"], { encoding: "utf8" }).stdout), "1.2.3");
+  } finally {
+    rmSync(room, { recursive: true });
+  }
 });

@@ -10,7 +10,7 @@ import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { pack } from "../scripts/package.mjs";
+import { pack, prepare } from "../scripts/package.mjs";
 import { Editor } from "./editor.mjs";
 import { withServer } from "./steps.mjs";
 import { codeServer, run, tools } from "./tools.mjs";
@@ -61,6 +61,7 @@ const settings = (path, more = {}) => {
 };
 
 write(join(data, "User", "settings.json"), SETTINGS);
+prepare();
 pack(join(room, "okoshi.vsix"));
 run(join(extension, "node_modules", ".bin", "vsce"), ["package", "--no-dependencies", "--allow-missing-repository", "--skip-license", "-o", join(room, "neighbour.vsix")], { cwd: join(here, "neighbour") });
 const found = await tools(room);

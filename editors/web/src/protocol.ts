@@ -153,15 +153,32 @@ export interface Build {
   readonly originals: string | null;
 }
 
+/** A drawing to start from. */
+export interface Starter {
+  readonly name: string;
+  readonly about: string;
+  /** The address of its picture; null for an empty page. */
+  readonly picture: string | null;
+}
+
+/** What is offered while there are no drawings; the host asks for the key when one is chosen. */
+export interface Offer {
+  readonly key: string;
+  readonly starters: readonly Starter[];
+}
+
 export type FromHost =
   | { readonly type: "drawings"; readonly drawings: readonly Listed[] }
   | { readonly type: "build"; readonly drawing: string; readonly build: Build }
   | { readonly type: "gone"; readonly drawing: string }
+  | ({ readonly type: "starters" } & Offer)
+  | { readonly type: "unbegun"; readonly why: string }
   | { readonly type: "light"; readonly drawing: string; readonly part: string | null };
 
 export type ToHost =
   | { readonly type: "pick"; readonly drawing: string; readonly part: string }
   | { readonly type: "want"; readonly drawing: string }
+  | { readonly type: "begin"; readonly key: string; readonly starter: string }
   | { readonly type: "open"; readonly drawing: string; readonly line: number; readonly column: number };
 
 type Raw = Readonly<Record<string, unknown>>;
@@ -215,9 +232,18 @@ export function read(data: unknown): FromHost | null {
       return { type: "gone", drawing };
     case "light":
       return { type: "light", drawing, part: textOrNull(raw["part"]) };
+    case "starters":
+      return { type: "starters", key: text(raw["key"]), starters: list(raw["starters"]).map(readStarter) };
+    case "unbegun":
+      return { type: "unbegun", why: text(raw["why"]) };
     default:
       return null;
   }
+}
+
+function readStarter(value: unknown): Starter {
+  const raw = object(value);
+  return { name: text(raw["name"]), about: text(raw["about"]), picture: textOrNull(raw["picture"]) };
 }
 
 function readListed(value: unknown): Listed {

@@ -2,7 +2,7 @@
 
 import type { Link } from "./host/host";
 import { Parts } from "./parts";
-import type { Build, FromHost, Listed } from "./protocol";
+import type { Build, FromHost, Listed, Offer } from "./protocol";
 
 export interface Drawing extends Listed {
   readonly build: Build | null;
@@ -15,10 +15,10 @@ export interface Drawing extends Listed {
 
 /**
  * drawings: the list changed · build: that of the named drawing changed · current: another drawing, or none, is shown ·
- * selection, hover: of another part · light: the editor's cursor moved to another part · hidden: parts were hidden or shown ·
+ * starters: others are offered, or one was not begun · selection, hover: of another part · light: the editor's cursor moved to another part · hidden: parts were hidden or shown ·
  * link: the connection changed
  */
-export type Topic = "drawings" | "build" | "current" | "selection" | "hover" | "light" | "hidden" | "link";
+export type Topic = "drawings" | "starters" | "build" | "current" | "selection" | "hover" | "light" | "hidden" | "link";
 
 const NO_PARTS = new Parts([]);
 
@@ -38,6 +38,10 @@ export class State {
   linkNote = "";
   /** Counts connections. A host may send messages of the next connection before it reports that as open. */
   connection = 0;
+  /** What the host offers while there are no drawings. */
+  offer: Offer | null = null;
+  /** Why the drawing that was chosen was not begun; empty if nothing is wrong. */
+  refusal = "";
   /** Whether the host has sent its list of drawings. */
   known = false;
 
@@ -79,6 +83,13 @@ export class State {
       }
       case "build":
         return this.change(message.drawing, { build: message.build, parts: this.partsOf(message.drawing, message.build), gone: false, connection: this.connection });
+      case "starters":
+        this.offer = message;
+        this.refusal = "";
+        return this.notify("starters");
+      case "unbegun":
+        this.refusal = message.why;
+        return this.notify("starters");
       case "gone":
         return this.change(message.drawing, { gone: true });
       case "light":

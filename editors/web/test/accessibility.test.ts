@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { join } from "node:path";
 import type { AxeResults } from "axe-core";
 import type { Page } from "playwright-core";
 import { CHROMIUM, shown, still } from "./browser";
@@ -41,6 +42,17 @@ for (const colorScheme of ["light", "dark"] as const) {
       await page.keyboard.press(key);
       await still(page);
     };
+
+    browse(`axe finds nothing: drawings to start from, ${name}, ${colorScheme}`, (host) => {
+      host.offered = { key: "a key", names: ["girl", "dog", "empty"], picture: readFileSync(join("..", "..", "docs", "gallery", "girl-model.png")) };
+    }, async (page, host) => {
+      await page.locator("[data-starter=girl] img").waitFor();
+      await is(page, "offered");
+      await page.locator("[data-starter=girl]").click();
+      host.say({ type: "unbegun", why: "there is no space left" });
+      await page.getByText("Nothing was written").waitFor();
+      await is(page, "not begun");
+    }, { ...size, colorScheme });
 
     browse(`axe finds nothing: the gallery and a drawing, ${name}, ${colorScheme}`, prepare, async (page, host) => {
       await page.locator("[data-drawing='human.svg'] img").waitFor();

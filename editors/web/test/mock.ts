@@ -38,6 +38,8 @@ export class MockHost {
   silent = false;
   /** Addresses that return invalid files. */
   readonly broken = new Set<string>();
+  /** What is offered while there are no drawings: names, and a picture of all of them. */
+  offered: { readonly key: string; readonly names: readonly string[]; readonly picture: Buffer } | null = null;
   /** The requested addresses. */
   readonly asked: string[] = [];
 
@@ -143,6 +145,12 @@ export class MockHost {
       this.heard.push(JSON.parse(String(data)) as Record<string, unknown>);
       this.events.emit("heard");
     });
+    if (this.offered) {
+      const { key, names, picture } = this.offered;
+      for (const name of names) this.files.set(`/starters/${name}.png`, picture);
+      const starters = names.map((name) => ({ name, about: `A ${name}`, picture: name === "empty" ? null : `starters/${name}.png` }));
+      socket.send(JSON.stringify({ type: "starters", key, starters }));
+    }
     socket.send("not json");
     socket.send(JSON.stringify({ type: "ofTheFuture" }));
     socket.send(JSON.stringify({ type: "drawings", drawings: this.list() }));

@@ -1,7 +1,7 @@
 // The page with the real program: `okoshi preview`, files that are saved, and the result on the page.
 
 import assert from "node:assert/strict";
-import { copyFileSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
@@ -32,6 +32,7 @@ function real(name: string, target: string, run: (page: Page, folder: string) =>
       mkdirSync(join(folder, "moving"));
       for (const file of ["kick.svg", "kick.bvh"]) copyFileSync(join("..", "..", "examples", "motion", file), join(folder, "moving", file));
     }
+    if (target === "empty") mkdirSync(join(folder, "empty"));
     const { address } = await preview(okoshi, folder, target === "moving" ? join(target, "kick.svg") : target, onClose);
     browser ??= launch();
     const { page, wrong } = await open(await browser, address, onClose);
@@ -130,6 +131,17 @@ real("a folder is a gallery with pictures; new drawings appear", ".", async (pag
   await page.locator(".card", { hasText: "human.svg" }).click();
   await shown(page);
   assert.equal(await page.locator("[data-part=Ubody]").count(), 1);
+});
+
+real("an empty folder offers starters, and a click begins one", "empty", async (page, folder) => {
+  await page.waitForFunction(() => document.querySelectorAll("[data-starter] img").length === 8);
+  await picture(page, "starters");
+  assert.equal(await page.locator("[data-starter]").count(), 9);
+  await page.locator("[data-starter=robot]").click();
+  await shown(page, 1);
+  assert.equal(await page.title(), "robot.svg · okoshi");
+  assert.ok(existsSync(join(folder, "empty", "robot.svg")));
+  assert.match(await page.locator(".clips").innerText(), /walk/);
 });
 
 real("a clip plays, its drawings are marked, and the full motion is shown beside it", "moving", async (page, folder) => {

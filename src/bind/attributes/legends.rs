@@ -69,7 +69,7 @@ pub(super) fn merge(
         });
     }
     let legend_of = |(part, kind): (&MatchedPart, &PartKind)| {
-        if !matches!(kind, PartKind::Main | PartKind::Sub | PartKind::Tile) {
+        if !(kind.is_solid() || *kind == PartKind::Tile) {
             return None;
         }
         let legend = *by_paint.get(&part.paint(drawing).key)?;

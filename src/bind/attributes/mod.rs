@@ -46,7 +46,7 @@ const OF_FORM: [Keyword; 7] = [
 /// Who sets an attribute; the first of them wins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SetBy {
-    /// The part's own string, or that of the tile layer.
+    /// The part's own string, or that of the layer of tiles or props.
     Own,
     /// The legend of its paint.
     Legend,
@@ -149,7 +149,7 @@ pub struct Attributes<'a> {
     own: Option<(StringId, &'a [Setting])>,
     /// The settings of the legend of the paint, each with its string.
     legend: &'a [(StringId, Setting)],
-    /// For tiles, the settings of their layer's string, with its id.
+    /// For tiles and props, the settings of their layer's string, with its id.
     layer: Option<(StringId, &'a [Setting])>,
     /// The settings of the `%` strings, each with its string.
     defaults: &'a [(StringId, Setting)],
@@ -215,9 +215,11 @@ impl PartAttributes {
             defaults: &matched.defaults,
         };
         let (part, legend) = (&matched.parts[part], self.legend_of_part[part]);
+        let layer = part.stands_in.map(|layer| matched.layers[layer].string);
         setters
             .attributes(part.string, legend)
-            .of_form(part.is_balloon, part.disc)
+            .in_layer(layer.map(|string| setters.settings_of(string)))
+            .of_form(part.is_balloon, part.plate)
     }
 }
 
@@ -238,11 +240,18 @@ impl Bindings {
         }
     }
 
+    /// For a prop, the settings of its layer's string, with its id.
+    fn settings_around(&self, part: &Part) -> Option<(StringId, &[Setting])> {
+        let layer = part.stands_in?;
+        Some(self.setters().settings_of(self.layers[layer].string))
+    }
+
     /// The attributes of a part.
     pub fn attributes(&self, part: PartId) -> Attributes<'_> {
         let part = &self.parts[part];
         let attributes = self.setters().attributes(part.string, part.legend);
-        attributes.of_form(part.is_balloon, part.disc)
+        let attributes = attributes.in_layer(self.settings_around(part));
+        attributes.of_form(part.is_balloon, part.plate)
     }
 
     /// The attributes of a layer.
@@ -278,8 +287,11 @@ impl Bindings {
 
     /// The source that a part's attribute would have without the part's own string.
     pub fn inherited(&self, part: PartId, keyword: Keyword) -> Option<Source<'_>> {
-        let attributes = self.setters().attributes(None, self.parts[part].legend);
-        attributes.source(keyword)
+        let part = &self.parts[part];
+        let attributes = self.setters().attributes(None, part.legend);
+        attributes
+            .in_layer(self.settings_around(part))
+            .source(keyword)
     }
 
     /// The part whose attributes give a part its form: for ink the part on which it lies, unless the legend of its paint has a

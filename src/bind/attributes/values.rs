@@ -5,6 +5,8 @@ use super::{
     Attribute, Attributes, BALLOON, Carry, MaterialFactors, PLATE, SetBy, SetColor, Side, Source,
     plate_depth,
 };
+use glam::DVec2;
+
 use crate::bind::StringId;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Mark, Origin, Setting, Shape, Value};
@@ -22,13 +24,18 @@ macro_rules! typed {
 }
 
 impl<'a> Attributes<'a> {
+    /// Those of what is in a layer whose string has these settings.
+    pub(super) fn in_layer(self, layer: Option<(StringId, &'a [Setting])>) -> Self {
+        Self { layer, ..self }
+    }
+
     /// Those of a part that is inflated if nothing sets its `Shape`, or is a plate, of half this thickness, drawing units, if it is a
-    /// disc.
-    pub(super) fn of_form(self, is_balloon: bool, disc: Option<f64>) -> Self {
+    /// disc or a prop.
+    pub(super) fn of_form(self, is_balloon: bool, plate: Option<f64>) -> Self {
         let builtin_shape = if is_balloon { &BALLOON } else { &PLATE };
         Self {
             builtin_shape,
-            plate: disc,
+            plate,
             ..self
         }
     }
@@ -100,9 +107,14 @@ impl<'a> Attributes<'a> {
     /// How an outline with these attributes gets its thickness; `None` for `Shape none`.
     pub(in crate::bind) fn profile(&self, drawing: &Drawing) -> Option<Profile> {
         let shape = self.shape();
-        let disc = self.plate.filter(|_| self.source(Keyword::Shape).is_none());
-        let plate = disc.unwrap_or_else(|| plate_depth(drawing));
+        let plate = self.plate.filter(|_| self.source(Keyword::Shape).is_none());
+        let plate = plate.unwrap_or_else(|| plate_depth(drawing));
         Profile::new(shape.kind, shape.numbers(), plate)
+    }
+
+    /// `Stand`: the point of the page on which a prop stands, if it is set, drawing units.
+    pub fn stand(&self) -> Option<Attribute<'a, DVec2>> {
+        typed!(self, Keyword::Stand, Value::Pair(point) => DVec2::from_array(*point))
     }
 
     /// `Offset`: towards the viewer, drawing units.

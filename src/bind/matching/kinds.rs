@@ -39,6 +39,9 @@ pub(super) fn classify(
         for (part, kind) in parts.iter().zip(&mut kinds) {
             let group = drawing.shapes[part.shape].group;
             let in_layer = |kind| layers.of_group_and_kind(group, kind).is_some();
+            if layers.of_props(group).is_some() && matches!(kind, PartKind::Main | PartKind::Sub) {
+                *kind = PartKind::Prop;
+            }
             let unbound = part.string.is_none() && parts[part.main].string.is_none();
             if in_layer(LayerKind::View) && *kind != PartKind::Unused {
                 *kind = PartKind::Region;

@@ -29,14 +29,18 @@ pub enum LayerKind {
     Pose,
     /// Tiles of one height, in a map.
     Level,
+    /// Props: what is drawn in the group stands on the ground of a map.
+    Stand,
 }
 
-/// The attributes that make a string a group string, each with the kind of its layer. Of several the first in this list counts.
-const KINDS: [(Keyword, LayerKind); 4] = [
+/// The attributes that make a string a group string, each with the kind of its layer. Of several the first in this list counts. `Stand`
+/// with a point is that of a prop.
+const KINDS: [(Keyword, LayerKind); 5] = [
     (Keyword::Tiles, LayerKind::Tiles),
     (Keyword::View, LayerKind::View),
     (Keyword::Pose, LayerKind::Pose),
     (Keyword::Height, LayerKind::Level),
+    (Keyword::Stand, LayerKind::Stand),
 ];
 
 /// The name of a layer whose string has no name and whose group has neither label nor id.
@@ -59,14 +63,19 @@ pub struct Layer {
 #[derive(Debug, Default)]
 pub struct Layers {
     all: TiVec<LayerId, Layer>,
-    /// Per group the innermost tile layer or view that it is, or is in; empty if there are no layers.
+    /// Per group the innermost tile layer, view or layer of props that it is, or is in; empty if there are no layers.
     of_group: TiVec<GroupId, Option<LayerId>>,
 }
 
 impl LayerKind {
-    /// Whether shapes in the group belong to the layer: they are no parts of figures.
+    /// Whether shapes in the group are the layer's content: neither parts nor lines have a meaning of their own there.
     fn holds_content(self) -> bool {
         matches!(self, Self::Tiles | Self::View)
+    }
+
+    /// Whether shapes in the group belong to the layer: they are no parts of figures, and strings elsewhere do not mean them.
+    fn encloses(self) -> bool {
+        self.holds_content() || self == Self::Stand
     }
 
     /// The kind of layer that a string makes of its group, if it does.
@@ -76,7 +85,10 @@ impl LayerKind {
         };
         let is_set = |keyword| {
             let mut attributes = part.attributes.iter();
-            attributes.any(|attribute| attribute.keyword == keyword)
+            attributes.any(|attribute| {
+                let is_of_prop = keyword == Keyword::Stand && !attribute.arguments.is_empty();
+                attribute.keyword == keyword && !is_of_prop
+            })
         };
         let kind = KINDS.iter().find(|(keyword, _)| is_set(*keyword));
         kind.map(|(_, kind)| *kind)
@@ -85,15 +97,14 @@ impl LayerKind {
 
 /// Whether each group is a layer whose pictures are read pixel by pixel, or in one.
 pub fn in_layers_of_pixels(drawing: &Drawing) -> TiVec<GroupId, bool> {
-    let is_layer = |text, place| {
+    let kind = |text, place| {
         let (annotation, _) = lang::parse(text, place);
-        LayerKind::of(&annotation).is_some_and(LayerKind::holds_content)
+        LayerKind::of(&annotation).filter(|kind| kind.encloses())
     };
     let labels = drawing.labels.par_iter().with_min_len(GRAIN);
-    let of_labels = labels.filter_map(|(label, group)| {
-        is_layer(&label.text, lang::Container::Text).then_some(*group)
-    });
-    let mut layer_groups: Vec<GroupId> = of_labels.collect();
+    let of_labels = labels
+        .filter_map(|(label, group)| Some((*group, kind(&label.text, lang::Container::Text)?)));
+    let mut layer_groups: Vec<(GroupId, LayerKind)> = of_labels.collect();
     let groups = drawing.groups.iter_enumerated();
     let groups = groups.map(|(index, group)| (&group.element, index));
     let shapes = drawing.shapes.iter();
@@ -101,15 +112,15 @@ pub fn in_layers_of_pixels(drawing: &Drawing) -> TiVec<GroupId, bool> {
     for (element, group) in groups.chain(shapes) {
         let desc = element.desc.as_deref();
         if let Some(text) = desc.filter(|text| lang::describes(text.as_str())) {
-            layer_groups.extend(is_layer(text, lang::Container::Desc).then_some(group));
+            layer_groups.extend(kind(text, lang::Container::Desc).map(|kind| (group, kind)));
         }
     }
     let mut layer = ti_vec![None; drawing.groups.len()];
-    for group in layer_groups {
-        layer[group] = Some(());
+    for (group, kind) in layer_groups {
+        layer[group].get_or_insert(kind.holds_content());
     }
     spread(drawing, &mut layer);
-    layer.iter().map(Option::is_some).collect()
+    layer.iter().map(|holds| *holds == Some(true)).collect()
 }
 
 /// Gives every group without a layer of its own the layer of the group around it.
@@ -144,7 +155,7 @@ pub(super) fn find(
             continue;
         };
         let group = group_of(drawing, string.holder);
-        if let Some(first) = layer[group].filter(|_| kind.holds_content()) {
+        if let Some(first) = layer[group].filter(|_| kind.encloses()) {
             let other: &Layer = &layers[first];
             let element = &drawing.groups[group].element;
             let message = format!(
@@ -164,7 +175,7 @@ pub(super) fn find(
             );
             continue;
         }
-        if kind.holds_content() {
+        if kind.encloses() {
             layer[group] = Some(layers.next_key());
         }
         let name = annotation.name.as_ref().map(|name| name.text.clone());
@@ -185,6 +196,14 @@ pub(super) fn find(
     }
     if layers.is_empty() {
         return Layers::default();
+    }
+    if !layers.iter().any(|layer| layer.kind == LayerKind::Tiles) {
+        // There is no ground to stand on: what would be props are parts.
+        let is_stand = |layer: &LayerId| layers[*layer].kind == LayerKind::Stand;
+        let of_group = layer
+            .iter_mut()
+            .filter(|layer| layer.as_ref().is_some_and(is_stand));
+        of_group.for_each(|layer| *layer = None);
     }
     spread(drawing, &mut layer);
     Layers {
@@ -213,9 +232,20 @@ impl Layers {
         self.of_kind(LayerKind::Tiles)
     }
 
-    /// The innermost tile layer or view that a group is, or is in.
+    /// The innermost tile layer, view or layer of props that a group is, or is in.
     pub(in crate::bind) fn of_group(&self, group: GroupId) -> Option<LayerId> {
         self.of_group.get(group).copied().flatten()
+    }
+
+    /// The same, if shapes are its content and no parts: a tile layer or a view.
+    pub(in crate::bind) fn with_content(&self, group: GroupId) -> Option<LayerId> {
+        let layer = self.of_group(group);
+        layer.filter(|layer| self.all[*layer].kind.holds_content())
+    }
+
+    /// The layer of props that a group is, or is in.
+    pub(in crate::bind) fn of_props(&self, group: GroupId) -> Option<LayerId> {
+        self.of_group_and_kind(group, LayerKind::Stand)
     }
 
     /// The same, if that is of a kind.
@@ -232,7 +262,7 @@ impl Layers {
     pub(in crate::bind) fn hold_picture(&self, drawing: &Drawing, shape: ShapeId) -> bool {
         let shape = &drawing.shapes[shape];
         let is_picture = matches!(shape.paint.key, PaintKey::Picture(_));
-        is_picture && self.of_group(shape.group).is_some()
+        is_picture && self.with_content(shape.group).is_some()
     }
 
     /// The view whose picture a shape is; `None` if it is none.
@@ -286,7 +316,7 @@ impl Bindings {
 
     /// Whether a group is a layer whose shapes are no ordinary parts, or is in one: a map, a view.
     pub fn is_in_layer(&self, group: GroupId) -> bool {
-        self.layers.of_group(group).is_some()
+        self.layers.with_content(group).is_some()
     }
 
     /// The tile layer that a group is, or is in.

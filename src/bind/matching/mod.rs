@@ -18,6 +18,7 @@ mod nearest;
 mod node_groups;
 mod parts;
 mod pictures;
+mod props;
 mod said;
 mod settings;
 mod stacking;
@@ -34,6 +35,7 @@ pub(crate) use layers::{LayerId, LayerKind, Layers};
 pub(in crate::bind) use leaders::Leaders;
 pub(crate) use nearest::DistanceMode;
 pub(in crate::bind) use parts::MatchedPart;
+pub(in crate::bind) use props::foot;
 pub(crate) use settings::{BindRule, DrawingSettings, Strokes};
 pub(in crate::bind) use stacking::Stacking;
 pub(in crate::bind) use strings::{Texts, wants_part};
@@ -128,6 +130,7 @@ pub(in crate::bind) fn find(
         node_groups,
         stacking,
     } = binder.apply_rules(settings.bind);
+    props::join_loose(drawing, &layers, &mut parts);
     if read.is_first_look {
         for part in &mut parts {
             // Lines are tubes.
@@ -138,6 +141,7 @@ pub(in crate::bind) fn find(
     let strings: TiVec<StringId, _> = strings.map(|(read, bound)| joined(read, bound)).collect();
     let backgrounds = &node_groups.backgrounds;
     let kinds = kinds::classify(drawing, &strings, &parts, &layers, backgrounds);
+    props::give_thickness(drawing, &layers, &kinds, &mut parts);
     Matched {
         annotated: read.annotated,
         is_first_look: read.is_first_look,

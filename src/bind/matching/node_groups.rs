@@ -12,9 +12,10 @@ use super::converted::ConvertedStrings;
 use super::fills::Fills;
 use super::held::{self, Hold};
 use super::ink;
-use super::layers::Layers;
+use super::layers::{LayerId, Layers};
 use super::leaders::Leaders;
 use super::parts::MatchedPart;
+use super::props;
 use super::settings::Strokes;
 use super::stacking::ground_count;
 use super::strings::{ReadString, mean_parts};
@@ -106,7 +107,7 @@ impl NodeGroups {
             in_layer: vec![],
             holds_parts: ti_vec![false; drawing.groups.len()],
             sources: vec![],
-            roles: roles(drawing, &counts, &layer, &wrappers),
+            roles: roles(drawing, layers, &counts, &layer, &wrappers),
             backgrounds: wrappers.backgrounds,
             shadows: wrappers.shadows,
             parents,
@@ -131,7 +132,12 @@ impl NodeGroups {
             has_guides: mean_parts(strings),
         };
         let backgrounds = &self.backgrounds;
-        self.sources = sources(drawing, layers, &lines, backgrounds, strokes, memo);
+        let prop_of = |shape: ShapeId| {
+            let group = drawing.shapes[shape].group;
+            let layer = layers.of_props(group)?;
+            Some((layer, self.outermost(group)))
+        };
+        self.sources = sources(drawing, layers, &lines, backgrounds, prop_of, strokes, memo);
         for index in 0..self.sources.len() {
             let shape = self.sources[index].shape;
             let group = drawing.shapes[shape].group;
@@ -274,6 +280,7 @@ fn sources(
     layers: &Layers,
     known: &Lines<'_>,
     backgrounds: &TiSlice<ShapeId, bool>,
+    prop_of: impl Fn(ShapeId) -> Option<(LayerId, Option<GroupId>)>,
     strokes: Strokes,
     memo: &Memo,
 ) -> Vec<PartSource> {
@@ -295,7 +302,7 @@ fn sources(
     // Strokes in a tile layer are edges; those in a view belong to its regions.
     let is_map = |shape: ShapeId| {
         let group = drawing.shapes[shape].group;
-        layers.of_group(group).is_some()
+        layers.with_content(group).is_some()
     };
     let is_leader = |shape: ShapeId| leaders.leads(shape);
     let is_free = |shape: ShapeId| !described[shape] && !is_leader(shape) && !is_map(shape);
@@ -331,8 +338,11 @@ fn sources(
             if has_stroke && borders && !is_map(index) {
                 add(index, true, Some(index), None);
             }
-        } else if let Some(host) = hosts[index] {
+        } else if let Some(host) = hosts[index].filter(|host| prop_of(*host) == prop_of(index)) {
             add(index, true, Some(host), None);
+        } else if has_stroke && prop_of(index).is_some() {
+            // A line in a layer of props stands there: nothing else is drawn in one.
+            add(index, true, None, None);
         } else if has_stroke {
             let is_line = shape.line.is_some() && !leaders.may_be_meant(index);
             let is_line = is_line && (is_ink(index) || described[index]);
@@ -396,15 +406,20 @@ fn described_lines(
 
 fn roles(
     drawing: &Drawing,
+    layers: &Layers,
     strings: &TiSlice<GroupId, usize>,
     layer: &TiSlice<GroupId, Option<GroupId>>,
     wrappers: &Wrappers,
 ) -> TiVec<GroupId, GroupRole> {
     let groups = drawing.groups.iter_enumerated();
+    let single = props::single(drawing, layers);
+    let is_in_props = |group: GroupId| layers.of_props(group).is_some();
     groups
         .map(|(index, group)| match group.kind {
+            GroupKind::Group if single[index] => GroupRole::Node,
             GroupKind::Root | GroupKind::Layer => GroupRole::Transparent,
             GroupKind::Group if layer[index] == Some(index) => GroupRole::Transparent,
+            GroupKind::Group if is_in_props(index) => GroupRole::Node,
             GroupKind::Group if wrappers.carries[index] => GroupRole::Carrier,
             GroupKind::Group if wrappers.groups_nothing[index] => GroupRole::Transparent,
             GroupKind::Group if strings[index] > 1 => GroupRole::Container,

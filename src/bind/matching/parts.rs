@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::areas::Area;
 use super::held::Hold;
+use super::layers::LayerId;
 use super::node_groups::PartSource;
 use crate::bind::bindings::{self, PartId, StringId};
 use crate::geometry::{Measure, Outline};
@@ -28,8 +29,10 @@ pub(in crate::bind) struct MatchedPart {
     pub(in crate::bind) is_rest: bool,
     /// Whether it is inflated unless a string says otherwise: what is rounded in a drawing that never says `Shape`.
     pub(in crate::bind) is_balloon: bool,
-    /// For a wheel in such a drawing, half its thickness, drawing units.
-    pub(in crate::bind) disc: Option<f64>,
+    /// For a prop, and for a wheel in such a drawing, half its thickness if no string says its `Shape`, drawing units.
+    pub(in crate::bind) plate: Option<f64>,
+    /// For a prop, the layer that says that it stands.
+    pub(in crate::bind) stands_in: Option<LayerId>,
     /// Its string.
     pub(in crate::bind) string: Option<StringId>,
     /// The main part candidate of its node, which may be itself.
@@ -60,7 +63,8 @@ impl MatchedPart {
             measure,
             is_rest,
             is_balloon: false,
-            disc: None,
+            plate: None,
+            stands_in: None,
             string: None,
             main: index,
             node_group: None,

@@ -1,5 +1,6 @@
 //! Attributes of layers and of regions in places where they have no effect.
 
+use crate::bind::bindings::DrawingString;
 use crate::bind::matching::{LayerKind, Matched, group_of};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
@@ -10,6 +11,7 @@ use crate::svg::Drawing;
 pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
     let has_tile_layers = matched.layers.tile_layers().next().is_some();
     for string in &matched.strings {
+        stands(drawing, matched, string, has_tile_layers, diagnostics);
         let (attributes, what) = match &string.annotation {
             Annotation::Part(part)
                 if LayerKind::of(&string.annotation) != Some(LayerKind::Tiles) =>
@@ -67,5 +69,54 @@ pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec
                 diagnostics.push(Diagnostic::new(Code::NoTileLayer, span, message).help(help));
             }
         }
+    }
+}
+
+/// Reports `Stand` where nothing stands, and what is said to hang on something although it stands by itself.
+fn stands(
+    drawing: &Drawing,
+    matched: &Matched,
+    string: &DrawingString,
+    has_tile_layers: bool,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let kind = LayerKind::of(&string.annotation);
+    let props = matched.layers.of_props(group_of(drawing, string.holder));
+    let mut attributes = string.annotation.attributes().iter();
+    let stand = attributes.find(|attribute| attribute.keyword == Keyword::Stand);
+    let mut report = |range, message: &str, help| {
+        let span = string.text.span(range);
+        diagnostics.push(Diagnostic::new(Code::NoTileLayer, span, message).help(help));
+    };
+    if let Some(stand) = stand {
+        let range = stand.range.clone();
+        let found = match (&string.annotation, kind) {
+            (Annotation::Part(_), Some(LayerKind::Stand)) if !has_tile_layers => Some((
+                "`Stand` has no effect: the drawing has no map to stand on",
+                "make a map of a layer with a string like `Island$Tiles 16`, or delete `Stand`",
+            )),
+            (Annotation::Part(_), Some(LayerKind::Stand)) => None,
+            (Annotation::Part(_), None) if props.is_some() => None,
+            (Annotation::Part(_), None) => Some((
+                "`Stand` with a point has no effect here: it applies to what stands in a layer of props",
+                "put the shape into a layer with a string like `Trees$Stand`, or delete it",
+            )),
+            _ => Some((
+                "`Stand` has no effect here: it applies to layers of props",
+                "write it into a string of its own in the layer that holds the props: `Trees$Stand`",
+            )),
+        };
+        if let Some((message, help)) = found {
+            report(range, message, help);
+        }
+    }
+    let of_prop = string.binding.is_some() && props.is_some();
+    if let Annotation::Part(part) = &string.annotation
+        && let Some(parent) = part.parent.as_ref().filter(|_| of_prop)
+    {
+        let message = format!("`@{}` has no effect: a prop stands by itself", parent.text);
+        let help =
+            "delete it, or draw what hangs together in one group, outside of the layer of props";
+        report(parent.range.clone(), &message, help);
     }
 }

@@ -2,7 +2,6 @@
 
 use rustc_hash::FxHashSet;
 
-use crate::bind::bindings::PartKind;
 use crate::bind::hierarchy::Tree;
 use crate::bind::matching::{Matched, Strokes};
 use crate::diagnostic::{Code, Diagnostic, listed};
@@ -18,10 +17,9 @@ pub(super) fn report(
     if matched.settings.strokes != Strokes::Ink {
         return;
     }
-    let is_built = |kind: &PartKind| matches!(kind, PartKind::Main | PartKind::Sub);
     let parts = matched.parts.iter().zip(&tree.nodes.kind);
     let mut outlined: Vec<ShapeId> = parts
-        .filter(|(_, kind)| is_built(kind))
+        .filter(|(_, kind)| kind.is_solid())
         .map(|(part, _)| part.shape)
         .filter(|shape| {
             let shape = &drawing.shapes[*shape];
@@ -66,7 +64,7 @@ pub(super) fn lines(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<
             && outline.polygons.is_empty()
             && !built.contains(shape)
             && !matched.leaders.leads(*shape)
-            && matched.layers.of_group(*group).is_none()
+            && matched.layers.with_content(*group).is_none()
     };
     let lines: Vec<ShapeId> = drawing.shapes.keys().filter(is_left_out).collect();
     let Some(first) = lines.first() else {

@@ -65,7 +65,12 @@ impl RootedShapes {
 impl Nodes {
     pub(super) fn new(context: &FigureContext<'_>, shapes: &[Shape]) -> Self {
         let parts = &context.bindings.parts;
-        let is_main = |part: &PartId| parts[*part].kind == PartKind::Main;
+        // A prop is a node of its own.
+        let is_main = |part: &PartId| match parts[*part].kind {
+            PartKind::Main => true,
+            PartKind::Prop => parts[*part].is_candidate(),
+            _ => false,
+        };
         let main: Vec<PartId> = parts.keys().filter(is_main).collect();
         let mut of_part = ti_vec![None; parts.len()];
         for (node, part) in main.iter().enumerate() {

@@ -6,7 +6,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::super::FigureContext;
-use crate::bind::{PartId, PartKind, Side, VehiclePart};
+use crate::bind::{PartId, Side, VehiclePart};
 use crate::geometry::{EdgeRanges, Outline, area};
 use crate::index::par_keys;
 use crate::solid::{Girth, Profile, Solid, SolidHeights};
@@ -112,7 +112,7 @@ pub(super) fn shapes(context: &FigureContext<'_>) -> Vec<Shape> {
 fn shape(context: &FigureContext<'_>, index: PartId) -> Option<Shape> {
     let bindings = context.bindings;
     let part = &bindings.parts[index];
-    if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
+    if !part.kind.is_solid() {
         return None;
     }
     let profile = context.profile(index)?;

@@ -1,8 +1,6 @@
 //! Rows of the table: motion, and figures on a stage.
 
-use super::signature::{
-    Bounds, Form, POINT, Parameter, Restriction, Takes, choice, number, parameter,
-};
+use super::signature::{Bounds, Form, Parameter, Restriction, Takes, choice, number, parameter};
 use super::{Allowed, Row, flag, vocabulary};
 
 const BVH: Parameter = parameter("file", Takes::File, "a file in the drawing's folder");
@@ -249,16 +247,6 @@ pub(super) static LIMITED: Row = Row {
     ..Row::ROW
 };
 
-pub(super) static STAND: Row = Row {
-    forms: &[Form::new(&POINT, &[2])],
-    default: "where it is drawn",
-    summary: "the figure's position on the stage",
-    long: "The figure's position on the stage in drawing units, instead of the position where it \
-           is drawn.",
-    example: "Tree$Stand 40 -120",
-    ..Row::PLANNED
-};
-
 pub(super) static SIZE: Row = Row {
     forms: &[Form::one(&number(
         "factor",
@@ -268,7 +256,7 @@ pub(super) static SIZE: Row = Row {
     default: "1",
     summary: "makes the figure larger or smaller on the stage",
     long: "2 makes it twice as large, 0.5 half as large.",
-    example: "Tree$Stand 40 -120 Size 1.5",
+    example: "Tree$Size 1.5",
     ..Row::PLANNED
 };
 

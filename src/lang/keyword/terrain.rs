@@ -1,6 +1,6 @@
 //! Rows of the table: terrain.
 
-use super::signature::{Bounds, Form, Restriction, Takes, choice, number, parameter};
+use super::signature::{Bounds, Form, POINT, Restriction, Takes, choice, number, parameter};
 use super::{Allowed, Row, vocabulary};
 
 pub(super) static TILES: Row = Row {
@@ -20,7 +20,8 @@ pub(super) static TILES: Row = Row {
     long: "The group or layer that contains the string is read as a map, drawn as in role-playing \
            games, and becomes a landscape of blocks. `size` is the side of a tile in drawing units. \
            Or the map is a file of the editor Tiled, which is seen from straight above: a pixel of its tiles \
-           is a drawing unit, and its top left corner is that of what is painted in the group, or of the page.",
+           is a drawing unit, and its top left corner is that of what is painted in the group, or of the page. \
+           Its objects that show tiles stand on it.",
     example: "Island$Tiles 16",
     ..Row::ROW
 };
@@ -81,5 +82,19 @@ pub(super) static HEIGHT: Row = Row {
            group's tiles, and in the layer's own string that of all others. Walls stand where heights \
            differ. Below 0 the ground is sunken.",
     example: "$Tile beige Height 3",
+    ..Row::ROW
+};
+
+pub(super) static STAND: Row = Row {
+    forms: &[Form::new(&[], &[0]), Form::new(&POINT, &[2])],
+    default: "off; a prop stands on the middle of its lowest edge",
+    summary: "makes what is in the string's group stand on the ground of a map",
+    long: "Makes props of a layer: every group, clone and picture in it stands upright on the ground of a map, \
+           where the middle of its lowest edge is drawn: trees, fences, signs, boats. Shapes without a group \
+           stand by themselves, with those that are drawn on them. Copies share one mesh. A prop is a slab, a \
+           tenth as thick as it is wide, unless a `Shape` in its own string, in that of the layer or in a `%` \
+           string says otherwise. In the string of one prop, `x` and `y` are the point of the page on which \
+           it stands.",
+    example: "Trees$Stand",
     ..Row::ROW
 };

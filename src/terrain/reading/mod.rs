@@ -21,6 +21,7 @@ mod tests;
 mod tiled;
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::DVec2;
 use typed_index_collections::{TiSlice, TiVec};
@@ -31,6 +32,7 @@ use super::landscape::{DEFAULT_ROOF, Landscape};
 use super::map::{MAX_CELLS, Map};
 use crate::bind::{Attribute, Bindings, LayerId, PartId, StringId};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::Outline;
 use crate::index::index_type;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
@@ -76,6 +78,23 @@ pub struct Layer {
     pub parent: Option<PartId>,
     /// The shapes that tiles are made from, back-most first.
     pub sources: Vec<TileSource>,
+    /// What stands on a map of Tiled.
+    pub(crate) objects: Vec<LayerObject>,
+}
+
+/// A picture that stands on a map of Tiled.
+#[derive(Debug, Clone)]
+pub(crate) struct LayerObject {
+    /// Its name; empty if it has none.
+    pub(crate) name: String,
+    /// The middle of its lower edge, drawing units.
+    pub(crate) foot: DVec2,
+    /// Width and height, drawing units.
+    pub(crate) size: DVec2,
+    /// What of the picture is seen, in the unit square, y down.
+    pub(crate) outline: Arc<Outline>,
+    /// Its material among those of the layer.
+    pub(crate) material: u8,
 }
 
 /// The cells that a shape may be visible in: those whose middles are in its bounding box.
@@ -296,6 +315,7 @@ impl Reading<'_> {
             bevel: attributes.bevel(),
             parent: bindings.parent_of_layer(index),
             sources,
+            objects: vec![],
         };
         diagnostics::unclear(drawing, &layer, &paints, &unclear, diagnostics);
         diagnostics.extend(diagnostics::plain(drawing, &paints, &plain));

@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::colors::{self, Named};
 use super::content::Content;
 use super::materials::{Paints, TileMaterial, TileTexture};
-use super::{Layer, Reading, diagnostics, heights};
+use super::{Layer, LayerObject, Reading, diagnostics, heights};
 use crate::bind::Attribute;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::memo::Memo;
@@ -135,7 +135,22 @@ impl Reading<'_> {
                 places: places.map(|look| of_cell(look).map_or(0, place)).collect(),
             }
         });
+        let first = materials.len();
+        for picture in &map.object_pictures {
+            let mut own = paints.material(Named::Tile(Tile::Green), None, [255.0; 3], 1.0);
+            own.texture = Some(TileTexture::Pictures(picture.picture.clone()));
+            materials.push(own);
+        }
         let size = map.size;
+        let corner = content.bounds().map_or(DVec2::ZERO, |[low, _]| low);
+        let objects = map.objects.iter().map(|object| LayerObject {
+            name: object.name.clone(),
+            foot: corner + object.foot,
+            size: object.size,
+            outline: Arc::clone(&map.object_pictures[object.picture].outline),
+            material: (first + object.picture) as u8,
+        });
+        let objects = objects.collect();
         let of_layer = &bindings.layers[index];
         let attributes = bindings.layer_attributes(index);
         let map = Map {
@@ -147,7 +162,6 @@ impl Reading<'_> {
             heights,
             pictures,
         };
-        let corner = content.bounds().map(|[low, _]| low);
         let layer = Layer {
             index,
             name: of_layer.name.clone(),
@@ -156,12 +170,13 @@ impl Reading<'_> {
             landscape: Landscape::new(&map),
             map,
             materials,
-            origin: corner.unwrap_or(DVec2::ZERO),
+            origin: corner,
             size,
             roof: attributes.roof().unwrap_or(DEFAULT_ROOF),
             bevel: attributes.bevel(),
             parent: bindings.parent_of_layer(index),
             sources: vec![],
+            objects,
         };
         diagnostics::open(drawing, &layer, found);
         Ok(layer)
@@ -241,8 +256,12 @@ fn refused(link: &str, error: &TiledError, span: Span) -> Diagnostic {
 fn told(idle: &Idle) -> (String, String) {
     let (what, help) = match idle {
         Idle::Objects => (
-            "objects, which are not built",
-            "draw them as tiles, or hide their layer in Tiled",
+            "objects without a tile (points, areas, texts), which are not built",
+            "insert tiles as objects in Tiled, or hide the layer of the others",
+        ),
+        Idle::Turned => (
+            "objects that are turned, which stand upright",
+            "set their rotation to 0 in Tiled",
         ),
         Idle::Images => (
             "a layer that is an image, which is not built",

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use glam::DVec2;
 use image::RgbaImage;
 use rustc_hash::FxHashMap;
 
@@ -141,10 +142,7 @@ fn tiles(
     let mut by_file: BTreeMap<String, BTreeSet<TileId>> = BTreeMap::new();
     for look in looks {
         let set = &sets.list[look.tile.set as usize];
-        let image = image(set, look.tile.local).ok_or_else(|| {
-            let name = short(&set.file.name);
-            TiledError::Broken(format!("the tile set `{name}` has no picture"))
-        })?;
+        let image = image(set, look.tile.local).ok_or_else(|| no_picture(set))?;
         let link = beside(&set.link, &image.source);
         by_file.entry(link).or_default().insert(look.tile);
     }
@@ -154,12 +152,8 @@ fn tiles(
         let sheet = sheet(&link, resolver, &mut room)?;
         for id in tiles {
             let set = &sets.list[id.set as usize];
-            let (corner, size) = place(set, id.local, &sheet).ok_or_else(|| {
-                let (name, id) = (short(&link), id.local);
-                TiledError::Broken(format!(
-                    "its tile {id} lies outside of the picture `{name}`"
-                ))
-            })?;
+            let (corner, size) =
+                place(set, id.local, &sheet).ok_or_else(|| outside(&link, id.local))?;
             if size != tile {
                 Idle::OtherSize.note(idle);
             }
@@ -169,6 +163,56 @@ fn tiles(
         }
     }
     Ok(found)
+}
+
+/// Each of these tiles with its size and its picture as a whole, turned, pixels.
+pub(super) fn whole_tiles(
+    wanted: &BTreeSet<TileId>,
+    sets: &Sets,
+    resolver: &dyn Resolver,
+) -> Result<Vec<(TileId, DVec2, RgbaImage)>, TiledError> {
+    let mut found = vec![];
+    let mut room = MAX_SHEETS;
+    let mut last: Option<(String, RgbaImage)> = None;
+    for id in wanted {
+        let set = &sets.list[id.set as usize];
+        let own = image(set, id.local).ok_or_else(|| no_picture(set))?;
+        let link = beside(&set.link, &own.source);
+        let is_last = last.as_ref().is_some_and(|(known, _)| *known == link);
+        if !is_last {
+            last = Some((link.clone(), sheet(&link, resolver, &mut room)?));
+        }
+        let Some((_, sheet)) = &last else { continue };
+        let (corner, size) = place(set, id.local, sheet).ok_or_else(|| outside(&link, id.local))?;
+        let turned = if id.turns & 1 != 0 {
+            [size[1], size[0]]
+        } else {
+            size
+        };
+        let largest = turned[0].max(turned[1]).max(1);
+        let most = largest.min(MAX_SIDE);
+        let side = turned
+            .map(|side| (u64::from(side) * u64::from(most) / u64::from(largest)).max(1) as u32);
+        let pixels = cut(sheet, corner, size, id.turns, own.clear, turned, side);
+        let mut picture = RgbaImage::new(side[0], side[1]);
+        for (to, from) in picture.pixels_mut().zip(pixels) {
+            *to = image::Rgba(from);
+        }
+        found.push((*id, DVec2::new(turned[0].into(), turned[1].into()), picture));
+    }
+    Ok(found)
+}
+
+fn no_picture(set: &Set) -> TiledError {
+    let name = short(&set.file.name);
+    TiledError::Broken(format!("the tile set `{name}` has no picture"))
+}
+
+fn outside(link: &str, id: u32) -> TiledError {
+    let name = short(link);
+    TiledError::Broken(format!(
+        "its tile {id} lies outside of the picture `{name}`"
+    ))
 }
 
 /// The picture that a tile is in.

@@ -107,10 +107,23 @@ pub(super) struct LayerEntry {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Content {
     Tiles(Vec<Chunk>),
-    /// Objects; the number of them.
-    Objects(usize),
+    Objects(Vec<ObjectEntry>),
     Image,
     Group(Vec<LayerEntry>),
+}
+
+/// An object.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct ObjectEntry {
+    pub(super) name: String,
+    /// The number of the tile that it shows; 0 for one that shows none.
+    pub(super) number: u32,
+    /// Its place, pixels: of one that shows a tile its lower left corner.
+    pub(super) at: [f64; 2],
+    /// Width and height, pixels; 0 for those of its tile.
+    pub(super) size: [f64; 2],
+    pub(super) is_turned: bool,
+    pub(super) is_visible: bool,
 }
 
 /// A rectangle of cells.

@@ -7,8 +7,8 @@ use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use super::TiledError;
 use super::document::{
-    Chunk, Content, Data, Encoding, ImageLink, LayerEntry, MapFile, Properties, SetFile, SetLink,
-    SetSource, TileEntry, color,
+    Chunk, Content, Data, Encoding, ImageLink, LayerEntry, MapFile, ObjectEntry, Properties,
+    SetFile, SetLink, SetSource, TileEntry, color,
 };
 use super::xml::MAX_DEPTH;
 
@@ -128,9 +128,35 @@ struct Layer {
     #[serde(default)]
     chunks: Vec<Part>,
     #[serde(default)]
-    objects: Vec<IgnoredAny>,
+    objects: Vec<Object>,
     #[serde(default)]
     layers: Vec<Layer>,
+}
+
+#[derive(Deserialize, Default)]
+#[serde(default)]
+struct Object {
+    name: String,
+    gid: u32,
+    x: f64,
+    y: f64,
+    width: f64,
+    height: f64,
+    rotation: f64,
+    visible: Option<bool>,
+}
+
+impl From<Object> for ObjectEntry {
+    fn from(object: Object) -> Self {
+        Self {
+            name: object.name,
+            number: object.gid,
+            at: [object.x, object.y],
+            size: [object.width, object.height],
+            is_turned: object.rotation != 0.0,
+            is_visible: object.visible.unwrap_or(true),
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -315,7 +341,9 @@ fn layers(list: Vec<Layer>, depth: usize) -> Result<Vec<LayerEntry>, TiledError>
                 }
                 Content::Tiles(chunks)
             }
-            "objectgroup" => Content::Objects(layer.objects.len()),
+            "objectgroup" => {
+                Content::Objects(layer.objects.into_iter().map(ObjectEntry::from).collect())
+            }
             "imagelayer" => Content::Image,
             "group" if depth == 0 => return Err(TiledError::too_deep()),
             "group" => Content::Group(layers(layer.layers, depth - 1)?),

@@ -11,6 +11,7 @@ mod document;
 mod json;
 mod looks;
 mod numbers;
+mod objects;
 mod sets;
 mod xml;
 
@@ -21,10 +22,11 @@ use std::collections::BTreeSet;
 
 pub(super) use atlas::{Atlas, Pictured};
 pub(super) use looks::LookHeight;
+pub(super) use objects::{ObjectPicture, TileObject};
 
 use super::map::{MAX_CELLS, UNSET};
 use crate::resolver::{LinkError, Resolver};
-use document::{Content, LayerEntry, MapFile, Properties, short};
+use document::{Content, LayerEntry, MapFile, ObjectEntry, Properties, short};
 use looks::Looks;
 use sets::Sets;
 
@@ -52,6 +54,10 @@ pub(super) struct TiledMap {
     pub(super) heights: Vec<LookHeight>,
     /// The pictures of all looks in one; `None` if none has any.
     pub(super) atlas: Option<Atlas>,
+    /// What stands on it.
+    pub(super) objects: Vec<TileObject>,
+    /// The pictures of these.
+    pub(super) object_pictures: Vec<ObjectPicture>,
     /// What the map has that means nothing here.
     pub(super) idle: BTreeSet<Idle>,
 }
@@ -59,8 +65,10 @@ pub(super) struct TiledMap {
 /// What a map may have that means nothing here.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Idle {
-    /// Layers with objects.
+    /// Objects without a tile: points, areas, texts.
     Objects,
+    /// Objects that are turned.
+    Turned,
     /// Layers that are one picture.
     Images,
     /// Layers that are drawn elsewhere than at their cells.
@@ -145,7 +153,7 @@ pub(super) fn read(link: &str, resolver: &dyn Resolver) -> Result<TiledMap, Tile
         Idle::NotSquare.note(&mut idle);
     }
     let sets = Sets::read(&file.sets, link, resolver, tile, &mut idle)?;
-    let layers = visible(&file, &mut idle);
+    let (layers, entries) = visible(&file, &mut idle);
     let [low, high] = bounds(&file, &layers)?;
     let [columns, rows] = [0, 1].map(|axis| high[axis] - low[axis]);
     let cells = i128::from(columns) * i128::from(rows);
@@ -182,6 +190,8 @@ pub(super) fn read(link: &str, resolver: &dyn Resolver) -> Result<TiledMap, Tile
             })?;
         }
     }
+    let corner = [0, 1].map(|axis| low[axis] as f64 * f64::from(tile[axis]));
+    let (objects, object_pictures) = objects::read(&entries, corner, &sets, resolver, &mut idle)?;
     let (heights, (pictured, atlas)) = looks.finish(resolver, tile, &mut idle)?;
     Ok(TiledMap {
         columns,
@@ -191,6 +201,8 @@ pub(super) fn read(link: &str, resolver: &dyn Resolver) -> Result<TiledMap, Tile
         pictured,
         heights,
         atlas,
+        objects,
+        object_pictures,
         idle,
     })
 }
@@ -204,13 +216,17 @@ struct TileLayer<'a> {
     height: i8,
 }
 
-/// The visible layers of tiles, from the lowest to the topmost. Takes note of the others.
-fn visible<'a>(file: &'a MapFile, idle: &mut BTreeSet<Idle>) -> Vec<TileLayer<'a>> {
+/// The visible layers of tiles, from the lowest to the topmost, and the visible objects. Takes note of the others.
+fn visible<'a>(
+    file: &'a MapFile,
+    idle: &mut BTreeSet<Idle>,
+) -> (Vec<TileLayer<'a>>, Vec<&'a ObjectEntry>) {
     fn add<'a>(
         layers: &'a [LayerEntry],
         opacity: f64,
         height: i8,
         found: &mut Vec<TileLayer<'a>>,
+        objects: &mut Vec<&'a ObjectEntry>,
         idle: &mut BTreeSet<Idle>,
     ) {
         for layer in layers.iter().filter(|layer| layer.is_visible) {
@@ -241,21 +257,20 @@ fn visible<'a>(file: &'a MapFile, idle: &mut BTreeSet<Idle>) -> Vec<TileLayer<'a
                         });
                     }
                 }
-                Content::Objects(0) => {}
-                Content::Objects(_) => {
-                    Idle::Objects.note(idle);
+                Content::Objects(list) => {
+                    objects.extend(list.iter().filter(|object| object.is_visible));
                 }
                 Content::Image => {
                     Idle::Images.note(idle);
                 }
-                Content::Group(layers) => add(layers, opacity, height, found, idle),
+                Content::Group(layers) => add(layers, opacity, height, found, objects, idle),
             }
         }
     }
-    let mut found = vec![];
+    let (mut found, mut objects) = (vec![], vec![]);
     let height = height_of(&file.properties, idle);
-    add(&file.layers, 1.0, height, &mut found, idle);
-    found
+    add(&file.layers, 1.0, height, &mut found, &mut objects, idle);
+    (found, objects)
 }
 
 /// The height that properties give, or [`UNSET`].

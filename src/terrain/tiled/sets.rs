@@ -110,9 +110,6 @@ impl Sets {
                 [0, 0] if file.image.is_none() => tile,
                 size => sides(size, "tile of a tile set")?,
             };
-            if size != tile {
-                Idle::OtherSize.note(idle);
-            }
             let mut entries = FxHashMap::default();
             for (index, entry) in file.tiles.iter().enumerate() {
                 let id = u32::try_from(entry.id)
@@ -138,7 +135,8 @@ impl Sets {
         let set = after.checked_sub(1).map(|set| (set, &self.list[set]));
         let found = set.filter(|(_, set)| id > 0 && set.has(id - set.first));
         let Some((index, set)) = found else {
-            let message = format!("a cell has the tile {id}, which is in none of its tile sets");
+            let message =
+                format!("a cell or an object has the tile {id}, which is in none of its tile sets");
             return Err(TiledError::Broken(message));
         };
         Ok(TileId {

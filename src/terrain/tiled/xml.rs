@@ -7,8 +7,8 @@ use xmlparser::{Token, Tokenizer};
 
 use super::TiledError;
 use super::document::{
-    Chunk, Content, Data, Encoding, ImageLink, LayerEntry, MapFile, Properties, SetFile, SetLink,
-    SetSource, TileEntry, color,
+    Chunk, Content, Data, Encoding, ImageLink, LayerEntry, MapFile, ObjectEntry, Properties,
+    SetFile, SetLink, SetSource, TileEntry, color,
 };
 
 /// The largest number of elements and texts of a file.
@@ -174,7 +174,7 @@ fn layers(node: Node<'_, '_>, depth: usize) -> Result<Vec<LayerEntry>, TiledErro
             "layer" => Content::Tiles(chunks(child)?),
             "objectgroup" => {
                 let objects = elements(child).filter(|child| child.has_tag_name("object"));
-                Content::Objects(objects.count())
+                Content::Objects(objects.map(object).collect::<Result<_, TiledError>>()?)
             }
             "imagelayer" => Content::Image,
             "group" if depth == 0 => return Err(TiledError::too_deep()),
@@ -201,6 +201,18 @@ fn layers(node: Node<'_, '_>, depth: usize) -> Result<Vec<LayerEntry>, TiledErro
         });
     }
     Ok(found)
+}
+
+fn object(node: Node<'_, '_>) -> Result<ObjectEntry, TiledError> {
+    let turn: f64 = number(node, "rotation")?;
+    Ok(ObjectEntry {
+        name: node.attribute("name").unwrap_or_default().to_owned(),
+        number: number(node, "gid")?,
+        at: [number(node, "x")?, number(node, "y")?],
+        size: [number(node, "width")?, number(node, "height")?],
+        is_turned: turn != 0.0,
+        is_visible: node.attribute("visible") != Some("0"),
+    })
 }
 
 fn chunks(layer: Node<'_, '_>) -> Result<Vec<Chunk>, TiledError> {

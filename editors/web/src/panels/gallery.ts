@@ -5,6 +5,7 @@ import { count, fill, h, icon } from "../dom";
 import type { Host } from "../host/host";
 import type { Drawing, State } from "../state";
 import { badge } from "./findings";
+import { Starters } from "./starters";
 
 interface Card {
   readonly element: HTMLAnchorElement;
@@ -17,12 +18,14 @@ export class Gallery {
   readonly element = h("main", { class: "gallery", attributes: { "aria-label": "Drawings" } });
   private readonly grid = h("ul", { class: "cards" });
   private readonly heading = h("h1");
-  private readonly title = h("p", { class: "muted" });
+  private readonly title = h("p", { class: "muted", attributes: { role: "status" } });
+  private readonly starters: Starters;
   private readonly cards = new Map<string, Card>();
 
   constructor(private readonly state: State, private readonly host: Host) {
-    fill(this.element, h("header", { class: "gallery-head" }, this.heading, this.title), this.grid);
-    state.on(["drawings", "current"], () => this.draw());
+    this.starters = new Starters(state, host);
+    fill(this.element, h("header", { class: "gallery-head" }, this.heading, this.title), this.grid, this.starters.element);
+    state.on(["drawings", "starters", "current"], () => this.draw());
     state.on("build", (id) => {
       // Nothing to do while it is hidden: to request pictures would make the host render them.
       if (this.element.hidden) return;
@@ -51,11 +54,17 @@ export class Gallery {
     const items = list.map(({ id }) => this.cards.get(id)!.element.parentElement!);
     // Only when the order changed: cards that are moved lose the focus.
     if (items.some((item, at) => this.grid.children[at] !== item) || items.length !== this.grid.children.length) fill(this.grid, ...items);
+    this.starters.draw();
     this.count();
   }
 
   private count(): void {
-    const { list } = this.state;
+    const { list, refusal } = this.state;
+    if (this.starters.areOffered) {
+      this.heading.textContent = "Begin with a drawing";
+      this.title.textContent = refusal ? `Nothing was written: ${refusal}.` : "A click writes it into this folder, to draw on in Inkscape. Drawings saved in the folder appear here, too.";
+      return;
+    }
     const failing = list.filter(({ build }) => build?.findings.some(({ severity }) => severity === "error")).length;
     this.heading.textContent = count(list.length, "drawing");
     this.title.textContent = list.length === 0 ? "Drawings saved in the folder appear here." : failing > 0 ? `${failing} with problems` : "";

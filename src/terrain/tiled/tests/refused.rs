@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use serde_json::json;
 
 use super::super::*;
 use super::{Packing, sheet};
@@ -135,12 +136,12 @@ fn broken_numbers_of_tiles_are_refused() {
     assert!(tried(&one("12")).is_ok());
     refused(
         &one("13"),
-        "a cell has the tile 13, which is in none of its tile sets",
+        "a cell or an object has the tile 13, which is in none of its tile sets",
     );
     refused(&one("536870911"), "which is in none");
     refused(&one("-1"), "not a number");
     // Only the bits that turn it.
-    refused(&one("3758096384"), "a cell has the tile 0,");
+    refused(&one("3758096384"), "a cell or an object has the tile 0,");
     let no_set = r#"<map width="1" height="1" tilewidth="4" tileheight="4"><layer width="1" height="1"><data encoding="csv">1</data></layer></map>"#;
     refused(no_set, "which is in none of its tile sets");
     let no_picture = one("1").replace(r#"<image source="a.png"/>"#, "");
@@ -320,4 +321,63 @@ fn groups_hand_down_their_heights_and_opacity() {
     // Half of nothing is solid all the same.
     let atlas = read.atlas.unwrap();
     assert_eq!(atlas.picture.alpha, crate::texture::Alpha::Opaque);
+}
+
+/// A map of one cell with these objects, in XML.
+fn with_objects(objects: &str) -> String {
+    let ground = r#"<layer width="1" height="1"><data encoding="csv">1</data></layer>"#;
+    map(
+        r#"width="1" height="1""#,
+        &format!("{ground}<objectgroup>{objects}</objectgroup>"),
+    )
+}
+
+#[test]
+fn objects_with_tiles_stand_on_the_middle_of_their_lower_edge() {
+    let objects = r#"<object id="1" name="Oak" gid="2" x="3" y="9" width="8" height="6"/><object id="2" gid="2" x="0" y="4"/>
+<object id="3" gid="5" x="1" y="1" rotation="30"/><object id="4" x="1" y="1"/><object id="5" gid="2" x="1" y="1" visible="0"/>"#;
+    let set = json!({"firstgid": 1, "name": "a", "tilewidth": 4, "tileheight": 4, "spacing": 1, "margin": 2, "tilecount": 12, "columns": 4, "image": "a.png"});
+    let entries = json!([
+        {"name": "Oak", "gid": 2, "x": 3, "y": 9, "width": 8, "height": 6}, {"gid": 2, "x": 0, "y": 4},
+        {"gid": 5, "x": 1, "y": 1, "rotation": 30}, {"x": 1, "y": 1}, {"gid": 2, "x": 1, "y": 1, "visible": false}]);
+    let in_json = json!({"orientation": "orthogonal", "width": 1, "height": 1, "tilewidth": 4, "tileheight": 4, "tilesets": [set],
+        "layers": [{"type": "tilelayer", "width": 1, "height": 1, "data": [1]}, {"type": "objectgroup", "objects": entries}]});
+    for text in [with_objects(objects), in_json.to_string()] {
+        let read = tried(&text).unwrap();
+        let told = [Idle::Objects, Idle::Turned];
+        assert_eq!(read.idle, told.into_iter().collect());
+        let found: Vec<_> = read
+            .objects
+            .iter()
+            .map(|one| (one.name.as_str(), one.foot.to_array(), one.size.to_array()))
+            .collect();
+        // Without a size, that of the tile.
+        let expected = [
+            ("Oak", [7.0, 9.0], [8.0, 6.0]),
+            ("", [2.0, 4.0], [4.0, 4.0]),
+            ("", [3.0, 1.0], [4.0, 4.0]),
+        ];
+        assert_eq!(found, expected);
+        let pictures: Vec<usize> = read.objects.iter().map(|one| one.picture).collect();
+        assert_eq!(pictures, [0, 0, 1]);
+        for picture in &read.object_pictures {
+            assert_eq!(crate::geometry::area(&picture.outline), 1.0);
+        }
+    }
+}
+
+#[test]
+fn hostile_objects_are_refused_or_left_out() {
+    refused(
+        &with_objects(r#"<object id="1" gid="99" x="0" y="0"/>"#),
+        "has the tile 99, which is in none of its tile sets",
+    );
+    refused(
+        &with_objects(r#"<object id="1" gid="2" x="left" y="0"/>"#),
+        "`x` is `left`, not a number",
+    );
+    let many = r#"<object gid="2" x="0" y="0"/>"#.repeat((1 << 14) + 1);
+    refused(&with_objects(&many), "more than 16384 objects");
+    let far = r#"<object gid="2" x="1e300" y="0"/><object gid="2" x="NaN" y="0"/><object gid="2" x="0" y="0" width="1e300"/>"#;
+    assert!(tried(&with_objects(far)).unwrap().objects.is_empty());
 }

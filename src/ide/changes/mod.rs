@@ -1,0 +1,266 @@
+//! Changes of a drawing that speak of its parts, and the edits of its text that make them.
+//!
+//! This is the only place that decides how a value gets into a string. A [`Change`] is made with [`edits`], which rewrites as few
+//! characters as it can, or is refused with a sentence and what could be done instead. [`check`] compares the drawing before and
+//! after: a change must do what it says, and nothing else.
+
+mod check;
+mod given;
+mod history;
+mod settings;
+mod strings;
+#[cfg(test)]
+mod tests;
+
+pub use check::check;
+pub use history::{History, Step, rebased};
+
+pub(super) use given::{as_description, string_for};
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::{Analysis, Subject, Which};
+use crate::bind::{PartId, PartKind};
+use crate::diagnostic::Edit;
+use crate::lang::keyword::Keyword;
+
+/// A change of a drawing. Parts are called as in `inspect`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "change", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Change {
+    /// A part gets an attribute.
+    Set {
+        /// The part.
+        part: String,
+        /// The attribute.
+        #[serde(serialize_with = "write_keyword", deserialize_with = "read_keyword")]
+        attribute: Keyword,
+        /// Its flags and arguments, as in a string: `-c roundv -60 60`.
+        value: String,
+        /// Where it is written.
+        #[serde(default)]
+        place: Place,
+    },
+    /// The string of a part no longer says an attribute.
+    Reset {
+        /// The part.
+        part: String,
+        /// The attribute.
+        #[serde(serialize_with = "write_keyword", deserialize_with = "read_keyword")]
+        attribute: Keyword,
+        /// Only [`Place::Own`] makes a change that others may not like.
+        #[serde(default)]
+        place: Place,
+    },
+    /// A part, or a shape without a name, is called otherwise, wherever it is mentioned.
+    Name {
+        /// The part.
+        part: String,
+        /// Its new name.
+        name: String,
+    },
+    /// A part hangs on another one.
+    Hang {
+        /// The part.
+        part: String,
+        /// What it hangs on; `None` for nothing.
+        parent: Option<String>,
+    },
+    /// A part is no longer built.
+    LeaveOut {
+        /// The part.
+        part: String,
+    },
+    /// A variable of the drawing gets a number.
+    Variable {
+        /// Its name.
+        name: String,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// Where an attribute is written, if that can be chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// Where it belongs. A change that is about more than the part, or would lose a calculation, is refused with the choices.
+    #[default]
+    Ask,
+    /// In the part's own string, in place of whatever stands there.
+    Own,
+    /// In the legend of its paint, for all parts that are painted like it.
+    Legend,
+}
+
+/// Why a change is not made.
+#[derive(Debug, Clone, PartialEq, Serialize, thiserror::Error)]
+#[error("{why}")]
+pub struct Refusal {
+    /// A sentence without a full stop.
+    pub why: String,
+    /// What can be done instead.
+    pub choices: Vec<Choice>,
+}
+
+/// A change that can be made instead of one that is refused.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Choice {
+    /// What it does, as an imperative.
+    pub title: String,
+    /// The change.
+    pub change: Change,
+}
+
+impl Refusal {
+    fn new(why: impl Into<String>) -> Self {
+        Self {
+            why: why.into(),
+            choices: vec![],
+        }
+    }
+
+    fn or(mut self, title: impl Into<String>, change: Change) -> Self {
+        let title = title.into();
+        self.choices.push(Choice { title, change });
+        self
+    }
+}
+
+/// The edits of the text that make a change, in order; none if everything is so already.
+///
+/// # Errors
+/// If the change cannot be made, or it has to be decided how.
+pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal> {
+    if !analysis.is_sound() {
+        return Err(Refusal::new(
+            "the drawing cannot be read as it is: correct its errors first",
+        ));
+    }
+    let mut edits = match change {
+        Change::Set {
+            part,
+            attribute,
+            value,
+            place,
+        } => analysis.set(part, *attribute, value, *place)?,
+        Change::Reset {
+            part,
+            attribute,
+            place,
+        } => analysis.reset(part, *attribute, *place)?,
+        Change::Name { part, name } => analysis.call(part, name)?,
+        Change::Hang { part, parent } => analysis.hang(part, parent.as_deref())?,
+        Change::LeaveOut { part } => analysis.leave_out(part)?,
+        Change::Variable { name, value } => analysis.set_variable(name, *value)?,
+    };
+    edits.sort_by_key(|edit| edit.span);
+    edits.dedup();
+    edits.retain(|edit| analysis.source[edit.span.start..edit.span.end] != edit.text);
+    Ok(edits)
+}
+
+/// The attributes that a change can set. The others decide what a string is about, or belong to the clips around them.
+pub fn can_set(keyword: Keyword) -> bool {
+    let is_of_layers = matches!(
+        keyword,
+        Keyword::Tiles
+            | Keyword::Bevel
+            | Keyword::Roof
+            | Keyword::Height
+            | Keyword::View
+            | Keyword::Backing
+            | Keyword::Hidden
+            | Keyword::Depth
+            | Keyword::Walk
+            | Keyword::Pose
+    );
+    let is_of_clips = matches!(
+        keyword,
+        Keyword::Motion | Keyword::Limited | Keyword::Perform
+    );
+    let in_part = crate::lang::keyword::AttributeString::Part;
+    keyword.row().allowed.permits(in_part)
+        && Keyword::built().any(|built| built == keyword)
+        && !is_of_layers
+        && !is_of_clips
+}
+
+impl Analysis {
+    /// The part of a name that a change can be about.
+    fn part_to_change(&self, name: &str) -> Result<PartId, Refusal> {
+        let bindings = self.bindings();
+        let named = Subject::all(&self.compiled).filter(|subject| subject.name() == name);
+        let mut other = None;
+        let mut parts = vec![];
+        for subject in named {
+            match subject.which {
+                Which::Part(part) => parts.push(part),
+                _ => other = Some(subject.kind()),
+            }
+        }
+        let mains = parts.iter().copied();
+        let mut mains = mains.filter(|part| bindings.parts[*part].kind == PartKind::Main);
+        match (mains.next(), mains.next(), parts.as_slice(), other) {
+            (Some(part), None, ..) => Ok(part),
+            (None, _, [part], _) => Ok(*part),
+            (None, _, [], None) => Err(Refusal::new(format!("there is no part `{name}`"))),
+            (None, _, [], Some(kind)) => Err(Refusal::new(format!(
+                "`{name}` is a {kind}, which is changed in the drawing"
+            ))),
+            _ => Err(Refusal::new(format!(
+                "several parts are called `{name}`: give them different names in the drawing first"
+            ))),
+        }
+    }
+
+    /// The same, of a part that is a node of the figure.
+    fn node_to_change(&self, name: &str) -> Result<PartId, Refusal> {
+        let part = self.part_to_change(name)?;
+        let found = &self.bindings().parts[part];
+        match found.kind {
+            PartKind::Main => Ok(part),
+            PartKind::Sub => Err(Refusal::new(format!(
+                "`{name}` belongs to `{}`, and has no place of its own in the figure",
+                self.bindings().parts[found.main].name
+            ))),
+            kind => Err(Refusal::new(format!(
+                "`{name}` is {}, and has no place in the figure",
+                described(kind)
+            ))),
+        }
+    }
+
+    /// Whether another shape is made from the same element: then a description of it would be theirs, too.
+    fn is_copied(&self, part: PartId) -> bool {
+        let shapes = &self.drawing().shapes;
+        let span = shapes[self.bindings().parts[part].shape].element.span;
+        let alike = shapes
+            .iter()
+            .filter(|other| other.element.span == span && span.start < span.end);
+        alike.count() != 1
+    }
+}
+
+/// A kind of part for people.
+fn described(kind: PartKind) -> &'static str {
+    match kind {
+        PartKind::Main => "a part",
+        PartKind::Sub => "a piece of a part",
+        PartKind::Legend => "the sample of a legend",
+        PartKind::Unused => "left out",
+        PartKind::Tile => "drawn in a landscape",
+        PartKind::Prop => "a prop on a map",
+        PartKind::Region => "a region of a character",
+    }
+}
+
+fn write_keyword<S: Serializer>(keyword: &Keyword, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(keyword.name())
+}
+
+fn read_keyword<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Keyword, D::Error> {
+    let name = String::deserialize(deserializer)?;
+    Keyword::from_name(&name)
+        .ok_or_else(|| serde::de::Error::custom(format!("there is no attribute `{name}`")))
+}
