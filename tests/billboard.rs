@@ -510,16 +510,21 @@ fn backing_fills_gaps_and_changes_nothing_else() {
             picture(scene, &sheet, [size; 2])
         };
         let [plain, backed] = [halfway(&plain), halfway(&backed)];
-        let mut covered = 0;
+        let (mut covered, mut different) = (0, 0);
         for (at, (before, after)) in plain.pixels.iter().zip(&backed.pixels).enumerate() {
             // Along borders, more edges in a pixel mean more samples.
             if before[3] == 255 && plain.is_even(at, 1) {
                 covered += 1;
-                assert_eq!(before, after, "{name}");
+                different += usize::from(!is_alike(*before, *after));
             }
             filled += usize::from(after[3] > before[3]);
         }
         assert!(covered > 5000, "{name}: {covered}");
+        // With sides from behind there are more stops, between which places are rounded.
+        assert!(
+            different * 2000 <= covered,
+            "{name}: {different} of {covered}"
+        );
     }
     assert!(filled > 1000, "{filled} pixels");
 }
@@ -626,11 +631,11 @@ fn from_behind_a_character_is_its_silhouette_without_a_face() {
         let seen = |a: [u8; 4], b: [u8; 4]| (a[3] == 255) == (b[3] == 255);
         let same = front.same(&back.flipped(), seen);
         assert!(same > 0.999, "{name}: {same}");
-        // Eyes are white, and nothing else is.
+        // Eyes are nearly white, and nothing of the body is.
         let white = |picture: &Picture| {
             let pixels = picture.pixels.iter();
             pixels
-                .filter(|pixel| pixel.iter().all(|channel| *channel > 240))
+                .filter(|pixel| pixel.iter().all(|channel| *channel > 230))
                 .count()
         };
         assert!(white(&front) > 100 && white(&back) == 0, "{name}");

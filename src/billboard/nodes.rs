@@ -209,7 +209,7 @@ fn mesh(
     scene: &mut Scene,
 ) -> Mesh {
     let heights: TiVec<ViewId, f64> = character.frames.iter().map(|frame| frame.height).collect();
-    let shows = stops.show(|view| region.is_shown[view]);
+    let sizes = stops.sizes(|view| region.is_shown[view]);
     let mut primitives: Vec<Primitive> = Vec::new();
     for part in &region.meshes {
         let RegionMesh {
@@ -238,9 +238,7 @@ fn mesh(
             let base = &in_views[ViewId::FIRST];
             let base: Vec<Vec3> = base.iter().map(|point| point.as_vec3()).collect();
             let target = |at: ViewId| {
-                // What a stop does not show is a point at its place.
-                let size = if shows[at] { 1.0 } else { 0.0 };
-                let size = DVec3::new(size, size, 1.0);
+                let size = sizes[at].extend(1.0);
                 let points = base.iter().enumerate().map(|(index, base)| {
                     let point = stops.mixed(at, |view| in_views[view][index]) * size;
                     (point.as_vec3() - *base).to_array()

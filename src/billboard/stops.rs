@@ -130,10 +130,23 @@ impl Stops {
         self.shares.push_and_get_key(shares)
     }
 
-    /// Whether a region has an area at each view and stop: if all views that a stop is mixed of show it.
-    pub(super) fn show(&self, is_shown: impl Fn(ViewId) -> bool) -> TiVec<ViewId, bool> {
-        let shows = |shares: &Vec<Share>| shares.iter().all(|(view, _)| is_shown(*view));
-        self.shares.iter().map(shows).collect()
+    /// What the width and the height of a region are multiplied by at each view and stop: it has an area if all views that a stop is
+    /// mixed of show it. On the way to a view from behind only its width goes away, as that of a face which turns out of sight.
+    pub(super) fn sizes(&self, is_shown: impl Fn(ViewId) -> bool) -> TiVec<ViewId, DVec2> {
+        let size = |shares: &Vec<Share>| {
+            let shown = shares.iter().filter(|(view, _)| is_shown(*view));
+            let shown: Vec<f64> = shown.map(|(_, share)| *share).collect();
+            let turns_away = shares.iter().any(|(view, _)| self.behind.contains(view));
+            if shown.len() == shares.len() {
+                DVec2::ONE
+            } else if turns_away && !shown.is_empty() {
+                // The other views have it as a point.
+                DVec2::new(0.0, 1.0 / shown.iter().sum::<f64>())
+            } else {
+                DVec2::ZERO
+            }
+        };
+        self.shares.iter().map(size).collect()
     }
 
     /// The places of a region at all views and stops from those in the views: where it would be without stops, as deep.

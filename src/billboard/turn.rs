@@ -18,7 +18,7 @@ pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
         views.iter().map(|view| [view.theta, view.phi]).collect();
     let count = views.len();
     let mut places: Vec<DVec2> = directions.iter().copied().map(DVec2::from).collect();
-    if count <= MOST_TRIANGULATED && goes_around(&places) {
+    if count <= MOST_TRIANGULATED && goes_around(places.iter().map(|place| place.x)) {
         for turn in [360.0, -360.0] {
             let copies = directions.iter().copied().map(DVec2::from);
             places.extend(copies.map(|place| place + DVec2::new(turn, 0.0)));
@@ -49,6 +49,14 @@ pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
         }
         between.extend(order.windows(2).map(<[usize]>::to_vec));
     }
+    // Of a triangle through which the short ways do not go, those sides are left along which they do.
+    let (wide, mut between): (Vec<_>, Vec<_>) =
+        (between.into_iter()).partition(|set| set.len() == 3 && is_wide(&places, set));
+    let sides = wide.iter().flat_map(|set| {
+        let [a, b, c] = [set[0], set[1], set[2]];
+        [vec![a, b], vec![b, c], vec![a, c]]
+    });
+    between.extend(sides.filter(|side| !is_wide(&places, side)));
     let mut sets: Vec<Vec<ViewId>> = Vec::new();
     for set in between {
         let is_copy = set.iter().all(|place| *place >= count);
@@ -62,15 +70,30 @@ pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
             sets.push(set);
         }
     }
+    for view in directions.keys() {
+        if !sets.iter().any(|set| set.contains(&view)) {
+            sets.push(vec![view]);
+        }
+    }
     Turn {
         views: directions,
         between: sets,
     }
 }
 
-/// Whether neighbouring views are less than half a turn apart all around the upright axis.
-fn goes_around(places: &[DVec2]) -> bool {
-    let mut around: Vec<f64> = places.iter().map(|p| p.x.rem_euclid(360.0)).collect();
+/// Whether two of the places are so far apart that the short way between them is another one.
+fn is_wide(places: &[DVec2], set: &[usize]) -> bool {
+    let around = || set.iter().map(|place| places[*place].x);
+    let (least, greatest) = (
+        around().fold(f64::INFINITY, f64::min),
+        around().fold(f64::NEG_INFINITY, f64::max),
+    );
+    greatest - least >= MOST_GAP
+}
+
+/// Whether neighbouring views at these angles around the upright axis are less than half a turn apart all around.
+pub(super) fn goes_around(angles: impl Iterator<Item = f64>) -> bool {
+    let mut around: Vec<f64> = angles.map(|angle| angle.rem_euclid(360.0)).collect();
     around.sort_by(f64::total_cmp);
     let first = around.first().map(|first| first + 360.0);
     let next = around.iter().copied().skip(1).chain(first);
@@ -143,8 +166,16 @@ mod tests {
             [[0, 1], [1, 2]]
         );
         // From above as well: every direction up to there is in one triangle.
+        let ring = [
+            (0.0, 0.0),
+            (120.0, 0.0),
+            (240.0, 0.0),
+            (0.0, 30.0),
+            (120.0, 30.0),
+            (240.0, 30.0),
+        ];
         let turn = between(
-            &[(0.0, 0.0), (120.0, 0.0), (240.0, 0.0), (0.0, 30.0)]
+            &ring
                 .map(|(theta, phi)| Direction { theta, phi })
                 .into_iter()
                 .collect::<TiVec<_, _>>(),
@@ -160,6 +191,36 @@ mod tests {
                 .sum();
             assert!(around.abs() < 1e-6, "{theta}: {weights:?}");
         }
+    }
+
+    #[test]
+    fn no_triangle_is_so_wide_that_short_ways_leave_it() {
+        // Over the front from the one to the other it is more than half of the way around: the short way is behind.
+        assert_eq!(
+            sets(&[(-100.0, 0.0), (100.0, 0.0), (0.0, 30.0)]),
+            [[1, 2], [0, 2], [0, 1]]
+        );
+        let around = [
+            (0.0, 0.0),
+            (45.0, 0.0),
+            (0.0, 30.0),
+            (-45.0, 0.0),
+            (180.0, 0.0),
+            (-135.0, 0.0),
+            (180.0, -30.0),
+            (135.0, 0.0),
+        ];
+        for set in sets(&around) {
+            let from = around[set[0]].0;
+            let ways = set
+                .iter()
+                .map(|view| (around[*view].0 - from + 540.0) % 360.0 - 180.0);
+            let [least, greatest] = [f64::min, f64::max].map(|f| ways.clone().fold(0.0, f));
+            assert!(greatest - least < MOST_GAP, "{set:?}");
+        }
+        // None is lost.
+        let alone = sets(&[(0.0, 0.0), (0.0, 30.0), (180.0, 0.0)]);
+        assert_eq!(alone, [vec![0, 1], vec![2]]);
     }
 
     #[test]

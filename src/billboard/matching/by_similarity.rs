@@ -1,15 +1,5 @@
 //! The thesis' own method: each region gets the most similar one.
 
-#[cfg(test)]
-use typed_index_collections::TiVec;
-
-#[cfg(test)]
-use super::cost::{Turn, features};
-#[cfg(test)]
-use crate::billboard::place::Frame;
-#[cfg(test)]
-use crate::billboard::region::{RegionId, View};
-
 /// The similarity of regions with the same name: greater than all that are computed.
 pub(super) const NAMED: f64 = 2.0;
 
@@ -53,19 +43,27 @@ pub(super) fn kept(
     .collect()
 }
 
-/// For each region of the first view, the region of the second that is most similar by equations 4.1 and 4.2. Several may get
-/// the same; `None` where no colour fits.
 #[cfg(test)]
-pub(in crate::billboard) fn most_similar(
-    views: [&View; 2],
-    frames: [&Frame; 2],
-) -> TiVec<RegionId, Option<RegionId>> {
-    let turn = Turn::new(views[0].direction, views[1].direction);
-    let [first, second] = [0, 1].map(|i| features(views[i], frames[i]));
-    let similarity = |row: usize, column: usize| {
-        turn.similarity(&first[RegionId::from(row)], &second[RegionId::from(column)])
-    };
-    let best = best(first.len(), second.len(), similarity).into_iter();
-    best.map(|found| found.map(|(column, _)| RegionId::from(column)))
-        .collect()
+pub(in crate::billboard) mod compared {
+    use typed_index_collections::TiVec;
+
+    use super::super::cost::{Turn, features};
+    use crate::billboard::place::Frame;
+    use crate::billboard::region::{RegionId, View};
+
+    /// For each region of the first view, the region of the second that is most similar by equations 4.1 and 4.2. Several may get
+    /// the same; `None` where no colour fits.
+    pub(in crate::billboard) fn most_similar(
+        views: [&View; 2],
+        frames: [&Frame; 2],
+    ) -> TiVec<RegionId, Option<RegionId>> {
+        let turn = Turn::new(views[0].direction, views[1].direction);
+        let [first, second] = [0, 1].map(|i| features(views[i], frames[i]));
+        let similarity = |row: usize, column: usize| {
+            turn.similarity(&first[RegionId::from(row)], &second[RegionId::from(column)])
+        };
+        let best = super::best(first.len(), second.len(), similarity).into_iter();
+        best.map(|found| found.map(|(column, _)| RegionId::from(column)))
+            .collect()
+    }
 }

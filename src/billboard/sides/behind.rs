@@ -8,10 +8,11 @@ use std::sync::Arc;
 use glam::DVec2;
 use typed_index_collections::{TiSlice, TiVec};
 
-use super::{Side, Views, mirror, opposite};
+use super::{Side, Views, mirror, opposite, within_half_turn};
 use crate::billboard::matching::{Track, TrackId};
 use crate::billboard::place::{TrackPosition, angle};
-use crate::billboard::region::{RegionId, View};
+use crate::billboard::region::{Direction, RegionId, View};
+use crate::billboard::turn;
 use crate::geometry::{Outline, union};
 use crate::scene::ViewId;
 
@@ -32,6 +33,9 @@ const ALIKE: f64 = 0.06;
 const FROM_BEHIND: f64 = -0.1;
 /// Silhouettes of views with a smaller cosine are not those of a back: from the side, both sides look alike.
 const FROM_FRONT: f64 = 0.49;
+/// How far beside the straight way from behind a silhouette is seen, to both sides, if the character could not turn all around otherwise,
+/// degrees.
+const ASIDE: f64 = 2.0;
 /// A view that is nearer than this to another one, degrees, adds nothing to it.
 const NEAR: f64 = 20.0;
 /// How far apart regions are in depth, heights.
@@ -285,8 +289,8 @@ fn framed_by(view: &View, around: &Around) -> Option<RegionId> {
 }
 
 impl Views {
-    /// The views whose silhouettes are seen from behind in directions that no view shows.
-    pub(super) fn without_back(&self) -> Vec<ViewId> {
+    /// The views whose silhouettes are seen from behind, and from where: in directions that no view shows.
+    pub(super) fn without_back(&self) -> Vec<(ViewId, Direction)> {
         let cosine = |view: &ViewId| {
             self.drawings.views[*view]
                 .view
@@ -313,14 +317,32 @@ impl Views {
             .views
             .keys()
             .filter(|view| cosine(view) >= FROM_FRONT);
-        from_front.filter(is_free).collect()
+        let direction = |view: ViewId| self.drawings.views[view].view.direction;
+        let from_front: Vec<ViewId> = from_front.filter(is_free).collect();
+        let behind = from_front.iter().map(|view| opposite(direction(*view)));
+        let all = (self.drawings.views.keys().map(direction)).chain(behind);
+        let all: Vec<f64> = all.map(|direction| direction.theta).collect();
+        let goes_around = turn::goes_around(all.into_iter());
+        let from = |view: ViewId| {
+            let straight = opposite(direction(view));
+            // Half a turn from one view to the other goes one way only.
+            let ways = if goes_around {
+                vec![0.0]
+            } else {
+                vec![ASIDE, -ASIDE]
+            };
+            ways.into_iter().map(move |aside| {
+                let theta = within_half_turn(straight.theta + aside);
+                (view, Direction { theta, ..straight })
+            })
+        };
+        from_front.iter().flat_map(|view| from(*view)).collect()
     }
 
     /// Adds what is seen from behind of a view's silhouette.
-    pub(super) fn add_behind(&mut self, of: ViewId, backs: &BacksOfTracks) {
+    pub(super) fn add_behind(&mut self, of: ViewId, direction: Direction, backs: &BacksOfTracks) {
         let axis = self.drawings.frames[of].center.x;
         let own = &self.drawings.views[of];
-        let direction = opposite(own.view.direction);
         let mut view = mirror::drawn_view(own, axis, direction);
         let mut regions: TiVec<TrackId, Option<RegionId>> = self
             .drawings

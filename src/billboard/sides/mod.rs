@@ -134,8 +134,8 @@ pub(super) fn with_sides(
     if views.has_backing {
         let backs = Backs::of(&views.drawings.views[front].view);
         let backs = backs.of_tracks(front, &views.drawings.tracks);
-        for view in views.without_back() {
-            views.add_behind(view, &backs);
+        for (view, direction) in views.without_back() {
+            views.add_behind(view, direction, &backs);
         }
     }
     views
@@ -233,10 +233,14 @@ impl Views {
 
 /// A direction's opposite, the turn between −180 and 180.
 fn opposite(direction: Direction) -> Direction {
-    let theta = direction.theta + 180.0;
     Direction {
-        theta: if theta > 180.0 { theta - 360.0 } else { theta },
+        theta: within_half_turn(direction.theta + 180.0),
         // No minus zero.
         phi: 0.0 - direction.phi,
     }
+}
+
+/// An angle above −180 and up to 180, degrees.
+fn within_half_turn(degrees: f64) -> f64 {
+    180.0 - (180.0 - degrees).rem_euclid(360.0)
 }

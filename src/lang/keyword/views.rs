@@ -39,11 +39,12 @@ pub(super) static VIEW: Row = Row {
 
 pub(super) static BACKING: Row = Row {
     default: "off",
-    summary: "closes the gaps between a character's regions",
+    summary: "closes the gaps between a character's regions, and gives it a back",
     long: "Between two views, small gaps can open where a region slides away from its neighbour. \
            `Backing` lets each region go on a little under those in front of it, behind the whole \
            character, so that the gaps are filled with its colour. At the drawn views nothing of it \
-           can be seen. One view's string is enough.",
+           can be seen. It also gives the character a back: the silhouette of its front, with hair over \
+           the face, and without eyes and mouth. One view's string is enough.",
     example: "Boy$View 0 0 Backing",
     ..Row::ROW
 };
@@ -61,8 +62,8 @@ pub(super) static MIRROR: Row = Row {
     summary: "whether a character's other side is the mirror image of the drawn one",
     long: "A character that looks symmetric from the front turns both ways from two drawings: `View 45 \
            0` serves the angle −45 as well, with left and right exchanged. `Mirror` does so for one \
-           that okoshi does not find symmetric; a detail that is on one side only is not seen from the \
-           other. `Mirror off` leaves the side that nobody drew as it is. One view's string is enough.",
+           that okoshi does not find symmetric; what hangs beside it on one side only is not seen from the \
+           other side. `Mirror off` leaves the side that nobody drew as it is. One view's string is enough.",
     example: "Boy$View 45 0 Mirror off",
     ..Row::ROW
 };
