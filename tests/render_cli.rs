@@ -688,6 +688,22 @@ fn moments_and_strips_of_clips() {
 }
 
 #[test]
+fn the_clip_of_a_character_turns_it() {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/characters/boy.svg");
+    let room = Room::with("boy.svg", &fs::read_to_string(file).expect("the example"));
+    let arguments = "render boy.svg -o strip.png --clip 1 --strip 5 --to 1 --size 60x80";
+    ends(&room, arguments, 0, "wrote strip.png: 5 moments");
+    let strip = picture(&room, "strip.png");
+    let cell = |index: u32| image::imageops::crop_imm(&strip, index * 60, 0, 60, 80).to_image();
+    for (first, second) in (0..5).flat_map(|first| (0..first).map(move |second| (first, second))) {
+        let (first, second) = (cell(first), cell(second));
+        let pixels = first.pixels().zip(second.pixels());
+        let different = pixels.filter(|(a, b)| a != b).count();
+        assert!(different > 100, "{different} pixels");
+    }
+}
+
+#[test]
 fn wrong_use_of_clips_is_explained() {
     let room = moving_room();
     let told = [

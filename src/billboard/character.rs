@@ -12,17 +12,19 @@ use super::diagnostics;
 use super::drawn::{self, DrawnView};
 use super::features::{self, OfRegion};
 use super::keys;
-use super::matching::{Matching, RegionInView, Track, TrackId};
+use super::matching::{Matching, Method, RegionInView, Track, TrackId};
 use super::paints::{Paints, Said};
 use super::place::{Frame, TrackPosition, frames, place};
 use super::region::{Direction, RegionId, View};
 use super::shape::{Ends, Morph, line_mesh};
 use super::shapes::{RegionShape, shapes};
+use super::sides::{self, Drawings, Side, Views};
 use super::turn::between;
 use crate::bind::{Bindings, LayerId, PartId, StringId};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Outline;
 use crate::lang::keyword::Keyword;
+use crate::lang::value::Value;
 use crate::memo::Memo;
 use crate::scene::{Turn, ViewId, view_axes};
 use crate::svg::{Drawing, ShapeId};
@@ -37,17 +39,19 @@ const BEHIND: f64 = 0.002;
 pub struct Character {
     /// Its name.
     pub name: String,
-    /// Per view the index of its layer.
+    /// Per drawn view the index of its layer.
     pub layers: TiVec<ViewId, LayerId>,
-    /// Its views, and what lies between them.
+    /// Its views, the drawn ones first, and what lies between them.
     pub turn: Turn,
+    /// What the views are that follow the drawn ones.
+    pub sides: Vec<Side>,
     /// Per view its centre and scale.
     pub frames: TiVec<ViewId, Frame>,
     /// Its regions, in the order of the first view that shows each.
     pub regions: TiVec<TrackId, RegionModel>,
-    /// The regions of each view, as they are drawn.
+    /// The regions of each drawn view.
     pub views: TiVec<ViewId, View>,
-    /// Which regions of the views are the same; its tracks are in the order of `regions`.
+    /// Which regions of the drawn views are the same; its tracks are in the order of `regions`.
     pub matching: Matching,
 }
 
@@ -64,11 +68,13 @@ pub struct RegionModel {
     pub shape: Option<ShapeId>,
     /// Its part there, if it has one: regions of pictures have none.
     pub part: Option<PartId>,
-    /// Per view whether it is hidden there (`Hidden`).
+    /// Per view whether it is seen there.
+    pub is_shown: TiVec<ViewId, bool>,
+    /// Per drawn view whether it is hidden there (`Hidden`).
     pub is_hidden: TiVec<ViewId, bool>,
-    /// Per view the shape or picture, where the view shows it.
+    /// Per drawn view the shape or picture, where the view shows it.
     pub shapes: TiVec<ViewId, Option<ShapeId>>,
-    /// Per view the string that names it in a picture.
+    /// Per drawn view the string that names it in a picture.
     pub strings: TiVec<ViewId, Option<StringId>>,
 }
 
@@ -109,7 +115,12 @@ impl RegionModel {
                 None => area,
             })
         };
-        Some(self.shapes.iter_enumerated().map(of_view).collect())
+        let all: TiVec<ViewId, Option<String>> =
+            self.shapes.iter_enumerated().map(of_view).collect();
+        // They may only differ in views that nobody drew.
+        let mut shown = all.iter().flatten();
+        let first = shown.next();
+        shown.any(|paint| Some(paint) != first).then_some(all)
     }
 }
 
@@ -183,25 +194,47 @@ fn character(
 ) -> Character {
     let views: TiVec<ViewId, View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
     let frames = frames(&views);
-    let matching = keys::matched(&views, memo);
+    let method = said_method(bindings, &drawn);
+    let matching = keys::matched(&views, method, memo);
     diagnostics::report(drawing, bindings, name, &drawn, &matching, diagnostics);
     let depths: TiVec<ViewId, TiVec<RegionId, Option<f64>>> = drawn
         .iter()
         .map(|view| view.drawn.iter().map(|drawn| drawn.depth).collect())
         .collect();
-    let tracks = &matching.tracks;
-    let features = features::assign(bindings, &drawn, &frames, tracks, diagnostics);
+    let features = features::assign(bindings, &drawn, &frames, &matching.tracks, diagnostics);
+    let all = sides::with_sides(
+        bindings,
+        name,
+        Drawings {
+            views: drawn,
+            frames,
+            tracks: matching.tracks.clone(),
+            features,
+        },
+        memo,
+        diagnostics,
+    );
+    let Views {
+        drawings:
+            Drawings {
+                views: drawn,
+                frames,
+                tracks,
+                features,
+            },
+        ..
+    } = &all;
     let said = Said { drawing, bindings };
-    let shapes = shapes(&drawn, tracks, &features, said, memo);
+    let shapes = shapes(drawn, tracks, features, said, memo);
     let rooms: TiVec<TrackId, f64> = shapes.iter().map(RegionShape::room).collect();
-    let placed = place(&views, &frames, tracks, &depths, &rooms);
-    let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
+    let count = views.next_key();
+    let mut placed = place(&views, &frames[..count], &matching.tracks, &depths, &rooms);
+    all.place(&mut placed, &rooms);
+    let directions: TiVec<ViewId, Direction> =
+        drawn.iter().map(|drawn| drawn.view.direction).collect();
     let turn = between(&directions);
-    let has_backing = drawn
-        .iter()
-        .any(|view| drawn::setting(bindings, view.layer, Keyword::Backing).is_some());
-    let backings = if has_backing {
-        backings(&drawn, &frames, tracks, &placed)
+    let backings = if all.has_backing {
+        backings(drawn, frames, tracks, &placed)
     } else {
         vec![None; tracks.len()].into()
     };
@@ -213,8 +246,9 @@ fn character(
         .map(|(index, shape)| {
             let index = TrackId::from(index);
             let sources = Sources {
-                drawn: &drawn,
-                frames: &frames,
+                drawn,
+                frames,
+                count: count.into(),
                 track: &tracks[index],
                 placed: &placed[index],
                 memo,
@@ -228,12 +262,24 @@ fn character(
     unique_names(name, &mut regions);
     Character {
         name: name.to_owned(),
-        layers: drawn.iter().map(|view| view.layer).collect(),
+        layers: drawn[..count].iter().map(|view| view.layer).collect(),
         turn,
-        frames,
+        sides: all.sides,
+        frames: all.drawings.frames,
         regions: regions.into(),
         views,
         matching,
+    }
+}
+
+/// By what the strings of the views say that their regions find their partners; the first one counts.
+fn said_method(bindings: &Bindings, views: &TiSlice<ViewId, DrawnView>) -> Method {
+    let mut said = views
+        .iter()
+        .filter_map(|view| drawn::setting(bindings, view.layer, Keyword::Match));
+    match said.next() {
+        Some(Value::Word(word)) if word == "thesis" => Method::Thesis,
+        _ => Method::Whole,
     }
 }
 
@@ -241,6 +287,8 @@ fn character(
 struct Sources<'a> {
     drawn: &'a TiSlice<ViewId, DrawnView>,
     frames: &'a TiSlice<ViewId, Frame>,
+    /// How many of the views are drawn.
+    count: usize,
     track: &'a Track,
     placed: &'a TrackPosition,
     memo: &'a Memo,
@@ -294,10 +342,11 @@ impl Sources<'_> {
         };
         let meshes = [Some(area), line, backing].into_iter().flatten().collect();
         let named = shown.iter().find_map(|at| region(at).name.clone());
-        let mut shapes = TiVec::from(vec![None; self.drawn.len()]);
-        let mut strings = TiVec::from(vec![None; self.drawn.len()]);
-        let mut is_hidden = TiVec::from(vec![false; self.drawn.len()]);
-        for at in &shown {
+        let mut shapes = TiVec::from(vec![None; self.count]);
+        let mut strings = TiVec::from(vec![None; self.count]);
+        let mut is_hidden = TiVec::from(vec![false; self.count]);
+        let in_drawn = shown.iter().filter(|at| usize::from(at.view) < self.count);
+        for at in in_drawn {
             shapes[at.view] = Some(drawn(at).shape);
             strings[at.view] = drawn(at).string;
             is_hidden[at.view] = drawn(at).is_hidden;
@@ -315,6 +364,7 @@ impl Sources<'_> {
             meshes,
             shape: first.map(|first| drawn(first).shape),
             part: first.and_then(|first| drawn(first).part),
+            is_shown: self.track.regions.iter().map(Option::is_some).collect(),
             is_hidden,
             shapes,
             strings,

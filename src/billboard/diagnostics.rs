@@ -7,7 +7,6 @@ use super::matching::{Candidate, Matching, Reason, RegionInView, Unmatched, Warn
 use super::raster::Shades;
 use crate::bind::{Bindings, DrawingString, LayerId, StringId};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
-use crate::geometry::bounds;
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::Keyword;
 use crate::scene::ViewId;
@@ -120,6 +119,19 @@ pub(super) fn same_direction(bindings: &Bindings, layer: LayerId, first: LayerId
         .help(format!(
             "write the angles from which it is drawn, for example `{name}$View 45 0`"
         ))
+}
+
+/// `Mirror` where there is nothing to mirror.
+pub(super) fn idle_mirror(
+    bindings: &Bindings,
+    layer: LayerId,
+    name: &str,
+    cause: &str,
+) -> Diagnostic {
+    let message = format!("`Mirror` has no effect on `{name}`: {cause}");
+    Diagnostic::new(Code::UnlikelyViews, span(bindings, layer), message).help(format!(
+        "draw it from the front (`{name}$View 0 0`) and from one side, or delete `Mirror`"
+    ))
 }
 
 /// Reports what was not matched, and views that do not fit each other.
@@ -269,16 +281,9 @@ pub(super) fn describe(
         return drawing.describe(drawn.shape);
     }
     // Regions of a picture have no element of their own.
-    let [r, g, b] = [0, 1, 2].map(|i| (found.color[i] * 255.0).round() as u8);
-    let position = bounds(&found.outline).zip(views[view].view.bounds());
-    let position = position.map(|((low, high), (least, greatest))| {
-        let at = ((low + high) / 2.0 - least) / (greatest - least);
-        let (x, y) = (at.x * 100.0, at.y * 100.0);
-        format!(", {x:.0} % from the left and {y:.0} % from the top,")
-    });
-    let position = position.unwrap_or_default();
+    let looks = views[view].view.describe(id);
     format!(
-        "the region in #{r:02x}{g:02x}{b:02x}{position} of {}",
+        "the region in {looks}, of {}",
         drawing.describe(drawn.shape)
     )
 }

@@ -34,7 +34,7 @@ pub(super) const MOST_REGIONS: usize = 1000;
 const CONTAINED: f64 = 0.9;
 
 /// A view as it is drawn.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct DrawnView {
     /// Index of its layer.
     pub(super) layer: LayerId,
@@ -45,10 +45,12 @@ pub(super) struct DrawnView {
     pub(super) features: Vec<FeaturePoint>,
     /// Whether most of the regions of a picture in it are only steps of soft shades.
     pub(super) is_shaded: bool,
+    /// The upright line about which it is the mirror image of what is drawn, by its x; `None` if it is as drawn.
+    pub(super) mirror: Option<f64>,
 }
 
 /// What the drawing says of a region, besides its outline.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Drawn {
     /// The shape that it is, or the picture that shows it.
     pub(super) shape: ShapeId,
@@ -161,6 +163,7 @@ pub(super) fn read(
         drawn,
         features: features::of_view(drawing, bindings, layer, diagnostics),
         is_shaded,
+        mirror: None,
     })
 }
 

@@ -14,7 +14,7 @@ use crate::scene::ViewId;
 use crate::svg::Drawing;
 
 /// A feature point of a view.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct FeaturePoint {
     name: String,
     string: StringId,

@@ -8,10 +8,11 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use super::drawn::{self, SVG_SIDE, Segmented};
 use super::features::OfRegion;
-use super::matching::{Matching, match_regions};
+use super::matching::{Matching, Method, match_by};
 use super::place::frames;
 use super::region::{Direction, Region, RegionId, View};
 use super::shape::{Morph, morph};
+use super::sides::{self, Symmetry};
 use crate::geometry::{Outline, Polygon};
 use crate::memo::{Exactly, Memo, exact};
 use crate::scene::ViewId;
@@ -40,12 +41,23 @@ impl Hash for PictureFile {
 /// What the mesh of a region is made from.
 type Shape = Exactly<(Vec<Arc<Outline>>, OfRegion)>;
 
-/// [`match_regions`].
-pub(super) fn matched(views: &TiSlice<ViewId, View>, memo: &Memo) -> Matching {
-    let found = memo.get(Exactly(views.to_vec()), |Exactly(views)| {
-        Arc::new(match_regions(views, &frames(views)))
-    });
+/// [`match_by`].
+pub(super) fn matched(views: &TiSlice<ViewId, View>, method: Method, memo: &Memo) -> Matching {
+    let found = memo.get(
+        (method, Exactly(views.raw.to_vec())),
+        |(method, Exactly(views))| {
+            let views = TiSlice::from_ref(&views[..]);
+            Arc::new(match_by(*method, views, &frames(views)))
+        },
+    );
     Matching::clone(&found)
+}
+
+/// [`symmetry`].
+pub(super) fn symmetry(view: &View, memo: &Memo) -> Arc<Symmetry> {
+    memo.get(Exactly(view.clone()), |Exactly(view)| {
+        Arc::new(sides::symmetry(view))
+    })
 }
 
 /// The container of each region; see [`drawn::containers`]. A region's name and colour do not matter to it.
@@ -81,6 +93,7 @@ pub(super) fn segmented(picture: &PictureSource, memo: &Memo) -> Arc<Segmented> 
 mod tests {
     use glam::DVec2;
 
+    use super::super::matching::match_regions;
     use super::*;
 
     fn square(at: f64) -> Region {
@@ -113,7 +126,7 @@ mod tests {
             view(45.0, vec![square(5.0)]),
         ]);
         let mut misses = |views: &TiSlice<ViewId, View>| {
-            let found = matched(views, &memo);
+            let found = matched(views, Method::Whole, &memo);
             assert_eq!(found, match_regions(views, &frames(views)));
             let outlines: Vec<_> = views
                 .iter()

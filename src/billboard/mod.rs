@@ -21,6 +21,7 @@ mod raster;
 mod region;
 mod shape;
 mod shapes;
+mod sides;
 #[doc(hidden)]
 pub mod stages;
 mod stops;
@@ -34,5 +35,6 @@ pub(crate) use matching::{Candidate, Pair, Reason, RegionInView, Track, TrackId,
 pub(crate) use nodes::{RegionMaterials, add};
 pub use region::RegionId;
 pub(crate) use region::View;
+pub(crate) use sides::Side;
 
 pub use crate::scene::ViewId;

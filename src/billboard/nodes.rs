@@ -9,6 +9,7 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::character::{Character, RegionMesh, RegionModel};
 use super::paints::Paint;
 use super::pieces::{Coat, Cover, pieces};
+use super::sides::Side;
 use super::stops::Stops;
 use crate::bind::{Bindings, PartId};
 use crate::scene::{
@@ -85,7 +86,7 @@ impl<'a> RegionMaterials<'a> {
         match self.textured(paint) {
             Some((material, map)) => {
                 let material = self.veil(material, alpha, scene);
-                (material, Some((map, paint.view)))
+                (material, Some((paint.in_view(map), paint.view)))
             }
             None => {
                 let [r, g, b, own] = paint.color;
@@ -143,8 +144,12 @@ pub(crate) fn add(
     let layer = &bindings.layers[character.layers[ViewId::FIRST]];
     let string = bindings.strings[layer.string].text.as_str();
     let regions = character.regions.iter();
-    let mut shapes = regions.flat_map(|region| &region.shapes);
-    let stops = Stops::new(&character.turn, shapes.all(Option::is_some));
+    let mut shown = regions.flat_map(|region| &region.is_shown);
+    let added = character.turn.views.keys().skip(character.layers.len());
+    let behind = added.zip(&character.sides);
+    let behind = behind.filter(|(_, side)| matches!(side, Side::Behind(_)));
+    let behind = behind.map(|(view, _)| view).collect();
+    let stops = Stops::new(&character.turn, shown.all(|is_shown| *is_shown), behind);
     let root = scene.add(NewNode {
         node: Node {
             name: character.name.clone(),
@@ -204,7 +209,7 @@ fn mesh(
     scene: &mut Scene,
 ) -> Mesh {
     let heights: TiVec<ViewId, f64> = character.frames.iter().map(|frame| frame.height).collect();
-    let shows = stops.show(|view| region.shapes[view].is_some());
+    let sizes = stops.sizes(|view| region.is_shown[view]);
     let mut primitives: Vec<Primitive> = Vec::new();
     for part in &region.meshes {
         let RegionMesh {
@@ -233,9 +238,7 @@ fn mesh(
             let base = &in_views[ViewId::FIRST];
             let base: Vec<Vec3> = base.iter().map(|point| point.as_vec3()).collect();
             let target = |at: ViewId| {
-                // What a stop does not show is a point at its place.
-                let size = if shows[at] { 1.0 } else { 0.0 };
-                let size = DVec3::new(size, size, 1.0);
+                let size = sizes[at].extend(1.0);
                 let points = base.iter().enumerate().map(|(index, base)| {
                     let point = stops.mixed(at, |view| in_views[view][index]) * size;
                     (point.as_vec3() - *base).to_array()
@@ -263,24 +266,63 @@ fn mesh(
     Mesh { primitives }
 }
 
+/// The way of the clip that turns a character: through the drawn views in their order, and on to those that nobody drew. With each
+/// view its direction, degrees; a way around goes on beyond 360.
+fn path(character: &Character) -> Vec<(ViewId, DVec2)> {
+    let views = &character.turn.views;
+    let drawn = views.len() - character.sides.len();
+    let at = |view: ViewId| (view, DVec2::from(views[view]));
+    let mut path: Vec<(ViewId, DVec2)> = views.keys().take(drawn).map(at).collect();
+    let back: Vec<_> = path.iter().rev().skip(1).copied().collect();
+    if character.sides.is_empty() {
+        return path;
+    }
+    let goes_around = (character.sides.iter()).any(|side| matches!(side, Side::Behind(_)));
+    path.extend(back);
+    let first = at(ViewId::FIRST).1;
+    if !goes_around {
+        path.extend(views.keys().skip(drawn).map(at));
+        return path;
+    }
+    // All level with the first view, once around, and so that the drawn ones come first.
+    let level = views
+        .keys()
+        .map(at)
+        .filter(|(_, to)| (to.y - first.y).abs() < LEAST_STEP);
+    let side = path
+        .iter()
+        .map(|(_, to)| to.x - first.x)
+        .find(|way| *way != 0.0);
+    let sign = side.unwrap_or(1.0).signum();
+    let around = level.map(|(view, to)| {
+        let way = (sign * (to.x - first.x)).rem_euclid(360.0);
+        (view, way)
+    });
+    let mut around: Vec<(ViewId, f64)> = around.filter(|(_, way)| *way > 0.0).collect();
+    around.sort_by(|a, b| a.1.total_cmp(&b.1));
+    around.push((ViewId::FIRST, 360.0));
+    let to = |(view, way): (ViewId, f64)| (view, DVec2::new(first.x + sign * way, first.y));
+    path.extend(around.into_iter().map(to));
+    path
+}
+
 /// The clip in which a character turns through its views, as a viewer in front of the first one sees it. `nodes` are those of its
 /// regions.
 fn clip(character: &Character, stops: &Stops, nodes: &[NodeId], scale: f64) -> Animation {
-    let views = &character.turn.views;
-    let mut directions = vec![views[ViewId::FIRST]];
+    let path = path(character);
+    let mut directions = vec![path[0].1.to_array()];
     let mut times = vec![0.0];
-    for (first, second) in views.keys().zip(views.keys().skip(1)) {
-        let [from, to] = [first, second].map(|view| DVec2::from(views[view]));
-        let degrees = (to - from).length();
+    for ((first, from), (second, to)) in path.iter().zip(&path[1..]) {
+        let degrees = (*to - *from).length();
         let keys = (degrees / 45.0 * KEYS).ceil().max(1.0);
         let start = times.last().copied().unwrap_or_default();
         let mut shares: Vec<f64> = (1..=keys as usize).map(|key| key as f64 / keys).collect();
         // Between keys everything is linear.
-        shares.extend(stops.between(first, second));
+        shares.extend(stops.between(*first, *second));
         shares.sort_by(f64::total_cmp);
         shares.dedup_by(|next, last| *next - *last < LEAST_STEP);
         for share in shares {
-            directions.push(from.lerp(to, share).to_array());
+            directions.push(from.lerp(*to, share).to_array());
             times.push(start + share * degrees / 45.0 * SECONDS);
         }
     }

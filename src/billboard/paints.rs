@@ -40,9 +40,24 @@ pub struct Paint {
     pub part: Option<PartId>,
     /// The view in whose drawing its texture lies.
     pub view: ViewId,
+    /// The upright line about which that view is the mirror image of what is drawn, by its x; `None` if it is as drawn.
+    pub mirror: Option<f64>,
 }
 
 impl Paint {
+    /// The point of the drawing that a point of its view shows.
+    fn drawn(&self, point: DVec2) -> DVec2 {
+        self.mirror
+            .map_or(point, |axis| DVec2::new(2.0 * axis - point.x, point.y))
+    }
+
+    /// A map of the drawing as a map of its view.
+    pub(super) fn in_view(&self, map: DAffine2) -> DAffine2 {
+        let Some(axis) = self.mirror else { return map };
+        let flip = DAffine2::from_scale(DVec2::new(-1.0, 1.0));
+        map * DAffine2::from_translation(DVec2::new(2.0 * axis, 0.0)) * flip
+    }
+
     /// For people: `#rrggbb` or, with alpha, `#rrggbbaa`.
     pub(super) fn describe(&self) -> String {
         let [r, g, b, alpha] = self.color.map(|channel| (channel * 255.0).round() as u8);
@@ -62,6 +77,7 @@ impl Paint {
             color,
             part: None,
             view,
+            mirror: None,
         }
     }
 }
@@ -144,14 +160,19 @@ impl Said<'_> {
                     (Textured::Server(a), Textured::Server(b)) => a.is_like(b),
                     _ => false,
                 };
-                let own = |texture: &Textured<'_>, point: DVec2| match texture {
-                    Textured::File(_, map) => map.transform_point2(point),
-                    Textured::Server(server) => server.in_own_plane(point),
+                let own = |paint: &Paint, texture: &Textured<'_>, point: DVec2| {
+                    let point = paint.drawn(point);
+                    match texture {
+                        Textured::File(_, map) => map.transform_point2(point),
+                        Textured::Server(server) => server.in_own_plane(point),
+                    }
                 };
                 let mut points = area.points[a.view].iter().zip(&area.points[b.view]);
                 is_alike
                     && (a.color[3] - b.color[3]).abs() <= SAME_COLOR
-                    && points.all(|(a, b)| own(&first, *a).distance(own(&second, *b)) <= SAME_PLACE)
+                    && points.all(|(p, q)| {
+                        own(a, &first, *p).distance(own(b, &second, *q)) <= SAME_PLACE
+                    })
             }
             _ => false,
         }

@@ -62,6 +62,23 @@ pub struct View {
 }
 
 impl View {
+    /// A region for people: its colour, and how far its middle is from the left and from the top of what the view shows.
+    pub(crate) fn describe(&self, id: RegionId) -> String {
+        let region = &self.regions[id];
+        let [r, g, b] = [0, 1, 2].map(|i| (region.color[i] * 255.0).round() as u8);
+        let color = format!("#{r:02x}{g:02x}{b:02x}");
+        match bounds(&region.outline).zip(self.bounds()) {
+            Some(((low, high), (least, greatest))) => {
+                let at = ((low + high) / 2.0 - least) / (greatest - least) * 100.0;
+                format!(
+                    "{color}, {:.0} % from the left and {:.0} % from the top",
+                    at.x, at.y
+                )
+            }
+            None => color,
+        }
+    }
+
     /// The lower and the upper corner of the box around what it shows, drawing units; `None` if that is nothing.
     pub fn bounds(&self) -> Option<(DVec2, DVec2)> {
         let boxes = self

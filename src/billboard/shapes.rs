@@ -89,6 +89,7 @@ fn shape(
         color: region(at).color,
         part: drawn(at).part,
         view: at.view,
+        mirror: views[at.view].mirror,
     });
     let paints: Vec<Paint> = paints.collect();
     let paints = said.paints(views.len(), &paints, &area);

@@ -10,7 +10,8 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use crate::scene::{Turn, ViewId, view_axes};
 
-/// How far from the views that show them regions without a partner are seen, degrees; at most half of the way to another view.
+/// How far from the views that show them regions without a partner are seen, degrees; at most half of the way to another view, and
+/// all of that way to a view from behind: there, a face goes out of sight as on something round.
 const FADE: f64 = 15.0;
 
 /// A share of views; together the shares of a stop are 1.
@@ -26,15 +27,18 @@ pub(super) struct Stops {
     pub(super) turn: Turn,
     /// Of what each is mixed. A view is all its own.
     shares: TiVec<ViewId, Vec<Share>>,
+    /// The views from behind.
+    behind: Vec<ViewId>,
 }
 
 impl Stops {
     /// The stops of a character; none if all views show everything, or if with them the model would have more views than programs
-    /// have to read.
-    pub(super) fn new(turn: &Turn, all_show_everything: bool) -> Self {
+    /// have to read. `behind` are the views from behind that nobody drew.
+    pub(super) fn new(turn: &Turn, all_show_everything: bool, behind: Vec<ViewId>) -> Self {
         let only_views = Self {
             turn: turn.clone(),
             shares: turn.views.keys().map(|view| vec![(view, 1.0)]).collect(),
+            behind,
         };
         if all_show_everything {
             return only_views;
@@ -45,6 +49,7 @@ impl Stops {
                 between: Vec::new(),
             },
             shares: only_views.shares.clone(),
+            behind: only_views.behind.clone(),
         };
         let mut known = Known::default();
         for set in &turn.between {
@@ -79,7 +84,12 @@ impl Stops {
         if let Some(found) = known.get(&(a, b, turns)) {
             return found.clone();
         }
-        let near = FADE / (to - from).length();
+        let [a_behind, b_behind] = [a, b].map(|view| self.behind.contains(&view));
+        let near = if a_behind == b_behind {
+            FADE / (to - from).length()
+        } else {
+            0.5
+        };
         let places = if near < 0.5 {
             vec![near, 1.0 - near]
         } else {
@@ -120,10 +130,23 @@ impl Stops {
         self.shares.push_and_get_key(shares)
     }
 
-    /// Whether a region has an area at each view and stop: if all views that a stop is mixed of show it.
-    pub(super) fn show(&self, is_shown: impl Fn(ViewId) -> bool) -> TiVec<ViewId, bool> {
-        let shows = |shares: &Vec<Share>| shares.iter().all(|(view, _)| is_shown(*view));
-        self.shares.iter().map(shows).collect()
+    /// What the width and the height of a region are multiplied by at each view and stop: it has an area if all views that a stop is
+    /// mixed of show it. On the way to a view from behind only its width goes away, as that of a face which turns out of sight.
+    pub(super) fn sizes(&self, is_shown: impl Fn(ViewId) -> bool) -> TiVec<ViewId, DVec2> {
+        let size = |shares: &Vec<Share>| {
+            let shown = shares.iter().filter(|(view, _)| is_shown(*view));
+            let shown: Vec<f64> = shown.map(|(_, share)| *share).collect();
+            let turns_away = shares.iter().any(|(view, _)| self.behind.contains(view));
+            if shown.len() == shares.len() {
+                DVec2::ONE
+            } else if turns_away && !shown.is_empty() {
+                // The other views have it as a point.
+                DVec2::new(0.0, 1.0 / shown.iter().sum::<f64>())
+            } else {
+                DVec2::ZERO
+            }
+        };
+        self.shares.iter().map(size).collect()
     }
 
     /// The places of a region at all views and stops from those in the views: where it would be without stops, as deep.
@@ -184,7 +207,7 @@ mod tests {
         for seed in 0..200 {
             let mut random = Random::new(seed);
             let turn = turn(&mut random);
-            let stops = Stops::new(&turn, false);
+            let stops = Stops::new(&turn, false, Vec::new());
             let point =
                 |random: &mut Random| DVec3::from([(); 3].map(|()| random.between(-0.5, 0.5)));
             let places = TiVec::from(vec![point(&mut random); turn.views.len()]);
@@ -220,7 +243,7 @@ mod tests {
         for seed in 0..200 {
             let mut random = Random::new(seed);
             let turn = turn(&mut random);
-            let stops = Stops::new(&turn, false);
+            let stops = Stops::new(&turn, false, Vec::new());
             for _ in 0..50 {
                 let direction = [random.between(-150.0, 150.0), random.between(-60.0, 80.0)];
                 let plain = turn.weights(direction);

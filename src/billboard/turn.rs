@@ -8,21 +8,29 @@ use crate::scene::{Turn, ViewId};
 
 /// More views than this are joined in their order only.
 const MOST_TRIANGULATED: usize = 32;
+/// Views that are farther apart have nothing between them in which to turn, degrees: there are two ways from one to the other.
+const MOST_GAP: f64 = 179.0;
 
 /// The views, and the sets between which their weights are linear: the Delaunay triangles of (theta, phi), or the neighbours
-/// along a line.
+/// along a line. Views that go around the character are joined all around.
 pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
     let directions: TiVec<ViewId, [f64; 2]> =
         views.iter().map(|view| [view.theta, view.phi]).collect();
-    let places: Vec<DVec2> = directions.iter().copied().map(DVec2::from).collect();
-    let count = places.len();
+    let count = views.len();
+    let mut places: Vec<DVec2> = directions.iter().copied().map(DVec2::from).collect();
+    if count <= MOST_TRIANGULATED && goes_around(places.iter().map(|place| place.x)) {
+        for turn in [360.0, -360.0] {
+            let copies = directions.iter().copied().map(DVec2::from);
+            places.extend(copies.map(|place| place + DVec2::new(turn, 0.0)));
+        }
+    }
     let mut between = Vec::new();
     if count <= MOST_TRIANGULATED {
         for i in 0..count {
-            for j in i + 1..count {
-                for k in j + 1..count {
+            for j in i + 1..places.len() {
+                for k in j + 1..places.len() {
                     if is_delaunay(&places, [i, j, k]) {
-                        between.push([i, j, k].map(ViewId::from).to_vec());
+                        between.push(vec![i, j, k]);
                     }
                 }
             }
@@ -30,7 +38,7 @@ pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
     }
     if between.is_empty() {
         // All on a line: neighbours along it.
-        let mut order: Vec<usize> = (0..count).collect();
+        let mut order: Vec<usize> = (0..places.len()).collect();
         if count <= MOST_TRIANGULATED {
             order.sort_by(|a, b| {
                 let key = |i: &usize| (places[*i].x, places[*i].y);
@@ -39,13 +47,58 @@ pub(super) fn between(views: &TiSlice<ViewId, Direction>) -> Turn {
                     .unwrap_or(std::cmp::Ordering::Equal)
             });
         }
-        let neighbors = order.windows(2);
-        between.extend(neighbors.map(|pair| pair.iter().copied().map(ViewId::from).collect()));
+        between.extend(order.windows(2).map(<[usize]>::to_vec));
+    }
+    // Of a triangle through which the short ways do not go, those sides are left along which they do.
+    let (wide, mut between): (Vec<_>, Vec<_>) =
+        (between.into_iter()).partition(|set| set.len() == 3 && is_wide(&places, set));
+    let sides = wide.iter().flat_map(|set| {
+        let [a, b, c] = [set[0], set[1], set[2]];
+        [vec![a, b], vec![b, c], vec![a, c]]
+    });
+    between.extend(sides.filter(|side| !is_wide(&places, side)));
+    let mut sets: Vec<Vec<ViewId>> = Vec::new();
+    for set in between {
+        let is_copy = set.iter().all(|place| *place >= count);
+        let set: Vec<ViewId> = set.iter().map(|place| (place % count).into()).collect();
+        let of_same = |known: &Vec<ViewId>| set.iter().all(|view| known.contains(view));
+        let is_flat = set
+            .iter()
+            .enumerate()
+            .any(|(at, view)| set[..at].contains(view));
+        if !is_copy && !is_flat && !sets.iter().any(of_same) {
+            sets.push(set);
+        }
+    }
+    for view in directions.keys() {
+        if !sets.iter().any(|set| set.contains(&view)) {
+            sets.push(vec![view]);
+        }
     }
     Turn {
         views: directions,
-        between,
+        between: sets,
     }
+}
+
+/// Whether two of the places are so far apart that the short way between them is another one.
+fn is_wide(places: &[DVec2], set: &[usize]) -> bool {
+    let around = || set.iter().map(|place| places[*place].x);
+    let (least, greatest) = (
+        around().fold(f64::INFINITY, f64::min),
+        around().fold(f64::NEG_INFINITY, f64::max),
+    );
+    greatest - least >= MOST_GAP
+}
+
+/// Whether neighbouring views at these angles around the upright axis are less than half a turn apart all around.
+pub(super) fn goes_around(angles: impl Iterator<Item = f64>) -> bool {
+    let mut around: Vec<f64> = angles.map(|angle| angle.rem_euclid(360.0)).collect();
+    around.sort_by(f64::total_cmp);
+    let first = around.first().map(|first| first + 360.0);
+    let next = around.iter().copied().skip(1).chain(first);
+    let mut gaps = around.iter().zip(next).map(|(from, to)| to - from);
+    gaps.all(|gap| gap < MOST_GAP)
 }
 
 /// Whether no place is in the circle through three of them. Of places on a common circle, those with the smallest numbers win.
@@ -96,6 +149,78 @@ mod tests {
             sets(&[(45.0, 0.0), (-45.0, 0.0), (0.0, 0.0)]),
             [[1, 2], [2, 0]]
         );
+    }
+
+    #[test]
+    fn views_all_around_are_joined_in_a_ring() {
+        let ring = [(0.0, 0.0), (45.0, 0.0), (-45.0, 0.0), (180.0, 0.0)];
+        let mut found = sets(&ring);
+        for set in &mut found {
+            set.sort_unstable();
+        }
+        found.sort();
+        assert_eq!(found, [[0, 1], [0, 2], [1, 3], [2, 3]]);
+        // A half turn may go both ways.
+        assert_eq!(
+            sets(&[(0.0, 0.0), (90.0, 0.0), (180.0, 0.0)]),
+            [[0, 1], [1, 2]]
+        );
+        // From above as well: every direction up to there is in one triangle.
+        let ring = [
+            (0.0, 0.0),
+            (120.0, 0.0),
+            (240.0, 0.0),
+            (0.0, 30.0),
+            (120.0, 30.0),
+            (240.0, 30.0),
+        ];
+        let turn = between(
+            &ring
+                .map(|(theta, phi)| Direction { theta, phi })
+                .into_iter()
+                .collect::<TiVec<_, _>>(),
+        );
+        for theta in (0..360).step_by(5) {
+            let theta = f64::from(theta);
+            let weights = turn.weights([theta, 1.0]);
+            let around: f64 = (turn.views.iter().zip(&weights))
+                .map(|(view, weight)| {
+                    let way = (view[0] - theta + 180.0).rem_euclid(360.0) - 180.0;
+                    way * weight
+                })
+                .sum();
+            assert!(around.abs() < 1e-6, "{theta}: {weights:?}");
+        }
+    }
+
+    #[test]
+    fn no_triangle_is_so_wide_that_short_ways_leave_it() {
+        // Over the front from the one to the other it is more than half of the way around: the short way is behind.
+        assert_eq!(
+            sets(&[(-100.0, 0.0), (100.0, 0.0), (0.0, 30.0)]),
+            [[1, 2], [0, 2], [0, 1]]
+        );
+        let around = [
+            (0.0, 0.0),
+            (45.0, 0.0),
+            (0.0, 30.0),
+            (-45.0, 0.0),
+            (180.0, 0.0),
+            (-135.0, 0.0),
+            (180.0, -30.0),
+            (135.0, 0.0),
+        ];
+        for set in sets(&around) {
+            let from = around[set[0]].0;
+            let ways = set
+                .iter()
+                .map(|view| (around[*view].0 - from + 540.0) % 360.0 - 180.0);
+            let [least, greatest] = [f64::min, f64::max].map(|f| ways.clone().fold(0.0, f));
+            assert!(greatest - least < MOST_GAP, "{set:?}");
+        }
+        // None is lost.
+        let alone = sets(&[(0.0, 0.0), (0.0, 30.0), (180.0, 0.0)]);
+        assert_eq!(alone, [vec![0, 1], vec![2]]);
     }
 
     #[test]

@@ -195,9 +195,10 @@ fn regions(loaded: &Loaded, character: &Character, numbers: Numbers) -> Vec<[Str
     let row = |(index, (region, track)): (usize, (&RegionModel, &Track))| {
         let members = region.shapes.iter().zip(&track.regions);
         let members: Vec<String> = members
-            .map(|(shape, number)| match (shape, number) {
-                (Some(shape), Some(number)) => match drawing.shapes[*shape].picture {
-                    Some(_) => format!("region {}", usize::from(*number) + 1),
+            .zip(&character.views)
+            .map(|((shape, id), view)| match (shape, id) {
+                (Some(shape), Some(id)) => match drawing.shapes[*shape].picture {
+                    Some(_) => view.describe(*id),
                     None => drawing.shapes[*shape].element.describe(),
                 },
                 _ => "not drawn".to_owned(),

@@ -543,6 +543,9 @@ codes! {
     ///
     /// The first number is positive if the viewer walks to the character's left: then its face moves to the left of the picture. The
     /// second one is positive if the viewer looks from above: then the face moves down.
+    ///
+    /// It is also reported if a view says `Mirror`, but there is nothing to mirror: no view is from the front (`View 0 0`), or none
+    /// from the side, or both sides are drawn.
     UnlikelyViews = "W325", "views that do not fit";
     /// A feature point has no effect: it is outside of a character's views, its view has another one of that name, or another view
     /// that shows its region has none.

@@ -73,6 +73,8 @@ keywords! {
     Stand = terrain::STAND;
     View = views::VIEW;
     Backing = views::BACKING;
+    Mirror = views::MIRROR;
+    Match = views::MATCH;
     Hidden = views::HIDDEN;
     Scale = drawing::SCALE;
     Axes = drawing::AXES;

@@ -20,7 +20,7 @@ pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mu
     let turning: Vec<NodeId> = scene.nodes.keys().filter(turns).collect();
     for (root, character) in turning.into_iter().zip(&compiled.characters) {
         let regions = std::mem::take(&mut scene.nodes[root].children);
-        for view in character.frames.keys() {
+        for view in character.layers.keys() {
             add_view(character, view, &regions, world, scene);
         }
         for region in regions {

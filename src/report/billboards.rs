@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-use crate::billboard::{Character, RegionId, RegionInView, RegionModel, Track, TrackId, ViewId};
+use crate::billboard::{
+    Character, RegionId, RegionInView, RegionModel, Side, Track, TrackId, ViewId,
+};
 use crate::compile::Compiled;
 use crate::scene::view_axes;
 
@@ -11,10 +13,33 @@ use crate::scene::view_axes;
 pub(crate) struct Billboard<'a> {
     /// Its name.
     pub name: &'a str,
-    /// The directions of its views, degrees: around and up.
+    /// The directions of its drawn views, degrees: around and up.
     pub views: &'a [[f64; 2]],
+    /// The sides that nobody drew, but that follow from the views.
+    pub sides: Vec<BillboardSide>,
     /// Its regions, back-most first in the first view that shows each.
     pub regions: Vec<BillboardRegion<'a>>,
+}
+
+/// A side of a character that follows from a view.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct BillboardSide {
+    /// From where it is seen, degrees: around and up.
+    pub view: [f64; 2],
+    /// The direction of the view that it follows from.
+    pub of: [f64; 2],
+    /// How.
+    pub kind: SideKind,
+}
+
+/// How a side follows from a view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum SideKind {
+    /// It is its mirror image: the character is symmetric.
+    Mirrored,
+    /// It has the same silhouette, seen from behind.
+    Behind,
 }
 
 /// A region of a character.
@@ -97,12 +122,29 @@ pub(crate) fn billboards(compiled: &Compiled) -> Vec<Billboard<'_>> {
     characters
         .map(|character| Billboard {
             name: &character.name,
-            views: &character.turn.views.raw,
+            views: &character.turn.views.raw[..character.layers.len()],
+            sides: sides(character).collect(),
             regions: (character.regions.keys())
                 .map(|index| region(compiled, character, index))
                 .collect(),
         })
         .collect()
+}
+
+fn sides(character: &Character) -> impl Iterator<Item = BillboardSide> + '_ {
+    let views = &character.turn.views;
+    let added = views.iter().skip(character.layers.len());
+    added.zip(&character.sides).map(|(view, side)| {
+        let (kind, of) = match side {
+            Side::Mirrored(of) => (SideKind::Mirrored, of),
+            Side::Behind(of) => (SideKind::Behind, of),
+        };
+        BillboardSide {
+            view: *view,
+            of: views[*of],
+            kind,
+        }
+    })
 }
 
 fn region<'a>(
@@ -142,11 +184,21 @@ pub(super) fn middle(character: &Character, region: &RegionModel) -> glam::DVec2
 
 /// A character for people.
 pub(crate) fn describe_character(character: &Character) -> String {
-    let views: Vec<String> = character
-        .turn
-        .views
-        .iter()
-        .map(|[theta, phi]| format!("{theta} {phi}"))
+    let angles = |[theta, phi]: [f64; 2]| format!("{theta} {phi}");
+    let views = character.turn.views.iter().take(character.layers.len());
+    let views: Vec<String> = views.map(|view| angles(*view)).collect();
+    let of_kind = |kind: SideKind| {
+        let found = sides(character).filter(|side| side.kind == kind);
+        let found: Vec<String> = found.map(|side| angles(side.view)).collect();
+        found.join(" and ")
+    };
+    let also = [
+        ("mirrored to", of_kind(SideKind::Mirrored)),
+        ("from behind at", of_kind(SideKind::Behind)),
+    ];
+    let also = also.iter().filter(|(_, views)| !views.is_empty());
+    let also: String = also
+        .map(|(how, views)| format!(", {how} {views}"))
         .collect();
     let alone = character.matching.unmatched.len();
     let alone = match alone {
@@ -158,7 +210,7 @@ pub(crate) fn describe_character(character: &Character) -> String {
         count => format!("{count} regions"),
     };
     format!(
-        "character of {regions}{alone}, drawn from {}",
+        "character of {regions}{alone}, drawn from {}{also}",
         views.join(" and ")
     )
 }

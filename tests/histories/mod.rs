@@ -201,11 +201,19 @@ const SUBJECTS: &[Subject] = &[
 <text x="149" y="42" font-size="4">Nose</text><text x="138" y="26" font-size="4">Eye{}</text><text x="120" y="90" font-size="6">Boy{}</text></g></svg>"##,
         strings: &[
             &["", "$Depth 14", "$Depth -3"],
-            &["$View 0 0", "$View 0 0 Backing", "$View 15 0"],
+            &[
+                "$View 0 0",
+                "$View 0 0 Backing",
+                "$View 0 0 Match thesis",
+                "$View 0 0 Mirror off",
+                "$View 15 0",
+            ],
             &["", "$Hidden", "$Depth 2"],
             &[
                 "$View 45 0",
                 "$View 45 0 Backing",
+                "$View 45 0 Backing Mirror",
+                "$View 45 0 Mirror",
                 "$View 45 10",
                 "$View 40 10",
             ],
@@ -217,7 +225,13 @@ const SUBJECTS: &[Subject] = &[
 <g><image x="10" y="10" width="48" height="48" href="front.png"/><text x="10" y="90" font-size="6">Bird{}</text></g>
 <g><image x="110" y="10" width="48" height="48" href="side.png"/><text x="110" y="90" font-size="6">Bird{}</text></g></svg>"##,
         strings: &[
-            &["$View 0 0", "$View 0 0 Backing", "$View 5 0"],
+            &[
+                "$View 0 0",
+                "$View 0 0 Backing",
+                "$View 0 0 Mirror",
+                "$View 0 0 Backing Match thesis",
+                "$View 5 0",
+            ],
             &["$View 30 0", "$View 45 0", "$View 45 10", "$View 0 30"],
         ],
     },

@@ -3,7 +3,6 @@
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, section 4.2.3, for the similarity; the one-to-one assignment
 //! is our own.
 
-#[cfg(test)]
 pub(super) mod by_similarity;
 mod cost;
 mod diagnose;
@@ -133,12 +132,30 @@ pub enum Warning {
     },
 }
 
+/// How regions find their partners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Method {
+    /// All pairs together cost the least.
+    Whole,
+    /// Each region has the most similar one, by equations 4.1 and 4.2; the most similar of those that want one keeps it.
+    Thesis,
+}
+
 /// Matches the regions of all views one to one.
 ///
 /// `frames` are those of the views, in the same order. Views are added one by one, the nearest first, and each is matched with
 /// what is known already, seen from the nearest view that shows it. Regions with the same name are a pair, whatever they look
 /// like, and regions with different names are none. A stroke pairs with one of the partner of its region.
 pub(super) fn match_regions(
+    views: &TiSlice<ViewId, View>,
+    frames: &TiSlice<ViewId, Frame>,
+) -> Matching {
+    match_by(Method::Whole, views, frames)
+}
+
+/// [`match_regions`], or by the other method.
+pub(super) fn match_by(
+    method: Method,
     views: &TiSlice<ViewId, View>,
     frames: &TiSlice<ViewId, Frame>,
 ) -> Matching {
@@ -157,7 +174,7 @@ pub(super) fn match_regions(
                 all: &all,
                 owners: &owners,
             };
-            Step::new(known, next, &added, &matching.tracks).run(&mut matching);
+            Step::new(known, next, &added, &matching.tracks).run(method, &mut matching);
             diagnose::step(views, &all, [nearest, next], &mut matching);
         }
         let known = matching.tracks.iter().take(tracks);
@@ -269,11 +286,17 @@ impl<'a> Step<'a> {
         }
     }
 
-    fn run(&self, matching: &mut Matching) {
+    fn run(&self, method: Method, matching: &mut Matching) {
         let Known { views, all, .. } = self.known;
         let known = &all[self.view];
         let turn = |v: &View| Turn::new(v.direction, views[self.view].direction);
         let mut turns: TiVec<ViewId, _> = views.iter().map(turn).collect();
+        if method == Method::Thesis {
+            let compared = self.compared(&turns, Strokes::Any);
+            let partners = self.most_similar(&turns, &compared);
+            self.add_pairs(&partners, &turns, &compared, matching);
+            return;
+        }
         let rough = self.gains(&self.compared(&turns, Strokes::Any)).assign();
         for (view, turn) in turns.iter_mut_enumerated() {
             let of_view = |(row, _): &(&(TrackId, RegionInView), _)| row.1.view == view;
@@ -307,8 +330,38 @@ impl<'a> Step<'a> {
             compared = self.compared(&turns, Strokes::Of(&partners));
             partners = paired(&compared, &partners);
         }
-        for (row, partner) in partners.into_iter().enumerate() {
-            let (Some(column), (track, first)) = (partner, self.rows[row]) else {
+        self.add_pairs(&partners, &turns, &compared, matching);
+    }
+
+    /// The partner of each row by similarity; of those with the same name, that one.
+    fn most_similar(
+        &self,
+        turns: &TiSlice<ViewId, Turn>,
+        compared: &[Comparison],
+    ) -> Vec<Option<usize>> {
+        let known = &self.known.all[self.view];
+        let similarity = |row: usize, column: usize| {
+            let region = &self.rows[row];
+            match compared[row * known.len() + column].names {
+                Names::Same => by_similarity::NAMED,
+                Names::Different => 0.0,
+                Names::Nothing => turns[region.1.view]
+                    .similarity(self.features(region), &known[RegionId::from(column)]),
+            }
+        };
+        by_similarity::kept(self.rows.len(), known.len(), similarity)
+    }
+
+    fn add_pairs(
+        &self,
+        partners: &[Option<usize>],
+        turns: &TiSlice<ViewId, Turn>,
+        compared: &[Comparison],
+        matching: &mut Matching,
+    ) {
+        let known = &self.known.all[self.view];
+        for (row, partner) in partners.iter().enumerate() {
+            let (Some(column), (track, first)) = (*partner, self.rows[row]) else {
                 continue;
             };
             let compared = &compared[row * known.len() + column];

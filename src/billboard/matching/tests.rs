@@ -3,7 +3,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use proptest::prelude::*;
 
-use super::by_similarity::most_similar;
+use super::by_similarity::compared::most_similar;
 use super::exchange::{Sides, exchange};
 use super::gains::Gains;
 use super::*;

@@ -139,7 +139,7 @@ pub(super) fn drawing(seed: u64) -> (String, [Vec<Region>; 2]) {
         let [theta, phi] = [view.direction.theta, view.direction.phi];
         let _ = write!(
             text,
-            "<text x=\"{}\" y=\"890\" font-size=\"9\">Toy$View {theta} {phi}</text></g>",
+            "<text x=\"{}\" y=\"890\" font-size=\"9\">Toy$View {theta} {phi} Mirror off</text></g>",
             center.x
         );
     }

@@ -216,6 +216,8 @@ pub fn can_set(keyword: Keyword) -> bool {
             | Keyword::Height
             | Keyword::View
             | Keyword::Backing
+            | Keyword::Mirror
+            | Keyword::Match
             | Keyword::Hidden
             | Keyword::Depth
             | Keyword::Walk

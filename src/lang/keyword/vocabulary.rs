@@ -83,6 +83,18 @@ pub(crate) static SIDE: [Word; 2] = [
     word("both", "on the back as well, mirrored"),
 ];
 
+/// The words of `Mirror`.
+pub(crate) static MIRROR: [Word; 2] = [
+    word("on", "the side that nobody drew is a mirror image"),
+    word("off", "it stays as it is in the nearest view"),
+];
+
+/// The words of `Match`.
+pub(crate) static MATCH: [Word; 2] = [
+    word("whole", "all pairs together fit best, one to one"),
+    word("thesis", "each region with the most similar one"),
+];
+
 /// The words of `Facing`.
 pub(crate) static FACING: [Word; 5] = [
     word("left", "to the drawing's left"),
@@ -320,6 +332,8 @@ fn choices() -> impl Iterator<Item = &'static Word> {
         .chain(&TILE)
         .chain(&CARRY)
         .chain(&SIDE)
+        .chain(&MIRROR)
+        .chain(&MATCH)
         .chain(&FACING)
         .chain(&AXES)
         .chain(&CLIPS)

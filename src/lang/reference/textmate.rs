@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::kinds::KINDS;
 use crate::lang::keyword::vocabulary::{
-    AXES, BIND, CLIPS, FROM, FUNCTIONS, GROUND, ORIGIN, SPEED, STROKES, TILE, TO,
+    AXES, BIND, CLIPS, FROM, FUNCTIONS, GROUND, MATCH, MIRROR, ORIGIN, SPEED, STROKES, TILE, TO,
 };
 
 const NOTE: &str =
@@ -158,6 +158,7 @@ fn functions() -> String {
 fn words() -> String {
     let choices = ORIGIN.iter().chain(&GROUND).chain(&BIND).chain(&STROKES);
     let choices = choices.chain(&TILE).chain(&CLIPS);
+    let choices = choices.chain(MIRROR.iter().chain(&MATCH));
     let choices = choices.chain(FROM.iter().chain(&TO).chain(&SPEED));
     let choices = choices.map(|word| word.name);
     let mut names: Vec<_> = KINDS.iter().map(|kind| kind.name).chain(choices).collect();

@@ -91,14 +91,14 @@ fn model_picture(drawn: &[Drawn; 2], frame: &Frame, direction: Direction) -> Lab
     let directions: TiVec<ViewId, Direction> = views.iter().map(|view| view.direction).collect();
     let turn = between(&directions);
     let mut shown = tracks.iter().flat_map(|track| &track.regions);
-    let stops = Stops::new(&turn, shown.all(Option::is_some));
+    let stops = Stops::new(&turn, shown.all(Option::is_some), Vec::new());
     let weights = stops.turn.weights([direction.theta, direction.phi]);
     let shape = |(track, placed): (&Track, &TrackPosition)| {
         let morph = shape_of(track, &views);
         let at = stops
             .turn
             .position(&weights, &stops.places(&placed.in_views));
-        let shows = stops.show(|view| track.regions[view].is_some());
+        let sizes = stops.sizes(|view| track.regions[view].is_some());
         let point = |index: &u32| {
             let local = |view: ViewId| {
                 let [right, up, _] = directions[view].axes();
@@ -107,8 +107,9 @@ fn model_picture(drawn: &[Drawn; 2], frame: &Frame, direction: Direction) -> Lab
                 let own = frame.on_screen(morph.points[view][*index as usize]);
                 (own - middle).extend(0.0)
             };
-            let shown = weights.iter_enumerated().filter(|(view, _)| shows[*view]);
-            let shape = shown.map(|(view, weight)| *weight * stops.mixed(view, local));
+            let shape = weights.iter_enumerated();
+            let shape = shape
+                .map(|(view, weight)| *weight * stops.mixed(view, local) * sizes[view].extend(1.0));
             in_picture((at + shape.sum::<DVec3>()).truncate())
         };
         let rings = morph.rings.iter();

@@ -15,7 +15,7 @@ use typed_index_collections::TiVec;
 
 use super::manual;
 use crate::billboard::character::Character;
-use crate::billboard::matching::by_similarity::most_similar;
+use crate::billboard::matching::by_similarity::compared::most_similar;
 use crate::billboard::matching::{Track, match_regions};
 use crate::billboard::place::frames;
 use crate::billboard::region::{Direction, RegionId, View};
