@@ -690,7 +690,7 @@ fn moments_and_strips_of_clips() {
 #[test]
 fn the_clip_of_a_character_turns_it() {
     let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/characters/boy.svg");
-    let room = Room::with("boy.svg", &fs::read_to_string(file).expect("the example"));
+    let room = Room::with("boy.svg", fs::read_to_string(file).expect("the example"));
     let arguments = "render boy.svg -o strip.png --clip 1 --strip 5 --to 1 --size 60x80";
     ends(&room, arguments, 0, "wrote strip.png: 5 moments");
     let strip = picture(&room, "strip.png");
