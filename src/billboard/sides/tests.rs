@@ -94,12 +94,9 @@ fn measured(seeds: impl Iterator<Item = u64>) -> Counts {
 #[test]
 fn symmetric_characters_look_like_their_mirror_images_from_the_other_side() {
     for seeds in [FITTED, HELD_BACK] {
-        let counts = measured(seeds.clone());
+        let counts = measured(seeds);
         let overlap = counts.overlaps.iter().sum::<f64>() / counts.overlaps.len() as f64;
         let (symmetric, lopsided) = (counts.symmetric, counts.lopsided);
-        println!(
-            "seeds {seeds:?}: symmetric {symmetric:?}, lopsided {lopsided:?}, overlap {overlap:.3}"
-        );
         let [all, found] = symmetric;
         assert!(all > 15 && found * 10 >= all * 9, "{found} of {all}");
         let [all, found] = lopsided;
