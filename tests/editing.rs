@@ -471,7 +471,7 @@ fn a_file_that_is_written_in_pieces_is_waited_for() {
 
 #[test]
 fn changes_and_saves_at_the_same_time_lose_nothing() {
-    let edited = Edited::new(DRAWING);
+    let mut edited = Edited::new(DRAWING);
     let path = edited.path();
     let stop = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
     let stopped = stop.clone();
@@ -496,6 +496,8 @@ fn changes_and_saves_at_the_same_time_lose_nothing() {
     for at in 0..12 {
         let change = json!({"change": "set", "part": "Arm", "attribute": "Offset", "value": (at + 1).to_string()});
         made += usize::from(edited.makes(&change).0 == 200);
+        // As a person would, who sees what has come of it; the other program saves, so there is a build.
+        edited.build();
     }
     stop.store(true, std::sync::atomic::Ordering::Relaxed);
     let (saves, lost) = writer.join().expect("joined");

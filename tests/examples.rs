@@ -182,8 +182,8 @@ fn the_cars_doors_and_tyres_are_on_both_sides() {
         let found = nodes.iter().find(|node| node.name == name);
         found.unwrap_or_else(|| panic!("there is no `{name}`"))
     };
-    // `Scale 2.5`: a unit of the drawing is 2.5 cm.
-    let meters = |units: f32| units * 0.025;
+    // `Scale 1.25`: a unit of the drawing is 1.25 cm.
+    let meters = |units: f32| units * 0.0125;
     for door in ["RearDoor", "FrontDoor"] {
         let [low, high] = bounds(named(door));
         assert!(near(high[2], -low[2]), "{door}: {low:?} {high:?}");

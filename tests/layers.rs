@@ -290,6 +290,7 @@ const USES: &[(&str, &[&str])] = &[
             "rig",
             "scene",
             "source",
+            "terrain",
         ],
     ),
     ("resolver", &[]),

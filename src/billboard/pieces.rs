@@ -26,6 +26,8 @@ use crate::scene::ViewId;
 /// How far in front of its place what is seen of a mesh lies at most, heights. The copies of a mesh share it, and the depth buffers of
 /// viewers have to tell them apart.
 pub(super) const DEPTH: f64 = 0.0012;
+/// How far apart veils of different paints lie where none of them is seen, heights.
+const VEILS_APART: f64 = DEPTH / 32.0;
 /// Neighbouring mixtures differ by at most this in each channel, as far as [`MOST_STEPS`] allows.
 const STEP: f64 = 0.08;
 /// Steps from one paint to another.
@@ -183,7 +185,15 @@ fn veils<'a>(morph: &'a Morph, paints: &Paints) -> Vec<Piece<'a>> {
             let passes = (number as f64 - 0.5) / VEILS as f64;
             let in_front = DEPTH * (1.0 + number as f64 / VEILS as f64) / 2.0;
             let slope = in_front / (1.0 - passes);
-            let lift = |at: &usize| slope * (if *at == paint { 1.0 } else { 0.0 } - passes);
+            // Where several paints are not seen, they are behind the first one, and apart from each other: from behind they would flicker.
+            let apart = VEILS_APART * (paint - 1) as f64;
+            let lift = |at: &usize| {
+                if *at == paint {
+                    slope * (1.0 - passes)
+                } else {
+                    -slope * passes - apart
+                }
+            };
             Piece {
                 morph: Cow::Borrowed(morph),
                 lifts: paints.of_view.iter().map(lift).collect(),

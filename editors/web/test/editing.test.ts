@@ -37,8 +37,12 @@ class Edited {
   /** The form of a part. */
   async select(part: string): Promise<void> {
     await this.page.locator(`[data-part="${part}"]`).click();
-    await this.page.locator(".part-form").waitFor();
-    await this.page.waitForFunction((part) => document.querySelector(".inspector .part-name")?.textContent === part, part);
+    await this.formOf(part);
+  }
+
+  /** Waits for the form of a part. */
+  async formOf(part: string): Promise<void> {
+    await this.page.locator(`.part-form[data-form-of="${part}"]:not([inert])`).waitFor();
   }
 
   label(name: string): Locator {
@@ -285,20 +289,21 @@ edit("a drawing without a string becomes a figure, and nobody writes one", async
   await page.getByRole("button", { name: "Edit" }).click();
   const automatic = page.locator(".tree-item.automatic.main").first();
   for (const name of ["Body", "Left arm", "Right arm", "Head"]) {
-    await automatic.click();
+    const unnamed = await automatic.getAttribute("data-part");
+    await edited.select(unnamed!);
     await page.keyboard.press("F2");
     await page.waitForFunction(() => document.activeElement?.getAttribute("aria-label") === "Name");
     await page.keyboard.type(name);
     if (name === "Left arm") await shot("1-name");
     await page.keyboard.press("Enter");
     await page.locator(`[data-part="${name}"][aria-selected=true]`).waitFor();
+    await edited.formOf(name);
   }
   for (const name of ["Left arm", "Right arm", "Head"]) {
     await edited.select(name);
     const hangs = edited.label("Hangs on");
     if ((await hangs.inputValue()) !== "@Body") {
       await hangs.selectOption("@Body");
-      await page.getByText("Saved").waitFor();
     }
     await page.locator(`[data-part="${name}"][aria-level="2"]`).waitFor();
   }

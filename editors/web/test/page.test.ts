@@ -87,8 +87,8 @@ browse("a drawing without a build is reported, and appears with its first one", 
 browse("the header says how large the model is, if there is one", one(HUMAN), async (page, host) => {
   await shown(page);
   const size = page.locator(".bar-size");
-  assert.equal(await size.innerText(), "3.61 × 6.92 × 0.8 m");
-  assert.equal(await size.getAttribute("title"), "3.61 m wide, 6.92 m high, 0.8 m deep");
+  assert.equal(await size.innerText(), "0.902 × 1.73 × 0.2 m");
+  assert.equal(await size.getAttribute("title"), "0.902 m wide, 1.73 m high, 0.2 m deep");
   const { build: facts, ...rest } = build(HUMAN);
   host.built("human.svg", { ...rest, build: { ...facts, size: null } });
   await shown(page, 2);

@@ -6,7 +6,7 @@ const MORE_POINTS: usize = 1 << 16;
 const MOST_EACH: usize = 1 << 9;
 const LEAST_EACH: usize = 1 << 5;
 /// Each of so many bodies may spend as many points on it as it has by itself; each of more, which are smaller, only a share of these.
-const MANY_BODIES: usize = 1 << 8;
+const MANY_BODIES: usize = 1 << 9;
 
 /// How many points the mesh of a body may spend on following those below.
 #[derive(Debug, Clone, Copy)]

@@ -18,8 +18,6 @@ export class Editing {
   /** Shows the field for the name of the selected part; set by the page. */
   rename: () => void = () => {};
   private readonly listeners = new Map<EditingTopic, (() => void)[]>();
-  /** New names of parts, which the page has not seen in a build yet. */
-  private readonly names = new Map<string, string>();
   /** Changes are made one after the other. */
   private last: Promise<unknown> = Promise.resolve();
 
@@ -29,7 +27,6 @@ export class Editing {
       this.notify("mode");
     });
     state.on("current", () => this.clear());
-    state.on("build", () => this.names.clear());
     state.on("selection", () => {
       if (this.refusal) this.clear();
     });
@@ -75,10 +72,11 @@ export class Editing {
     return this.state.steps.redo;
   }
 
-  /** Makes a change; `true` if it was made. The part that it is about stays selected, also under another name. */
-  async make(change: Change): Promise<boolean> {
-    return this.send(() => ({ make: { ...change, part: this.names.get(change.part) ?? change.part } }), (part) => {
-      if (change.change === "name" && part !== null) this.names.set(change.part, part);
+  /** Makes a change in a part's form; `true` if it was made. The part stays selected, and the form is its own, also under another name. */
+  async make(form: PartForm, change: Change): Promise<boolean> {
+    // By the name that it has once all changes before this one are made.
+    return this.send(() => ({ make: { ...change, part: form.part } }), (part) => {
+      if (change.change === "name" && part !== null) form.part = part;
     });
   }
 

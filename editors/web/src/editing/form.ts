@@ -52,6 +52,9 @@ export class FormPanel {
     editing.listen(["picking"], () => this.draw());
     state.on(["selection", "current"], () => {
       this.held = this.names = false;
+      // Until its own form is there, nobody changes another part by mistake. Whoever is in the form has renamed the part.
+      const isOther = this.form !== null && this.form.part !== state.selected;
+      this.element.inert = isOther && !this.element.contains(document.activeElement);
       this.load();
     });
     state.on("build", (drawing) => {
@@ -89,6 +92,8 @@ export class FormPanel {
     this.late = false;
     const { form } = this;
     this.element.hidden = form === null;
+    this.element.inert = form !== null && this.element.inert && form.part !== this.state.selected;
+    this.element.dataset["formOf"] = form?.part ?? "";
     if (!form) return void fill(this.element);
     const active = document.activeElement;
     const key = active instanceof HTMLElement && this.element.contains(active) ? active.dataset["key"] : undefined;
@@ -126,7 +131,7 @@ export class FormPanel {
     const { form } = this;
     const name = this.name.value.trim();
     if (!form || name === "" || (name === form.part && form.named)) return void this.draw();
-    void this.editing.make({ change: "name", part: form.part, name });
+    void this.editing.make(form, { change: "name", part: form.part, name });
   }
 
   private parents(form: PartForm): HTMLElement {
@@ -134,7 +139,7 @@ export class FormPanel {
     const names = [...new Set([...form.parents, ...(form.parent === null ? [] : [form.parent])])];
     fill(select, h("option", { attributes: { value: "" } }, "nothing"), ...names.map((name) => h("option", { attributes: { value: `@${name}` } }, name)));
     select.value = form.parent === null ? "" : `@${form.parent}`;
-    const hang = (parent: string | null): void => void this.editing.make({ change: "hang", part: form.part, parent });
+    const hang = (parent: string | null): void => void this.editing.make(form, { change: "hang", part: form.part, parent });
     select.addEventListener("change", () => hang(select.value === "" ? null : select.value.slice(1)));
     const { isPicking } = this.editing;
     const pick = button({ icon: MousePointerClick, label: "Click what it hangs on", press: () => this.editing.pick(isPicking ? null : hang) });
@@ -144,7 +149,7 @@ export class FormPanel {
   }
 
   private leaving(form: PartForm): HTMLElement {
-    const leave = (): void => void this.editing.make({ change: "leave-out", part: form.part });
+    const leave = (): void => void this.editing.make(form, { change: "leave-out", part: form.part });
     return h("p", { class: "form-end" }, h("button", { class: "button framed", attributes: { type: "button", "data-key": "leave-out" }, on: { click: leave } }, "Leave this part out of the model"));
   }
 
@@ -171,12 +176,12 @@ export class FormPanel {
     const from = FROM[field.from] ?? field.from;
     const said = h("span", { class: "muted field-from", ...(field.string === null ? {} : { title: field.string }) }, from);
     if (field.from !== "own") return [said];
-    const reset = h("button", { class: "button reset", title: `Take ${field.attribute} away: ${field.default}`, attributes: { type: "button", "aria-label": `Reset ${field.attribute}`, "data-key": `${field.attribute} reset` }, on: { click: () => void this.editing.make({ change: "reset", part: form.part, attribute: field.attribute }) } }, icon(RotateCcw), "Reset");
+    const reset = h("button", { class: "button reset", title: `Take ${field.attribute} away: ${field.default}`, attributes: { type: "button", "aria-label": `Reset ${field.attribute}`, "data-key": `${field.attribute} reset` }, on: { click: () => void this.editing.make(form, { change: "reset", part: form.part, attribute: field.attribute }) } }, icon(RotateCcw), "Reset");
     return [said, reset];
   }
 
   private inside(form: PartForm, field: Field): HTMLElement[] {
-    const send: Sending = (value) => void this.editing.make(value === null ? { change: "reset", part: form.part, attribute: field.attribute } : { change: "set", part: form.part, attribute: field.attribute, value });
+    const send: Sending = (value) => void this.editing.make(form, value === null ? { change: "reset", part: form.part, attribute: field.attribute } : { change: "set", part: form.part, attribute: field.attribute, value });
     const shared = field.shared.length > 0 ? [h("p", { class: "muted field-note" }, `Shared with ${named(field.shared)}.`)] : [];
     return [h("p", { class: "muted field-note" }, ...inCode(sentence(field.summary))), ...shared, ...fieldControls(field, send)];
   }

@@ -69,7 +69,8 @@ export interface Field {
 
 /** What can be changed about a part. */
 export interface PartForm {
-  readonly part: string;
+  /** Its name, which may become another one while the form is shown. */
+  part: string;
   /** Whether a person named it. */
   readonly named: boolean;
   /** Whether it has a place in the figure: a name that others use, and a parent. */
