@@ -488,7 +488,7 @@ fn changes_and_saves_at_the_same_time_lose_nothing() {
             fs::write(&copy, new).expect("written");
             fs::rename(&copy, &path).expect("renamed");
             saves += 1;
-            std::thread::sleep(Duration::from_millis(40));
+            std::thread::sleep(Duration::from_millis(120));
         }
         (saves, lost)
     });

@@ -134,7 +134,7 @@ return {
         { arm, 'yypyyp' },
         { 'Head@Ubody', 'J' },
         { '>Lbody<', 'x' },
-        { 'Scale 2.0', 'rＳ' },
+        { 'Scale 0.5', 'rＳ' },
         { '*Unuse', 'i😀<Esc>' },
       }) do
         h.go(change[1])

@@ -29,11 +29,11 @@ interface Diagnostic {
 /** Builds a drawing's text in the folder of its links. */
 export function make(okoshi: string, text: string, beside: string): Made {
   const scratch = mkdtempSync(join(tmpdir(), "okoshi-web-"));
-  // The drawing is written beside the files that it links to, under a unique name.
-  const drawing = join(dirname(beside), `.${basename(scratch)}.svg`);
+  const drawing = join(scratch, basename(beside));
   try {
     writeFileSync(drawing, text);
-    const run = (...args: string[]) => spawnSync(okoshi, args, { encoding: "utf8", maxBuffer: 1 << 28, timeout: PATIENCE });
+    // The files that it links to are not beside it.
+    const run = (command: string, ...args: string[]) => spawnSync(okoshi, [command, "--base", dirname(beside), ...args], { encoding: "utf8", maxBuffer: 1 << 28, timeout: PATIENCE });
     const began = performance.now();
     const built = run("build", "-q", drawing, "-o", join(scratch, "a.glb")).status === 0;
     // Including the start of the program: a running host is faster.
@@ -53,7 +53,6 @@ export function make(okoshi: string, text: string, beside: string): Made {
       build: { milliseconds, stale: !built, triangles: 0, size, findings, parts },
     };
   } finally {
-    rmSync(drawing, { force: true });
     rmSync(scratch, { recursive: true, force: true });
   }
 }
