@@ -8,10 +8,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use common::program::Room;
 use common::{Node, examples};
 use okoshi::FolderResolver;
 use okoshi::diagnostic::{Code, Severity};
 use okoshi::internals::lang::keyword::kinds::KINDS;
+use serde_json::Value;
 
 /// The size limit of pictures in the gallery, bytes.
 const PICTURE: u64 = 60 << 10;
@@ -156,6 +158,49 @@ fn lessons_show_their_drawings() {
         }
         assert!(pictures >= drawings, "{folder}: {pictures} pictures");
     }
+}
+
+/// People among the examples.
+const PEOPLE: [&str; 11] = [
+    "girl",
+    "human",
+    "lady",
+    "characters/boy",
+    "characters/robot",
+    "motion/boxer",
+    "motion/girl",
+    "motion/kick",
+    "motion/knight",
+    "motion/robot-ja",
+    "tutorial/7-walk",
+];
+
+#[test]
+fn people_and_maps_are_of_one_measure() {
+    let mut maps = 0;
+    for name in examples() {
+        let path = drawing(&name);
+        let path = path.to_str().expect("a path in UTF-8");
+        let run = Room::new().run(&["inspect", "--json", path]);
+        assert_eq!(run.status, 0, "{name}: {}", run.err);
+        let report: Value = serde_json::from_str(&run.out).expect("JSON");
+        if PEOPLE.contains(&&*name) {
+            let height = report["size_in_metres"]["height"].as_f64();
+            let height = height.unwrap_or_else(|| panic!("{name} has no height"));
+            assert!((1.3..=2.15).contains(&height), "{name}: {height} m");
+        }
+        let text = fs::read_to_string(path).expect("a drawing");
+        let scale = text.split_once("%Scale ").map_or("1", |(_, rest)| {
+            rest.split('<').next().expect("a first piece")
+        });
+        for map in report["terrain"].as_array().into_iter().flatten() {
+            maps += 1;
+            let tile = map["tile"].as_f64().expect("the side of a tile");
+            let scale: f64 = scale.parse().expect("a number");
+            assert_eq!(tile * scale, 100.0, "{name}: centimetres of a tile");
+        }
+    }
+    assert!(maps >= 16, "only {maps} maps");
 }
 
 /// The smallest and largest coordinates of a node's solids, in its own frame.
