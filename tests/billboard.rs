@@ -136,16 +136,8 @@ fn is_alike(a: [u8; 4], b: [u8; 4]) -> bool {
 /// colour an intersection over union of at least 0.98. Returns how many colours were compared.
 fn assert_same(drawn: &Picture, model: &Picture, what: &str) -> usize {
     assert_eq!(drawn.pixels.len(), model.pixels.len(), "{what}");
-    let (mut all, mut right) = (0, 0);
-    for (at, (own, shown)) in drawn.pixels.iter().zip(&model.pixels).enumerate() {
-        if (own[3] > 0 || shown[3] > 0) && drawn.is_even(at, 2) {
-            all += 1;
-            right += usize::from(is_alike(*own, *shown));
-        }
-    }
-    assert!(all > 5000, "{what}: {all} pixels");
-    let share = right as f64 / all as f64;
-    assert!(share > 0.999, "{what}: {right} of {all}");
+    let share = drawn.same(model, is_alike);
+    assert!(share > 0.999, "{what}: {share}");
 
     // The colours that areas have, and of each the pixels that are nearer to it than to any other.
     let mut colors: Vec<([u8; 4], usize)> = Vec::new();

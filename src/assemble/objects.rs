@@ -7,7 +7,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::TiSlice;
 
 use super::materials::LookMaterials;
-use crate::bind::Bindings;
+use crate::bind::{Bindings, Numbers};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::scene::{
     MaterialId, Mesh, MeshId, NewNode, Node, NodeId, Primitive, Scene, SurfacePatch,
@@ -28,17 +28,15 @@ pub(super) fn name(bindings: &Bindings, layers: &mut TiSlice<LandscapeId, Layer>
     let parts = bindings.parts.iter().map(|part| part.name.clone());
     let names = bindings.layers.iter().map(|layer| layer.name.clone());
     let mut taken: FxHashSet<String> = parts.chain(names).collect();
-    let mut numbers: FxHashMap<String, usize> = FxHashMap::default();
+    let mut numbers = Numbers::default();
     for object in layers.iter_mut().flat_map(|layer| &mut layer.objects) {
         if object.name.is_empty() {
             NAMELESS.clone_into(&mut object.name);
         }
-        let base = object.name.clone();
-        while !taken.insert(object.name.clone()) {
-            let number = numbers.entry(base.clone()).or_insert(1);
-            *number += 1;
-            object.name = format!("{base}-{number}");
+        if taken.contains(&object.name) {
+            object.name = numbers.free(&object.name, 2, |name| !taken.contains(name));
         }
+        taken.insert(object.name.clone());
     }
 }
 

@@ -38,7 +38,7 @@ pub(crate) use extents::FigureExtent;
 pub(crate) use forms::FormByName;
 pub use matching::in_layers_of_pixels;
 pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
-pub(crate) use names::written_by_a_person;
+pub(crate) use names::{Numbers, written_by_a_person};
 pub(crate) use props::Prop;
 pub(crate) use reports::locate;
 pub(crate) use vehicles::VehiclePart;

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use rustc_hash::FxHashMap;
+
 use super::bindings::NamedBy;
 use super::words::{PROGRAM_WORDS, PROGRAM_WORDS_WITH_NUMBERS};
 use crate::svg::{Element, GroupId};
@@ -20,6 +22,29 @@ const MIXED: usize = 4;
 pub(super) struct OwnName {
     pub(super) name: String,
     pub(super) by: NamedBy,
+}
+
+/// Numbers for names that are taken, as in `Tree-2`: per name the number to try next.
+#[derive(Debug, Default)]
+pub(crate) struct Numbers(FxHashMap<String, usize>);
+
+impl Numbers {
+    /// A name with a number that makes it free: the first one that was not tried for it yet, from `first` on.
+    pub(crate) fn free(
+        &mut self,
+        name: &str,
+        first: usize,
+        is_free: impl Fn(&str) -> bool,
+    ) -> String {
+        let next = self.0.entry(name.to_owned()).or_insert(first);
+        loop {
+            let numbered = format!("{name}-{next}");
+            *next += 1;
+            if is_free(&numbered) {
+                return numbered;
+            }
+        }
+    }
 }
 
 /// The name in a label or an id if a person wrote it; `None` if a program made it.

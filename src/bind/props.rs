@@ -5,7 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::bindings::{Bindings, NamedBy, Part, PartId, PartKind};
 use super::matching::{LayerId, foot};
-use super::names::{OwnName, of_element};
+use super::names::{Numbers, OwnName, of_element};
 use crate::svg::{Drawing, GroupId, Paint, PaintKey};
 use crate::texture::{PaintServer, Source};
 
@@ -97,7 +97,7 @@ fn name(
     let taken = others.map(|part| part.name.clone());
     let layers = bindings.layers.iter().map(|layer| layer.name.clone());
     let mut taken: FxHashSet<String> = taken.chain(layers).collect();
-    let mut numbers: FxHashMap<String, usize> = FxHashMap::default();
+    let mut numbers = Numbers::default();
     for prop in props {
         let part = &bindings.parts[prop.main];
         let said = (!part.name.is_empty()).then(|| OwnName {
@@ -114,19 +114,10 @@ fn name(
             Some(own) => (own.name, own.by),
             None => (bindings.layers[prop.layer].name.clone(), NamedBy::Automatic),
         };
-        let name = match taken.contains(&base) || by == NamedBy::Automatic {
-            false => base,
-            true => {
-                let first = if by == NamedBy::Automatic { 0 } else { 1 };
-                let number = numbers.entry(base.clone()).or_insert(first);
-                loop {
-                    *number += 1;
-                    let name = format!("{base}-{number}");
-                    if !taken.contains(&name) {
-                        break name;
-                    }
-                }
-            }
+        let name = match by {
+            NamedBy::Automatic => numbers.free(&base, 1, |name| !taken.contains(name)),
+            _ if taken.contains(&base) => numbers.free(&base, 2, |name| !taken.contains(name)),
+            _ => base,
         };
         taken.insert(name.clone());
         let part = &mut bindings.parts[prop.main];

@@ -6,7 +6,7 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::Context;
 use crate::bind::bindings::{DrawingString, NamedBy, PartId, PartKind, StringHolder};
 use crate::bind::matching::Matched;
-use crate::bind::names::{OwnName, ROOT, of_element};
+use crate::bind::names::{Numbers, OwnName, ROOT, of_element};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::{self, Annotation, Name};
 use crate::source::Span;
@@ -106,8 +106,7 @@ impl Names {
 
     /// Names the main parts that have no name yet by what a person called them. A name that is taken gets a number.
     pub(super) fn give_own(&mut self, context: Context<'_>) {
-        // Per name that was taken, the number tried last.
-        let mut numbers: FxHashMap<String, usize> = FxHashMap::default();
+        let mut numbers = Numbers::default();
         for part in context.mains() {
             if !self.of(part).is_empty() {
                 continue;
@@ -119,14 +118,7 @@ impl Names {
             let name = if is_free(&own.name) {
                 own.name
             } else {
-                let number = numbers.entry(own.name.clone()).or_insert(1);
-                loop {
-                    *number += 1;
-                    let name = format!("{}-{number}", own.name);
-                    if is_free(&name) {
-                        break name;
-                    }
-                }
+                numbers.free(&own.name, 2, is_free)
             };
             self.give(part, name, own.by);
         }
