@@ -27,7 +27,7 @@ if ($Uninstall) {
 if (-not $Okoshi) { $Okoshi = 'okoshi' }
 $program = @($Okoshi, "$env:USERPROFILE\.cargo\bin\okoshi.exe") |
     ForEach-Object { Get-Command $_ -ErrorAction SilentlyContinue } | Select-Object -First 1
-if (-not $program) { throw 'The program okoshi was not found. Install it (cargo install --path .), or pass its path: -Okoshi C:\path\to\okoshi.exe' }
+if (-not $program) { throw 'The program okoshi was not found. Install one of its packages (pip install okoshi-*.whl, for instance), or pass its path: -Okoshi C:\path\to\okoshi.exe' }
 $said = (& $program.Source --version)
 if ($said -notmatch '^okoshi ') { throw "$($program.Source) is not okoshi: its version is `"$said`"." }
 Write-Output "${said}: $($program.Source)"

@@ -72,8 +72,8 @@ if [ -z "$okoshi" ]; then
     if command -v "$place" > /dev/null; then okoshi=$place; break; fi
   done
 fi
-[ -n "$okoshi" ] || fail "The program okoshi was not found on the PATH or in ~/.cargo/bin. Install it (cargo install --path .)," \
-  "or pass its path: bash install.sh --okoshi /path/to/okoshi"
+[ -n "$okoshi" ] || fail "The program okoshi was not found on the PATH or in ~/.cargo/bin. Install one of its packages" \
+  "(pip install okoshi-*.whl, for instance), or pass its path: bash install.sh --okoshi /path/to/okoshi"
 okoshi=$(command -v "$okoshi") || fail "$okoshi is not a program."
 okoshi=$(cd "$(dirname "$okoshi")" && pwd)/$(basename "$okoshi")
 said=$("$okoshi" --version) || fail "$okoshi does not run."

@@ -2,10 +2,11 @@
 # Makes the gallery's pictures from the drawings in examples/, without those of tests/tools/tutorial.sh: bash tests/tools/gallery.sh [NAME…]
 #
 # NAME is a drawing in examples/ without extension: girl, shapes/cone. Each drawing gets gallery/NAME-drawing.png and
-# gallery/NAME-model.png in docs/; island-textured also gets NAME.png there, with both side by side,
-# island gets terrain-on.png and terrain-off.png, its drawn look and true 3D, and characters/boy gets characters-matches.png, which of
-# its regions are pairs. Requires Inkscape for the drawings, okoshi for the
-# models, and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a folder to use instead of docs/.
+# gallery/NAME-model.png in docs/; island-textured and looks also get NAME.png there, with both side by side,
+# island gets terrain-on.png and terrain-off.png, its drawn look and true 3D, characters/boy gets characters-matches.png, which of
+# its regions are pairs, and robot-ja gets robot.png, as `okoshi render` alone makes it, but smaller. Requires Inkscape for the
+# drawings, okoshi for the models, and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a folder to use instead of
+# docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
@@ -37,8 +38,10 @@ while IFS= read -r drawing; do
     python3 tests/tools/thumbnail.py "$room/$flat-$side.png" "$out/gallery/$flat-$side.png"
   done
   case $name in
-    island-textured)
+    island-textured | looks)
       python3 tests/tools/side_by_side.py "$room/$flat-drawing.png" "$room/$flat-model.png" "$out/$flat.png" ;;
+    robot-ja)
+      "$okoshi" render --quiet "$drawing" -o "$out/robot.png" --size 400x400 ;;
     characters/boy)
       "$okoshi" inspect --quiet "$drawing" --matches "$room/matches.png" > "$room/list.txt"
       python3 -c 'import sys; from PIL import Image; Image.open(sys.argv[1]).convert("RGB").quantize(128).save(sys.argv[2], optimize=True)' \

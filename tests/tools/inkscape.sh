@@ -3,9 +3,11 @@
 #
 # Tests installation; models from the command line, which must be byte for byte those of `okoshi build`; errors in a drawing; and in
 # a window on a virtual screen (Xvfb, openbox, xdotool) the menu entries, clicks on findings, which select objects, saving while the
-# preview or `okoshi watch` runs, and Save As. Screenshots go to SCRATCH/shots. Without OKOSHI the program is taken from target/. Exits with status 77 and a reason if something is not installed.
+# preview or `okoshi watch` runs, and Save As. Screenshots go to SCRATCH/shots; OKOSHI_REWRITE=pictures also replaces that of the manual.
+# Without OKOSHI the program is taken from target/. Exits with status 77 and a reason if something is not installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+repository=$PWD
 project=$PWD
 if [ -z "${OKOSHI:-}" ]; then
   for built in target/debug/okoshi target/release/okoshi; do [ ! -x $built ] || OKOSHI=$built; done
@@ -61,7 +63,7 @@ echo "-- installing"
 install=editors/inkscape/install.sh
 place=$INKSCAPE_PROFILE_DIR/extensions/okoshi
 if env PATH=/usr/bin:/bin HOME="$SCRATCH" bash $install > "$SCRATCH/log" 2>&1; then fail "installed without a program"; fi
-has "$SCRATCH/log" "cargo install --path ."
+has "$SCRATCH/log" "pip install okoshi-*.whl"
 if bash $install --okoshi /bin/true > "$SCRATCH/log" 2>&1; then fail "accepted another program as okoshi"; fi
 has "$SCRATCH/log" "is not okoshi"
 if bash $install --nonsense > "$SCRATCH/log" 2>&1; then fail "accepted an unknown option"; fi
@@ -229,6 +231,9 @@ xdotool windowactivate --sync "$findings" key Down Return
 await selected text154
 settle
 shot check-selected
+case ",${OKOSHI_REWRITE:-}," in
+  *,pictures,*) convert "$SCRATCH/shots/check-selected.png" +dither -colors 128 "$repository/docs/editors/inkscape.png" ;;
+esac
 # Another check shows its result in the same window.
 action delete-selection
 action org.okoshi.check.noprefs

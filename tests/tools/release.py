@@ -3,11 +3,11 @@
 
     OKOSHI=PROGRAM python3 tests/tools/release.py OUT
 
-PROGRAM is `cargo build --profile dist`'s, or any other with the page inside, for this system and its processor. On Linux: an archive, a
-Debian package, a Python wheel (`pip install` puts `okoshi` on the path), an npm package, and the extension for VS Code with the
-program inside; on macOS and Windows the same but for the Debian package, which was not run there yet. And Inkscape's extension with its
-installers. Beside them are their checksums and a list of what is inside (SBOM, CycloneDX). first_figure.py installs each as docs/install.md says,
-and makes a figure with it as the tutorial says. Requires cargo, pip and npm, and on Linux binutils and dpkg-deb.
+PROGRAM is `cargo build --profile dist`'s, or any other with the page inside, for this system and its processor; on Linux it needs glibc, or is
+static. On Linux: an archive, a Debian package, a Python wheel (`pip install` puts `okoshi` on the path), an npm package, and the extension
+for VS Code with the program inside; on macOS and Windows the same but for the Debian package, which was not run there yet. And Inkscape's
+extension with its installers. Beside them are their checksums and a list of what is inside (SBOM, CycloneDX). first_figure.py installs each
+as docs/install.md says, and makes a figure with it as the tutorial says. Requires cargo, pip and npm, and on Linux binutils and dpkg-deb.
 """
 
 import base64
@@ -79,7 +79,10 @@ def metadata():
 
 def lowest_libc(program):
     """The lowest version of glibc that a program runs with; None for one that needs no library of the system."""
-    found = re.findall(r"GLIBC_(\d+)\.(\d+)", run("objdump", "-T", program))
+    needed = re.findall(r"^ +NEEDED +(\S+)", run("objdump", "-p", program), re.M)
+    found = re.findall(r"GLIBC_(\d+)\.(\d+)", run("objdump", "-T", program)) if needed else []
+    if needed and not found:
+        first_figure.fail(f"{program} needs {', '.join(needed)}, but not glibc: a program for another C library is packaged if it is static")
     return max(((int(major), int(minor)) for major, minor in found), default=None)
 
 

@@ -1,11 +1,13 @@
-"""Compares pictures that were made again with the committed ones: python3 tests/tools/same_pictures.py MADE COMMITTED FOLDER…
+"""Compares pictures that were made again with the committed ones: python3 tests/tools/same_pictures.py MADE COMMITTED [PATTERN…]
 
 MADE has the same paths as COMMITTED. Pictures may differ as fonts and processors make them differ, but not in what they show: both are divided
-into about a thousand squares, and no square may have another colour. Of moving pictures, every eighth is compared. In each FOLDER of both,
-all committed pictures must have been made, so that none is left over. Exit status 1 if a picture is older than the program. Requires Pillow.
+into about a thousand squares, and no square may have another colour. Of moving pictures, every eighth is compared. All committed pictures must
+have been made, so that none is left over, but for those whose paths match a PATTERN. Exit status 1 if a picture is older than the program.
+Requires Pillow.
 """
 
 import sys
+from fnmatch import fnmatch
 from pathlib import Path
 
 from PIL import Image, ImageChops, ImageSequence, ImageStat
@@ -17,6 +19,8 @@ SQUARES = 32
 ENDINGS = {".png", ".webp", ".gif", ".jpg"}
 # Pages with Japanese texts, for which machines have different fonts, or none.
 FONTS = {Path("gallery/robot-ja-drawing.png"), Path("gallery/motion-robot-ja-drawing.png")}
+# A recording, which begins at any moment of what the camera films, and takes as many pictures as the machine can.
+RECORDED = {Path("preview-camera.png")}
 # Every so many of a moving picture.
 STRIDE = 8
 
@@ -54,16 +58,15 @@ def pictures(folder):
 
 
 def main():
-    made, committed, whole = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
+    made, committed, elsewhere = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:]
     new = pictures(made)
     if not new:
         sys.exit(f"error: there are no pictures in {made}")
     if new & FONTS:
         print("skipped: pages with Japanese texts are not compared, which look different with every font")
-    wrong = {name: why for name in sorted(new - FONTS) if (why := complaint(made / name, committed / name))}
-    for folder in whole:
-        left = {Path(folder) / name for name in pictures(committed / folder)} - new
-        wrong |= {name: "is made by no script" for name in left}
+    wrong = {name: why for name in sorted(new - FONTS - RECORDED) if (why := complaint(made / name, committed / name))}
+    left = {name for name in pictures(committed) - new if not any(fnmatch(name, pattern) for pattern in elsewhere)}
+    wrong |= {name: "is made by no script" for name in sorted(left)}
     for name, why in wrong.items():
         print(f"{committed / name} {why}")
     print(f"{len(new)} pictures made again, {len(wrong)} of them not as committed")

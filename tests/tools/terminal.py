@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs a program in a terminal, types keys, and saves the screen as a PNG: the screenshots in docs/editors.
+"""Runs a program in a terminal, types keys, and saves the screen as a PNG, for editor_pictures.sh.
 
     pip install pyte pillow
     terminal.py -o out.png [--size COLUMNSxROWS] [--keys "1.5:ihello<Esc>"]… [--env NAME=VALUE]… -- PROGRAM ARGUMENTS…
@@ -105,7 +105,6 @@ def run(arguments):
 def draw(screen, ink, paper):
     """The screen as an image."""
     fonts = {False: ImageFont.truetype(PLAIN, SIZE), True: ImageFont.truetype(BOLD, SIZE)}
-    wide = ImageFont.truetype(CJK, SIZE)
     width, height = round(fonts[False].getlength("M")), round(SIZE * 1.3)
     image = Image.new("RGB", (screen.columns * width, screen.lines * height), paper)
     pen = ImageDraw.Draw(image)
@@ -120,7 +119,7 @@ def draw(screen, ink, paper):
             if cell.data:
                 pen.rectangle([x, y, x + columns * width - 1, y + height - 1], fill=back)
             if cell.data.strip():
-                pen.text((x, y), cell.data, font=wide if columns == 2 else fonts[cell.bold], fill=front)
+                pen.text((x, y), cell.data, font=ImageFont.truetype(CJK, SIZE) if columns == 2 else fonts[cell.bold], fill=front)
             if cell.underscore:
                 pen.line([x, y + height - 2, x + columns * width - 1, y + height - 2], fill=front)
     return image

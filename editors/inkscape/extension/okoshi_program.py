@@ -40,9 +40,9 @@ def find(environ=None, folder=HERE):
         looked.append("the PATH" if place == "okoshi" else place)
     raise Missing(
         "The program okoshi was not found. Looked at: %s.\n\n"
-        "To install it, run `cargo install --path .` in okoshi's folder. If it is installed elsewhere, run\n"
-        "`editors/inkscape/install.sh --okoshi /path/to/okoshi`, or set the environment variable OKOSHI\n"
-        "to its path before Inkscape is started." % ", ".join(looked)
+        "Install one of okoshi's packages, with `pip install okoshi-*.whl` for instance. If it is installed elsewhere,\n"
+        "run `install.sh --okoshi /path/to/okoshi`, on Windows `install.ps1 -Okoshi C:\\path\\to\\okoshi.exe`, or set\n"
+        "the environment variable OKOSHI to its path before Inkscape is started." % ", ".join(looked)
     )
 
 

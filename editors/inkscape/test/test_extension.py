@@ -84,7 +84,7 @@ class Program(Folder):
         self.write("extension/okoshi.path", "/gone/okoshi\n")
         with self.assertRaises(okoshi_program.Missing) as caught:
             self.find()
-        for word in ("/gone/okoshi", "the PATH", ".cargo", "cargo install", "install.sh --okoshi", "OKOSHI"):
+        for word in ("/gone/okoshi", "the PATH", ".cargo", "pip install", "install.sh --okoshi", "install.ps1 -Okoshi", "OKOSHI"):
             self.assertIn(word, str(caught.exception))
 
     def test_a_variable_that_names_nothing_is_said_and_not_passed_over(self):

@@ -1,8 +1,9 @@
 // Tests the panel that shows the model beside the text. The panel stays open from step to step.
 
 import assert from "node:assert/strict";
-import { existsSync, readFileSync, rmSync } from "node:fs";
+import { copyFileSync, existsSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { place } from "./steps.mjs";
 
 /** Colours of the figure's parts, by comparing red, green and blue, which lights and shadows do not change. */
@@ -80,6 +81,11 @@ function changes(before, after) {
 export async function previews({ editor, page, step, again, at, saved, figure, read, open, shots, reload, configure, program, WRONG }) {
   const panel = new Panel(editor, page);
   const shot = (name) => page.screenshot({ path: join(shots, `${name}.png`) });
+  /** A screenshot that is a picture of the manual, which `OKOSHI_REWRITE=pictures` replaces. */
+  const manual = async (name) => {
+    await shot(name);
+    if (process.env.OKOSHI_REWRITE?.split(",").includes("pictures")) copyFileSync(join(shots, `${name}.png`), fileURLToPath(new URL(`../../../docs/editors/${name}.png`, import.meta.url)));
+  };
   const inText = () => page.evaluate(() => document.activeElement?.closest(".editor-instance .monaco-editor") !== null);
   /** Moves the cursor away from all parts, so that none is highlighted. */
   const rest = async () => {
@@ -284,16 +290,16 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
   });
   await step("a starter drawing shows its model, the picture of the manual", async () => {
     await editor.press("Control+s");
-    await open("robot.svg");
+    await open("girl.svg");
     await editor.see(".codelens-decoration a", "Preview in 3D");
     await editor.press("Control+b");
     await editor.press("Control+k");
     await editor.press("v");
     await panel.shows();
-    await at("Rarm@Dress", 2, read("robot.svg"));
+    await at("Rarm@Dress", 2, read("girl.svg"));
     await editor.until("the arm to be lit", async () => (await panel.says("lit")) === "Rarm");
     await still();
-    await shot("preview-manual");
+    await manual("vscode-preview");
     await editor.press("Control+1");
     await editor.press("Control+b");
   });
@@ -309,8 +315,6 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.see(".outline-tree .monaco-list-row", "Leg");
     await editor.command("Problems: Focus on Problems View");
     await editor.see(".markers-panel .monaco-list-row", "E101");
-    // The list that covers the model is collapsed.
-    for (const fold of [".findings-head[aria-expanded=true]", ".side[data-open=true] .sheet-head"]) await panel.frame.locator(fold).click();
     await editor.press("Control+1");
     await editor.until("the text to have the keyboard", inText);
     await at("Arm@Body", 1);
@@ -319,7 +323,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.see(".monaco-hover-content li", "Shape roundv");
     const hover = page.locator(".monaco-hover:visible").first();
     await editor.until("the hover to be fully visible", () => hover.evaluate((shown) => getComputedStyle(shown).opacity === "1"));
-    await shot("page");
+    await manual("vscode");
     await page.setViewportSize({ width: 1280, height: 800 });
   });
 }

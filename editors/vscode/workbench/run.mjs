@@ -1,9 +1,9 @@
 // Tests the extension in a real workbench: npm run workbench
 //
 // Packages the extension, installs it into code-server, opens drawings in Chromium and works like a user, checking what is visible
-// after each step. Screenshots of all steps go to target/workbench/shots. OKOSHI (default: target/debug/okoshi), NODE24, CODE_SERVER
-// and CHROMIUM name the tools; those not named are installed into target/workbench, which takes minutes and 700 MB the first time.
-// Building code-server's native modules needs libkrb5-dev.
+// after each step. Screenshots of all steps go to target/workbench/shots; OKOSHI_REWRITE=pictures also replaces those of docs/editors.
+// OKOSHI (default: target/debug/okoshi), NODE24, CODE_SERVER and CHROMIUM name the tools; those not named are installed into
+// target/workbench, which takes minutes and 700 MB the first time. Building code-server's native modules needs libkrb5-dev.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -29,7 +29,7 @@ if (!existsSync(okoshi)) throw new Error(`There is no ${okoshi}: build it, or na
 for (const folder of [project, data, shots, join(room, "extensions")]) rmSync(folder, { recursive: true, force: true });
 for (const folder of [project, join(data, "User"), join(data, "Machine"), shots]) mkdirSync(folder, { recursive: true });
 for (const name of ["figure.svg", "hints.svg"]) copyFileSync(join(here, name), join(project, name));
-execFileSync(okoshi, ["new", "-q", "robot", "--template", "girl"], { cwd: project });
+execFileSync(okoshi, ["new", "-q", "girl", "--template", "girl"], { cwd: project });
 copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
 
 const SETTINGS = {
@@ -41,6 +41,8 @@ const SETTINGS = {
   "editor.semanticHighlighting.enabled": false,
   "files.autoSave": "off",
   "git.enabled": false,
+  // A notification of what else runs on the machine would cover the workbench.
+  "remote.autoForwardPorts": false,
   "telemetry.telemetryLevel": "off",
   "window.restoreWindows": "none",
   // Newer editors open SVG files as pictures.
@@ -77,7 +79,8 @@ let failed = 0;
 let number = 0;
 const wanted = process.env.ONLY?.split(",");
 
-const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 1 });
+// Clips do not play by themselves then, so that the model comes to rest.
+const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 1, reducedMotion: "reduce" });
 const editor = new Editor(page);
 
 try {

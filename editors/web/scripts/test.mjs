@@ -23,6 +23,8 @@ const { bundle } = await import("./build.mjs");
 await bundle();
 
 const { build } = await import("esbuild");
+// Pictures of the manual that an earlier run made say nothing about this one.
+rmSync(join("test", "out", "manual"), { recursive: true, force: true });
 // Inside the package, so that imports in tests are resolved from there.
 const out = join("test", "out", "js");
 rmSync(out, { recursive: true, force: true });

@@ -1,8 +1,8 @@
 // Chromium, and queries of the page for tests.
 
-import { accessSync, constants, existsSync, mkdirSync } from "node:fs";
-import { join } from "node:path";
-import { chromium, type Browser, type BrowserContext, type BrowserContextOptions, type Page } from "playwright-core";
+import { accessSync, constants, copyFileSync, existsSync, mkdirSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { chromium, type Browser, type BrowserContext, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
 import { PNG } from "pngjs";
 import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { LAUNCH_LIMIT, PATIENCE, type Close } from "./closing";
@@ -130,6 +130,17 @@ export async function picture(page: Page, name?: string): Promise<{ at(place: { 
       return [png.data[start]!, png.data[start + 1]!, png.data[start + 2]!];
     },
   };
+}
+
+/** Takes a picture of the manual, which `tests/all.sh` compares with the one in `docs`; `OKOSHI_REWRITE=pictures` replaces that. */
+export async function manual(shown: Page | Locator, path: string): Promise<void> {
+  const file = join(OUT, "manual", path);
+  await shown.screenshot({ path: file });
+  if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) {
+    const kept = join("..", "..", "docs", path);
+    mkdirSync(dirname(kept), { recursive: true });
+    copyFileSync(file, kept);
+  }
 }
 
 /** The elements that overlap or extend beyond the window. */

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, Page } from "playwright-core";
-import { CHROMIUM, launch, open, picture } from "./browser";
+import { CHROMIUM, launch, manual, open, picture } from "./browser";
 import { closeAll, closing, preview, TEST_LIMIT } from "./closing";
 import { DISCS, HEIGHT, PERIOD, WIDTH, writeClip } from "./clip";
 import { FIGURE } from "./setup";
@@ -150,7 +150,7 @@ camera("a recording has the marks where they are", async (page) => {
   await panel(page).locator(".camera-readout").filter({ hasText: /Frame (\d+) of \1 / }).waitFor();
   await replayed(2);
   await picture(page, "camera-replay");
-  if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) await panel(page).screenshot({ path: join("..", "..", "docs", "preview-camera.png") });
+  await manual(panel(page), "preview-camera.png");
   assert.match(await panel(page).locator(".camera-help").innerText(), /Perform "hands.json".*\n*.*Mark red, Mark blue/s);
   const [download] = await Promise.all([page.waitForEvent("download"), press(page, "Save")]);
   assert.equal(download.suggestedFilename(), "hands.json");

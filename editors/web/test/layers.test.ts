@@ -1,8 +1,6 @@
 import assert from "node:assert/strict";
-import { copyFileSync } from "node:fs";
-import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { camera, overlaps, picture, project, shown, still } from "./browser";
+import { camera, manual, overlaps, picture, project, shown, still } from "./browser";
 import { browse, example, one } from "./setup";
 
 const DOLL = example("doll");
@@ -49,8 +47,7 @@ browse("a part under the pointer shows its depth and the reason", one(DOLL), asy
   await page.locator("canvas").evaluate((canvas) => canvas.blur());
   // The time of a build without optimisations says nothing.
   await page.locator(".bar-time").evaluate((time) => time.remove());
-  await picture(page, "layers");
-  if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) copyFileSync(join("test", "out", "layers.png"), join("..", "..", "docs", "preview-layers.png"));
+  await manual(page, "preview-layers.png");
   await page.locator("[data-part=Body]").click();
   await page.mouse.move(2, 2);
   await still(page);

@@ -1,10 +1,9 @@
 // Performances: their chart, and the performed clip beside its original.
 
 import assert from "node:assert/strict";
-import { copyFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { CHROMIUM, OUT, overlaps, picture, project, resize, shown, still } from "./browser";
+import { CHROMIUM, manual, overlaps, picture, project, resize, shown, still } from "./browser";
 import type { Made } from "./drawings";
 import type { MockHost } from "./mock";
 import { performed, puppet } from "./performed";
@@ -229,7 +228,6 @@ browse("the picture of the manual", (host) => {
   await page.locator(".bar-time").evaluate((time) => time.remove());
   await page.mouse.move(2, 2);
   await still(page);
-  await picture(page, "performance");
+  await manual(page, "preview-performance.png");
   assert.deepEqual(await page.locator(".caption").allInnerTexts(), ["performed", "original"]);
-  if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) copyFileSync(join(OUT, "performance.png"), join("..", "..", "docs", "preview-performance.png"));
 }, { viewport: { width: 1180, height: 760 } });
