@@ -94,6 +94,7 @@ edit("by mouse: a thickness, a name, a parent, a colour and a kind reach the fil
 
   // The slider is dragged to its end.
   const slider = edited.label("Shape: z1");
+  await slider.scrollIntoViewIfNeeded();
   const { x, y, width, height } = (await slider.boundingBox())!;
   const most = await slider.getAttribute("max");
   await page.mouse.move(x + width / 2, y + height / 2);
@@ -120,7 +121,14 @@ edit("by mouse: a thickness, a name, a parent, a colour and a kind reach the fil
   await edited.label("Color: swatch").fill("#123456");
   await now((text) => text.replace("Bend 0", "Bend 0 Color #123456"), "colour");
 
-  await edited.label("Shape: which").selectOption({ label: "roundv — rounded about the part's axis: an arm, a leg, a trunk" });
+  const kinds = page.getByRole("radiogroup", { name: "Shape: which" });
+  const pictures = await kinds.getByRole("radio").evaluateAll((all) => all.map((one) => [one.textContent, one.querySelectorAll("svg path").length > 0] as const));
+  assert.ok(pictures.length >= 12);
+  assert.deepEqual(pictures.filter(([, has]) => !has), [], "each kind has a picture");
+  assert.equal(await kinds.getByRole("radio", { checked: true }).textContent(), "default");
+  await kinds.getByRole("radio", { name: "roundv" }).hover();
+  assert.match(await page.locator(".kind-about").innerText(), /^rounded about the part's axis/);
+  await kinds.getByRole("radio", { name: "roundv" }).click();
   await now((text) => text.replace(`default -8 ${most}`, "roundv"), "kind");
 
   const undo = page.getByRole("button", { name: /^Undo/ });
@@ -176,8 +184,15 @@ edit("by keyboard: the same", async (edited) => {
   for (let n = 0; n < 4; n++) await page.keyboard.press("ArrowRight");
   const thick = red.replace("-8 8", `-8 ${Number((8 + 4 * step).toFixed(3))}`);
   await edited.has(thick, "thickness");
-  await edited.label("Shape: which").focus();
-  await page.keyboard.type("inf");
+  // Tab goes to the kind that is chosen, a letter to the next one that begins with it.
+  await page.locator(".kind[tabindex='0']").focus();
+  await page.keyboard.press("End");
+  assert.equal(await page.evaluate(() => document.activeElement?.textContent), "none");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await page.evaluate(() => document.activeElement?.textContent), "default");
+  await page.keyboard.press("i");
+  assert.equal(edited.text(), thick, "going through the kinds chooses none");
+  await page.keyboard.press("Enter");
   await edited.has(thick.replace(/default -8 [\d.]+/, "inflate"), "kind");
   for (const text of [thick, red, hung, named, BEFORE]) {
     await page.keyboard.press("Control+z");
@@ -312,7 +327,7 @@ edit("a drawing without a string becomes a figure, and nobody writes one", async
   await page.waitForFunction(() => document.querySelector<HTMLInputElement>('[aria-label="Color: as text"]')?.value === "#2f7fc1");
   await shot("2-colour");
   const text = edited.text();
-  await edited.label("Shape: which").selectOption("1");
+  await page.getByRole("radio", { name: "roundv" }).click();
   const choice = page.getByRole("button", { name: /^Give Body this Shape/ });
   await choice.waitFor();
   assert.equal(edited.text(), text, "it is asked before");

@@ -1,6 +1,7 @@
 // The controls of an attribute, by the types of its arguments.
 
 import { fill, h, inCode } from "../dom";
+import { kindPictures } from "./kinds";
 import type { Argument, Field, NumberControl, Variant } from "./messages";
 import { digits, flagsOf, hexOf, least, quoted, unquoted, valuesOf, withValue, words } from "./values";
 
@@ -61,6 +62,16 @@ function switchOf(field: Field, flag: Field["flags"][number], send: Sending): HT
 
 /** A list of the words that an attribute can begin with, and of the lists without one. */
 function choose(field: Field, send: Sending, draw: (variant: Variant) => void): HTMLElement {
+  const pick = (variant: Variant): void => {
+    const values = least(variant);
+    // Where something must be typed first, it is asked for.
+    if (values) send(words(field, variant, values, flagsOf(field)));
+    else draw(variant);
+  };
+  if (field.attribute === "Shape") {
+    const kinds = field.variants.map(({ word, summary }) => ({ name: word ?? "", summary }));
+    return kindPictures("Shape: which", "Shape which", kinds, field.chosen, field.default, (at) => pick(field.variants[at]!));
+  }
   const select = h("select", { class: "select", attributes: { "aria-label": `${field.attribute}: which`, "data-key": `${field.attribute} which` } });
   const title = ({ word, summary, arguments: all }: Variant): string => (word === null ? all.map(({ name }) => name).join(" and ") : summary === "" ? word : `${word} — ${summary}`);
   const nothing = field.value === null ? [h("option", { attributes: { value: "" } }, `(${field.default})`)] : [];
@@ -69,10 +80,7 @@ function choose(field: Field, send: Sending, draw: (variant: Variant) => void): 
   select.addEventListener("change", () => {
     const variant = field.variants[Number(select.value)];
     if (select.value === "" || !variant) return send(null);
-    const values = least(variant);
-    // Where something must be typed first, it is asked for.
-    if (values) send(words(field, variant, values, flagsOf(field)));
-    else draw(variant);
+    pick(variant);
   });
   return select;
 }
