@@ -68,6 +68,7 @@ function start(page: HTMLElement): void {
   if (camera.isPossible) commands.recordPuppet = () => camera.toggle();
 
   const side = new Side(state, tree, inspector);
+  editing.tries = (attempt) => viewer.requests.tries(attempt);
   editing.rename = () => {
     if (state.selected === null) return;
     side.showPart();

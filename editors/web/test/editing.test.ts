@@ -202,6 +202,75 @@ edit("by keyboard: the same", async (edited) => {
   await edited.has(named, "made again");
 });
 
+edit("while a slider or a swatch is dragged the model follows, and the drawing does not", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await edited.select("Arm");
+  await page.locator("canvas").focus();
+  await page.keyboard.press("3");
+  await page.keyboard.press("5");
+  await still(page);
+  // From the side: before the plane of the drawing, where the arm is not yet.
+  const place = await project(page, (220 - 180) / 100, (200 - 120) / 100, 0.5);
+  const at = async (name?: string): Promise<string> => {
+    await still(page);
+    const [red, green, blue] = (await picture(page, name)).at(place);
+    return green > red + 60 && green > blue + 60 ? "arm" : "nothing";
+  };
+  const tried = (is: boolean) => page.waitForFunction((is) => (document.querySelector("canvas")!.dataset["tried"] !== "") === is, is);
+  assert.equal(await at(), "nothing");
+  const slider = edited.label("Shape: z1");
+  await slider.scrollIntoViewIfNeeded();
+  const drag = async (): Promise<void> => {
+    const { x, y, width, height } = (await slider.boundingBox())!;
+    await page.mouse.move(x + width * 0.54, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width * 0.9, y + height / 2, { steps: 5 });
+    await tried(true);
+    assert.equal(await at("edit-dragged"), "arm");
+    assert.equal(edited.text(), BEFORE);
+  };
+  // Escape takes it back, also if the pointer moves on and lets go then.
+  await drag();
+  await page.keyboard.press("Escape");
+  await tried(false);
+  await page.mouse.move(600, 500, { steps: 3 });
+  await page.mouse.up();
+  assert.equal(await at(), "nothing");
+  assert.equal(await edited.label("Shape: z1, as a number").inputValue(), "8");
+  assert.equal(edited.text(), BEFORE);
+
+  // Another program saves while it is dragged: its save is kept and shown, and the change is made in what it saved.
+  await drag();
+  const saved = BEFORE.replace("#ff0000", "#0000ff");
+  writeFileSync(edited.file, saved);
+  await shown(page, 2);
+  await tried(true);
+  assert.equal(await at(), "arm");
+  await page.mouse.up();
+  await tried(false);
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "3");
+  assert.equal(await at(), "arm");
+  const thick = edited.text();
+  assert.match(thick, /default -8 [3-9]\d(\.\d+)? Bend 0/);
+  assert.equal(thick.replace(/default -8 [\d.]+ Bend/, "default -8 8 Bend"), saved);
+
+  // A colour is dragged in the browser's picker, and let go.
+  const color = (type: string) => edited.label("Color: swatch").evaluate((one, type) => {
+    (one as HTMLInputElement).value = "#00e0ff";
+    one.dispatchEvent(new Event(type, { bubbles: true }));
+  }, type);
+  await color("input");
+  await tried(true);
+  await still(page);
+  const [red, , blue] = (await picture(page)).at(place);
+  assert.ok(blue > red + 60);
+  assert.equal(edited.text(), thick);
+  await color("change");
+  await edited.has(thick.replace("Bend 0", "Bend 0 Color #00e0ff"), "colour");
+  await tried(false);
+});
+
 edit("a refusal is a sentence with its choices, and a choice is made", async (edited) => {
   const { page } = edited;
   await page.getByRole("button", { name: "Edit" }).click();
