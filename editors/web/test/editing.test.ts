@@ -271,6 +271,77 @@ edit("while a slider or a swatch is dragged the model follows, and the drawing d
   await tried(false);
 });
 
+edit("a part is dragged onto another one in the list, by mouse", async (edited) => {
+  const { page } = edited;
+  const middle = async (part: string): Promise<{ x: number; y: number }> => {
+    const { x, y, width, height } = (await page.locator(`[data-part="${part}"]`).boundingBox())!;
+    return { x: x + width / 2, y: y + height / 2 };
+  };
+  const drag = async (part: string, to: { x: number; y: number }): Promise<void> => {
+    const from = await middle(part);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(to.x, to.y, { steps: 6 });
+  };
+  const label = page.locator(".hanging");
+  // Nothing is dragged before parts are edited.
+  await drag("Arm", await middle("Head"));
+  assert.equal(await label.isVisible(), false);
+  await page.mouse.up();
+  await page.getByRole("button", { name: "Edit" }).click();
+  await drag("Arm", await middle("Head"));
+  assert.equal(await label.innerText(), "Hang Arm on Head");
+  await picture(page, "edit-hanging");
+  await page.keyboard.press("Escape");
+  assert.equal(await label.isVisible(), false);
+  await page.mouse.up();
+  await drag("Arm", await middle("Head"));
+  await page.mouse.up();
+  const onHead = BEFORE.replace("Arm@Body", "Arm@Head");
+  await edited.has(onHead, "onto the head");
+  await page.locator("[data-part=Arm][aria-level='3'][aria-selected=true]").waitFor();
+  // What hangs on a part cannot carry it: the same refusal as in the form.
+  await drag("Head", await middle("Arm"));
+  await page.mouse.up();
+  const refusal = page.locator(".refusal");
+  await refusal.waitFor();
+  assert.match(await refusal.innerText(), /`?Arm`? hangs on `?Head`?/);
+  assert.equal(edited.text(), onHead);
+  await page.getByRole("button", { name: "Close" }).click();
+  // On itself, or where it hangs already, nothing changes.
+  await drag("Arm", await middle("Head"));
+  assert.equal(await label.innerText(), "Arm");
+  await page.mouse.up();
+  // Where the list is empty, a part hangs on nothing.
+  const { x, y, width, height } = (await page.getByRole("tree").boundingBox())!;
+  await drag("Arm", { x: x + width / 2, y: y + height - 12 });
+  assert.equal(await label.innerText(), "Hang Arm on nothing");
+  await page.mouse.up();
+  await edited.has(BEFORE.replace("Arm@Body", "Arm@Root"), "on nothing");
+  await page.locator("[data-part=Arm][aria-level='1']").waitFor();
+});
+
+edit("a part is dragged onto another one in the list, by touch", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await page.locator(".drawer-opener").click();
+  const [arm, head] = await Promise.all(["Arm", "Head"].map(async (part) => {
+    const { x, y, width, height } = (await page.locator(`[data-part="${part}"]`).boundingBox())!;
+    return { x: x + width / 3, y: y + height / 2 };
+  }));
+  const session = await page.context().newCDPSession(page);
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", at?: { x: number; y: number }) => session.send("Input.dispatchTouchEvent", { type, touchPoints: at ? [at] : [] });
+  // A finger that rests on a row drags it.
+  await touch("touchStart", arm);
+  await page.locator(".hanging").waitFor();
+  await touch("touchMove", { x: arm!.x, y: (arm!.y + head!.y) / 2 });
+  await touch("touchMove", head);
+  assert.equal(await page.locator(".hanging").innerText(), "Hang Arm on Head");
+  await picture(page, "edit-hanging-phone");
+  await touch("touchEnd");
+  await edited.has(BEFORE.replace("Arm@Body", "Arm@Head"), "by touch");
+}, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
 edit("a refusal is a sentence with its choices, and a choice is made", async (edited) => {
   const { page } = edited;
   await page.getByRole("button", { name: "Edit" }).click();
