@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use common::live::Live;
-use common::pages::{Socket, asked, heard, page, served};
+use common::pages::{Socket, asked, got, heard, page, served};
 use common::patience::wait_until;
 use serde_json::{Value, json};
 
@@ -233,7 +233,7 @@ fn requests_of_others_are_refused() {
     let kind = "Content-Type: application/json\n";
     let keyed = format!("okoshi-key: {key}\n");
     let status = |path: &str, headers: &str, body: &str| raw(port, path, headers, body).0;
-    for path in ["/changes", "/forms"] {
+    for path in ["/changes", "/tries", "/forms"] {
         assert_eq!(status(path, &format!("{own}{kind}"), &body), 403, "no key");
         for wrong in [
             "",
@@ -321,6 +321,63 @@ fn requests_of_others_are_refused() {
 }
 
 #[test]
+fn what_is_tried_is_seen_by_nobody_else() {
+    let mut edited = Edited::new(DRAWING);
+    let tries = |edited: &Edited, change: &Value| {
+        let body = json!({
+            "drawing": "a.svg", "revision": edited.revision, "change": change, "shows": "builds/1.glb",
+        });
+        let key = &edited.key;
+        let headers = format!(
+            "Host: 127.0.0.1:PORT\nOrigin: http://127.0.0.1:PORT\nContent-Type: application/json\nokoshi-key: {key}\nConnection: close"
+        );
+        let body = body.to_string();
+        let length = body.len();
+        let request =
+            format!("POST /tries HTTP/1.1\n{headers}\nContent-Length: {length}\n\n{body}");
+        asked(edited.port, &request)
+    };
+    let (status, thick) = tries(&edited, &thickness("default -9 9"));
+    assert_eq!(
+        (status, common::nodes(&thick).ok().map(|nodes| nodes.len())),
+        (200, Some(1))
+    );
+    assert_eq!(edited.text(), DRAWING);
+    let served = |edited: &Edited| {
+        let models = (1..30).map(|number| got(edited.port, &format!("/builds/{number}.glb")));
+        let models: Vec<Vec<u8>> = models
+            .filter(|(status, _)| *status == 200)
+            .map(|(_, bytes)| bytes)
+            .collect();
+        models
+    };
+    let [real] = served(&edited)
+        .try_into()
+        .expect("only the drawing's own model is served");
+    assert_eq!(got(edited.port, "/tries/2.glb").0, 404);
+
+    // What would be refused shows nothing, and says nothing yet.
+    let nothing = json!({"change": "hang", "part": "Body", "parent": "Arm"});
+    assert_eq!(tries(&edited, &nothing), (204, vec![]));
+    // There is nothing to undo, and no build: the next one is that of a save.
+    assert_eq!(
+        why(&edited.does(&json!("undo")).1),
+        "there is nothing to undo"
+    );
+    let saved = DRAWING.replace("#cc0000", "#0000cc");
+    fs::write(edited.path(), &saved).expect("written");
+    let revision = edited.revision;
+    edited.build();
+    assert_eq!(edited.revision, revision + 1);
+    // What is tried next is tried with what was saved, and the save stays.
+    let (_, tried) = tries(&edited, &thickness("default -9 9"));
+    assert_eq!(edited.text(), saved);
+    assert!(tried != thick && served(&edited).iter().any(|model| *model != real));
+    assert_eq!(edited.makes(&thickness("default -9 9")).0, 200);
+    assert_eq!(edited.text(), saved.replace("-5 5", "-9 9"));
+}
+
+#[test]
 fn read_only_takes_all_of_it_away() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("a.svg"), DRAWING).expect("written");
@@ -330,7 +387,7 @@ fn read_only_takes_all_of_it_away() {
     // The key would come before the list.
     let first = common::pages::next(&mut shown);
     assert_eq!(first["type"], "drawings");
-    for path in ["/changes", "/forms"] {
+    for path in ["/changes", "/tries", "/forms"] {
         let (status, answer) = sent(port, path, "", "{}");
         assert_eq!((status, why(&answer)), (405, "this page is read-only"));
     }

@@ -82,8 +82,17 @@ fn builds_are_pushed_and_models_can_be_fetched() {
     let build = heard(&mut page, "build");
     assert_eq!(build["build"]["stale"], false);
     assert_ne!(address(&build), first);
+    let saved = fs::read(folder.path().join("a.svg")).expect("read");
     fs::remove_file(folder.path().join("a.svg")).expect("removed");
     heard(&mut page, "gone");
+    // A file that comes back as it was is no longer missing, also to pages that are opened now.
+    fs::write(folder.path().join("a.svg"), saved).expect("written");
+    let back = heard(&mut page, "build");
+    assert_eq!(address(&back), address(&build));
+    let mut other = socket(port, None).expect("let in");
+    heard(&mut other, "build");
+    fs::remove_file(folder.path().join("a.svg")).expect("removed");
+    heard(&mut other, "gone");
 }
 
 #[test]

@@ -70,6 +70,7 @@ fn show(hub: &Arc<Hub>, target: &Path, event: &Event<'_>) {
         Event::Built(drawing, build) => publish(hub, target, drawing, build),
         Event::Ready(0) => hub.offer_starters(),
         Event::Gone(drawing) => hub.gone(&drawing.display().to_string()),
+        Event::Back(drawing) => hub.back(&drawing.display().to_string()),
         _ => {}
     }
 }

@@ -86,7 +86,7 @@ impl Analysis {
             ));
         }
         let string = as_description(string);
-        if let Some(edits) = self.described(part, &string) {
+        if let Ok(edits) = self.describe_with(index, &string) {
             actions.push(action(
                 format!("Give this shape the description `{string}`"),
                 edits,
@@ -133,12 +133,6 @@ impl Analysis {
             round(size),
             escape_xml(string),
         ))
-    }
-
-    /// A `<desc>` in the part's element.
-    fn described(&self, part: &Part, string: &str) -> Option<Vec<Edit>> {
-        let element = &self.drawing().shapes[part.shape].element;
-        Some(vec![element.with_description(string)?])
     }
 
     /// Moves the attributes of a part's string to the legend of its paint.

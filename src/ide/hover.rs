@@ -480,7 +480,7 @@ mod tests {
                 "Rarm@No¦body",
                 "**E204: unknown parent**\n\nNo part of this",
             ),
-            ("Rarm@Body$Sh¦ap round", "Correct the keyword: `Color`."),
+            ("Rarm@Body$Sh¦ap round", "too many.\n\nWrite `Shape`.\n"),
         ] {
             let card = hover(["Body", string, "", "", "%Let w 12"]);
             assert!(

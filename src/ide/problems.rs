@@ -1,12 +1,12 @@
 //! The problems at an offset, explained for a hover.
 
 use super::Analysis;
-use crate::diagnostic::{Code, Severity};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::lang::explain;
 use crate::source::Span;
 
 impl Analysis {
-    /// The errors and warnings at an offset: the span of the first, and what the manual says about each code in short.
+    /// The errors and warnings at an offset: the span of the first, and what each code means and what to do here, in short.
     pub(super) fn problems_at(&self, offset: usize) -> Option<(Span, String)> {
         let here = self.diagnostics().iter().filter(|found| {
             let Span { start, end } = found.span;
@@ -14,14 +14,19 @@ impl Analysis {
                 && start <= offset
                 && offset < end.max(start + 1)
         });
-        let mut codes: Vec<(Code, Span)> = vec![];
+        let mut first: Vec<&Diagnostic> = vec![];
         for found in here {
-            if codes.iter().all(|(code, _)| *code != found.code) {
-                codes.push((found.code, found.span));
+            if first.iter().all(|known| known.code != found.code) {
+                first.push(found);
             }
         }
-        let (_, span) = *codes.first()?;
-        let pages = codes.iter().map(|(code, _)| explain::code_in_short(*code));
+        let span = first.first()?.span;
+        let pages = first.iter().map(|found| {
+            let fixes = found.fixes.iter().map(|fix| fix.title.as_str());
+            let fixes = fixes.collect::<Vec<_>>().join(", or ");
+            let advice = Some(fixes.as_str()).filter(|fixes| !fixes.is_empty());
+            explain::code_in_short(found.code, advice.or(found.help.as_deref()))
+        });
         Some((span, pages.collect::<Vec<_>>().join("\n")))
     }
 }

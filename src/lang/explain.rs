@@ -106,10 +106,15 @@ pub(crate) fn code(code: Code) -> String {
     )
 }
 
-/// What a diagnostic's code means and what to do about it: its page without the example.
-pub(crate) fn code_in_short(code: Code) -> String {
+/// What a diagnostic's code means and what to do about it: its page without the example. What the page advises there is about the
+/// example; where better advice is known, that takes its place.
+pub(crate) fn code_in_short(code: Code, advice: Option<&str>) -> String {
     let mut out = format!("**{}: {}**\n\n", code.id(), code.title());
     let page = paragraphs(code.manual());
+    let page = match (page.split_once("\n```"), advice) {
+        (Some((meaning, _)), Some(advice)) => format!("{meaning}\n{}.\n", sentence(advice)),
+        _ => page,
+    };
     let mut was_empty = true;
     for (line, _) in lines(&page).filter(|(_, fenced)| !fenced) {
         // What was around the example is one paragraph break.
@@ -252,18 +257,25 @@ mod tests {
     #[test]
     fn codes_in_short_have_a_cause_and_a_way_out() {
         assert_eq!(
-            code_in_short(Code::from_id("E204").unwrap()),
+            code_in_short(Code::from_id("E204").unwrap(), None),
             "**E204: unknown parent**\n\nNo part of this drawing has the name after `@`.\n\n\
              Write the parent's name exactly as in the parent's own string. Upper and lower case matter.\n"
         );
         for code in Code::ALL {
-            let short = code_in_short(*code);
-            assert!(
-                !short.contains("```") && !short.contains("\n\n\n"),
-                "{short}"
-            );
-            assert!(short.lines().count() > 2, "{short}");
+            for advice in [None, Some("write `Shape`")] {
+                let short = code_in_short(*code, advice);
+                assert!(
+                    !short.contains("```") && !short.contains("\n\n\n"),
+                    "{short}"
+                );
+                assert!(short.lines().count() > 2, "{short}");
+            }
         }
+        let advised = code_in_short(Code::UnknownKeyword, Some("write `Shape`"));
+        assert!(
+            advised.ends_with("a word\ntoo many.\n\nWrite `Shape`.\n"),
+            "{advised}"
+        );
     }
 
     #[test]

@@ -15,7 +15,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::hub::Hub;
-use super::server::Shared;
+use super::server::{Shared, served};
 use super::starters::random_key;
 use crate::ide::changes::{Change, Choice, Refusal};
 use crate::watch::{Action, Done, Editor, NotChanged};
@@ -26,6 +26,8 @@ const MAX_REQUEST: usize = 64 << 10;
 const ARRIVAL: Duration = Duration::from_secs(5);
 /// The header with the key of the server.
 const KEY: HeaderName = HeaderName::from_static("okoshi-key");
+/// The header with the address of a model that was only tried.
+const MODEL: HeaderName = HeaderName::from_static("okoshi-model");
 
 /// What lets pages change drawings. Without it they only show them.
 #[derive(Debug)]
@@ -64,6 +66,17 @@ enum ToDo {
     Redo,
 }
 
+/// A request for what a change would make of a drawing.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ToTry {
+    drawing: String,
+    revision: u64,
+    change: Change,
+    /// The address of the model that the page shows.
+    shows: String,
+}
+
 /// A request for what can be changed about a part.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -99,6 +112,34 @@ pub(super) async fn change(
         Ok(serde_json::json!({ "part": part, "note": note }))
     })
     .await
+}
+
+/// Shows what a change would make of a drawing, while it is being decided: as binary glTF, what differs from the model that the page
+/// shows. There is nothing to show of a change that would be refused; why is said once it is made.
+pub(super) async fn attempt(
+    State(shared): State<Shared>,
+    headers: HeaderMap,
+    body: Body,
+) -> Response {
+    let asked: ToTry = match asked(&shared.hub, &headers, body).await {
+        Ok(asked) => asked,
+        Err(refused) => return refused,
+    };
+    let tried = tokio::task::spawn_blocking(move || {
+        let ToTry {
+            drawing,
+            revision,
+            change,
+            shows,
+        } = asked;
+        shared.hub.tried(&drawing, revision, &change, &shows)
+    });
+    match tried.await {
+        Ok(Ok((address, bytes))) => {
+            ([(MODEL, address)], served("model/gltf-binary", Some(bytes))).into_response()
+        }
+        _ => StatusCode::NO_CONTENT.into_response(),
+    }
 }
 
 /// Says what can be changed about a part.

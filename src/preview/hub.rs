@@ -14,7 +14,7 @@ use super::message::{Build, Listed, PartOrKept, ToPage, findings};
 use super::starters::Starters;
 use crate::compile::Compiled;
 use crate::export::{self, GLB, Written};
-use crate::ide::changes::Refusal;
+use crate::ide::changes::{Change, Refusal};
 use crate::render::{self, Options, PosedModel, write_png};
 use crate::report::{clips, everything};
 use crate::resolver::MemoryResolver;
@@ -24,6 +24,9 @@ use crate::watch::{Action, BuildTimes, Done, NotChanged, Steps};
 const MAX_TEXTS: usize = 64;
 /// How many bytes they may have together, besides the last one.
 const MAX_TEXT_BYTES: usize = 16 << 20;
+
+/// How many models of changes that were only tried are kept, so that only what differs is sent of the next one.
+const MAX_TRIED: usize = 4;
 
 /// The side of the thumbnails in the gallery, in pixels.
 const THUMBNAIL_SIZE: u32 = 320;
@@ -79,6 +82,8 @@ struct State {
     drawings: BTreeMap<String, Entry>,
     /// The number of the last model; numbers are never reused.
     models: u64,
+    /// Models of changes that were only tried, with their numbers. They are no drawing's, and are not sent by themselves.
+    tried: VecDeque<(u64, Bytes)>,
 }
 
 /// A drawing, with the time of the last change to each of its parts.
@@ -129,10 +134,10 @@ pub(super) struct StoredModel {
 
 impl StoredModel {
     /// What changed since another model, as binary glTF; the whole model if that is too much.
-    pub(super) fn since(&self, before: &Self) -> Bytes {
-        let compare = || delta(&before.bytes, &self.bytes, before.number).map(Bytes::from);
-        let (number, delta) = self.delta.get_or_init(|| (before.number, compare()));
-        let delta = if *number == before.number {
+    pub(super) fn since(&self, (before, bytes): &(u64, Bytes)) -> Bytes {
+        let compare = || delta(bytes, &self.bytes, *before).map(Bytes::from);
+        let (number, delta) = self.delta.get_or_init(|| (*before, compare()));
+        let delta = if number == before {
             delta.clone()
         } else {
             compare()
@@ -339,17 +344,7 @@ impl Hub {
     /// If that is not possible; then the file is as it was.
     pub(super) fn act(&self, id: &str, revision: u64, action: &Action) -> Result<Done, NotChanged> {
         let editing = self.editing_of(id)?;
-        let shown = {
-            let state = self.state();
-            let mut texts = state
-                .drawings
-                .get(id)
-                .into_iter()
-                .flat_map(|entry| &entry.texts);
-            texts
-                .find(|(known, _)| *known == revision)
-                .map(|(_, text)| text.clone())
-        };
+        let shown = self.text_of(id, revision);
         let path = Path::new(id);
         let done = editing.editor.act(path, action, shown.as_deref());
         let steps = editing.editor.steps(path);
@@ -361,6 +356,56 @@ impl Hub {
             }
         });
         done
+    }
+
+    /// What a change would make of a drawing: the address of the model, and what differs in it from the model of another address.
+    ///
+    /// # Errors
+    /// If the change would be refused.
+    pub(super) fn tried(
+        &self,
+        id: &str,
+        revision: u64,
+        change: &Change,
+        shows: &str,
+    ) -> Result<(String, Bytes), NotChanged> {
+        let editing = self.editing_of(id)?;
+        let shown = self.text_of(id, revision);
+        let bytes = editing
+            .editor
+            .tried(Path::new(id), change, shown.as_deref())?;
+        let bytes = Bytes::from(bytes);
+        let before = self.numbered(shows);
+        let changed = before.and_then(|(number, before)| delta(&before, &bytes, number));
+        let sent = changed.map_or_else(|| bytes.clone(), Bytes::from);
+        let mut state = self.state();
+        state.models += 1;
+        let number = state.models;
+        state.tried.push_back((number, bytes));
+        if state.tried.len() > MAX_TRIED {
+            state.tried.pop_front();
+        }
+        Ok((format!("tries/{number}.glb"), sent))
+    }
+
+    /// The text of a build of a drawing; `None` if it is not known any more.
+    fn text_of(&self, id: &str, revision: u64) -> Option<Arc<str>> {
+        let state = self.state();
+        let mut texts = state.drawings.get(id)?.texts.iter();
+        let known = texts.find(|(known, _)| *known == revision);
+        known.map(|(_, text)| text.clone())
+    }
+
+    /// The model of an address, also if it was only tried.
+    fn numbered(&self, address: &str) -> Option<(u64, Bytes)> {
+        let (_, file) = address.split_once('/')?;
+        let number = file.strip_suffix(".glb")?.parse().ok()?;
+        if let Some(model) = self.model(number) {
+            return Some((number, model.bytes.clone()));
+        }
+        let state = self.state();
+        let mut tried = state.tried.iter();
+        tried.find(|(known, _)| *known == number).cloned()
     }
 
     /// What changes a drawing that is shown.
@@ -386,6 +431,19 @@ impl Hub {
         self.change(|state, now| {
             if let Some(entry) = state.drawings.get_mut(id) {
                 entry.gone = Some(now);
+            }
+        });
+    }
+
+    /// Reports that a drawing's file is back, as it was: pages get its last build again, as if it were new.
+    pub(crate) fn back(&self, id: &str) {
+        self.change(|state, now| {
+            if let Some(entry) = state.drawings.get_mut(id) {
+                entry.gone = None;
+                if let Some(build) = &mut entry.build {
+                    build.time = now;
+                    build.changes = None;
+                }
             }
         });
     }
@@ -437,14 +495,14 @@ impl Hub {
     /// The bytes of a model, by the address in a message, or what changed since another one (`?since=` and its address).
     pub(crate) fn bytes(&self, address: &str) -> Option<Arc<[u8]>> {
         let (address, since) = match address.split_once("?since=") {
-            Some((address, since)) => (address, since.split_once('/').map(|(_, file)| file)),
+            Some((address, since)) => (address, Some(since)),
             None => (address, None),
         };
         let (kind, file) = address.split_once('/')?;
         let by_file = |file: &str| self.model(file.strip_suffix(".glb")?.parse().ok()?);
         let model = by_file(file)?;
         match kind {
-            "builds" => Some(match since.and_then(by_file) {
+            "builds" => Some(match since.and_then(|since| self.numbered(since)) {
                 Some(before) => model.since(&before),
                 None => model.bytes.clone(),
             }),

@@ -40,10 +40,12 @@ const ACCEPT_RETRY_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Where changes are sent to.
 const CHANGES: &str = "/changes";
+/// Where pages ask what a change would look like.
+const TRIES: &str = "/tries";
 /// Where pages ask what can be changed.
 const FORMS: &str = "/forms";
 /// The addresses to which a page may send something other than a question.
-pub(super) const POSTED: [&str; 2] = [CHANGES, FORMS];
+pub(super) const POSTED: [&str; 3] = [CHANGES, TRIES, FORMS];
 
 /// A port to serve on.
 #[derive(Debug)]
@@ -132,6 +134,7 @@ fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
         .route("/live", get(socket::open))
         .route("/camera", get(camera::open))
         .route(CHANGES, post(changes::change))
+        .route(TRIES, post(changes::attempt))
         .route(FORMS, post(changes::form))
         .route("/builds/{file}", get(build))
         .route("/originals/{file}", get(originals))
@@ -166,7 +169,7 @@ fn binary(model: Option<Arc<[u8]>>) -> Response {
     served("model/gltf-binary", model)
 }
 
-fn served(media_type: &'static str, bytes: Option<Arc<[u8]>>) -> Response {
+pub(super) fn served(media_type: &'static str, bytes: Option<Arc<[u8]>>) -> Response {
     match bytes.map(Bytes::from_owner) {
         Some(bytes) => ([(header::CONTENT_TYPE, media_type)], bytes).into_response(),
         None => StatusCode::NOT_FOUND.into_response(),

@@ -12,8 +12,10 @@ use crate::diagnostic::{Edit, applied};
 use crate::disk::{
     FolderResolver, ReadError, WriteError, decode, is_packed, read_file, rewrite_if, stamp,
 };
+use crate::export;
 use crate::ide::Analysis;
 use crate::ide::changes::{Change, History, Refusal, Step, check, edits, no_worse};
+use crate::memo::Memo;
 
 /// How often a change is tried again if another program writes the file meanwhile.
 const TRIES: usize = 5;
@@ -50,6 +52,9 @@ pub(crate) enum NotChanged {
     /// The file cannot be written.
     #[error("{}", unwritten(.0))]
     Unwritten(#[from] WriteError),
+    /// There is no model of it.
+    #[error("{0}")]
+    NoModel(#[from] std::io::Error),
 }
 
 /// Why a drawing is not written, for somebody who did not name a file.
@@ -103,6 +108,17 @@ struct Edited {
     last: Option<Arc<Analysis>>,
     /// The texts before and after the last changes.
     made: VecDeque<[Arc<str>; 2]>,
+    /// The surfaces of the last model of a change that was only tried.
+    surfaces: Memo,
+}
+
+/// A change that is possible.
+struct Possible {
+    edits: Vec<Edit>,
+    /// The drawing with the change; `None` if nothing changes.
+    after: Option<Arc<Analysis>>,
+    /// What else it does, as a sentence without a full stop.
+    note: Option<String>,
 }
 
 impl Editor {
@@ -165,7 +181,13 @@ impl Editor {
             let before = self.settled(path, edited)?;
             let text = before.source();
             let (found, note) = match action {
-                Action::Make(change) => self.made(path, edited, &before, change, shown)?,
+                Action::Make(change) => {
+                    let possible = self.possible(path, edited, &before, change, shown)?;
+                    if possible.after.is_some() {
+                        edited.last = possible.after;
+                    }
+                    (possible.edits, possible.note)
+                }
                 Action::Undo | Action::Redo => (self.stepped(path, edited, &before, action)?, None),
             };
             let new: Arc<str> = applied(text, &found).into();
@@ -196,15 +218,35 @@ impl Editor {
         ))
     }
 
-    /// The edits of a change that a person made, and what else it does.
-    fn made(
+    /// What a change would make of a drawing, in the format of its models. The file stays as it is, and nothing is to be undone.
+    ///
+    /// # Errors
+    /// If the change would be refused.
+    pub(crate) fn tried(
+        &self,
+        path: &Path,
+        change: &Change,
+        shown: Option<&str>,
+    ) -> Result<Vec<u8>, NotChanged> {
+        let mut drawings = self.drawings();
+        let edited = drawings.entry(path.to_owned()).or_default();
+        let before = self.settled(path, edited)?;
+        let possible = self.possible(path, edited, &before, change, shown)?;
+        let after = possible.after.unwrap_or(before);
+        let scene = &after.compiled().scene;
+        let model = export::to_memory(self.options.exporter, scene, Some(&mut edited.surfaces))?;
+        Ok(model.bytes)
+    }
+
+    /// A change that a person wants.
+    fn possible(
         &self,
         path: &Path,
         edited: &mut Edited,
         before: &Analysis,
         change: &Change,
         shown: Option<&str>,
-    ) -> Result<(Vec<Edit>, Option<String>), NotChanged> {
+    ) -> Result<Possible, NotChanged> {
         let shown = shown.ok_or_else(|| {
             Refusal::without_choice(
                 "the drawing has changed too often since: look at it again, and try once more",
@@ -216,16 +258,16 @@ impl Editor {
             let shown = self.compiled(path, edited, &shown);
             before.still_means(&shown, change)?;
         }
-        let found = edits(before, change)?;
+        let edits = edits(before, change)?;
         let text = before.source();
-        let new = applied(text, &found);
+        let new = applied(text, &edits);
+        let (mut after, mut note) = (None, None);
         if new != **text {
-            let after = self.compiled(path, edited, &new);
-            let note = check(before, &after, change)?;
-            edited.last = Some(after);
-            return Ok((found, note));
+            let compiled = self.compiled(path, edited, &new);
+            note = check(before, &compiled, change)?;
+            after = Some(compiled);
         }
-        Ok((found, None))
+        Ok(Possible { edits, after, note })
     }
 
     /// The edits that undo or redo a step. A step that does not fit any more is forgotten, so that those before it can be undone.

@@ -8,6 +8,7 @@ import { h } from "./dom";
 import { EditBar } from "./editing/bar";
 import { Editing } from "./editing/editing";
 import { FormPanel } from "./editing/form";
+import { HangingByDrag } from "./editing/hanging";
 import { findHost } from "./host/host";
 import { Bar } from "./panels/bar";
 import { BendBar } from "./panels/bendbar";
@@ -47,6 +48,7 @@ function start(page: HTMLElement): void {
     if (state.current !== null) host.send({ type: "pick", drawing: state.current, part });
   };
   const tree = new Tree(state, picked);
+  new HangingByDrag(tree.list, editing, state);
   const inspector = new Inspector(state, viewer, commands, editing, form.element, choose);
   const findings = new Findings(state, {
     opening: host.showsFindings ? "byHand" : "byItself",
@@ -68,6 +70,7 @@ function start(page: HTMLElement): void {
   if (camera.isPossible) commands.recordPuppet = () => camera.toggle();
 
   const side = new Side(state, tree, inspector);
+  editing.tries = (attempt) => viewer.requests.tries(attempt);
   editing.rename = () => {
     if (state.selected === null) return;
     side.showPart();

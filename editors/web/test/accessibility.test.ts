@@ -74,6 +74,7 @@ for (const colorScheme of ["light", "dark"] as const) {
         await page.keyboard.press("Escape");
       }
       await page.keyboard.press("h");
+      await is(page, "hidden parts");
       await page.keyboard.press("/");
       await page.keyboard.type("e");
       await is(page, "search, and hidden parts");

@@ -326,3 +326,15 @@ camera(
   },
   { viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2, colorScheme: "dark" },
 );
+
+camera(
+  "on a phone that lies the buttons are below the picture, and in sight",
+  async (page) => {
+    await start(page);
+    const { y, height } = (await panel(page).getByRole("button", { name: "Record", exact: true }).boundingBox())!;
+    assert.ok(y + height <= 390, `it ends at ${y + height}`);
+    const [own, over] = await Promise.all([".camera-picture", ".camera-overlay"].map(async (selector) => (await page.locator(selector).boundingBox())!));
+    assert.deepEqual(own, over, "what is drawn over the picture lies on it");
+  },
+  { viewport: { width: 844, height: 390 }, hasTouch: true, isMobile: true },
+);

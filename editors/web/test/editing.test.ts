@@ -94,6 +94,7 @@ edit("by mouse: a thickness, a name, a parent, a colour and a kind reach the fil
 
   // The slider is dragged to its end.
   const slider = edited.label("Shape: z1");
+  await slider.scrollIntoViewIfNeeded();
   const { x, y, width, height } = (await slider.boundingBox())!;
   const most = await slider.getAttribute("max");
   await page.mouse.move(x + width / 2, y + height / 2);
@@ -120,7 +121,14 @@ edit("by mouse: a thickness, a name, a parent, a colour and a kind reach the fil
   await edited.label("Color: swatch").fill("#123456");
   await now((text) => text.replace("Bend 0", "Bend 0 Color #123456"), "colour");
 
-  await edited.label("Shape: which").selectOption({ label: "roundv — rounded about the part's axis: an arm, a leg, a trunk" });
+  const kinds = page.getByRole("radiogroup", { name: "Shape: which" });
+  const pictures = await kinds.getByRole("radio").evaluateAll((all) => all.map((one) => [one.textContent, one.querySelectorAll("svg path").length > 0] as const));
+  assert.ok(pictures.length >= 12);
+  assert.deepEqual(pictures.filter(([, has]) => !has), [], "each kind has a picture");
+  assert.equal(await kinds.getByRole("radio", { checked: true }).textContent(), "default");
+  await kinds.getByRole("radio", { name: "roundv" }).hover();
+  assert.match(await page.locator(".kind-about").innerText(), /^rounded about the part's axis/);
+  await kinds.getByRole("radio", { name: "roundv" }).click();
   await now((text) => text.replace(`default -8 ${most}`, "roundv"), "kind");
 
   const undo = page.getByRole("button", { name: /^Undo/ });
@@ -176,8 +184,15 @@ edit("by keyboard: the same", async (edited) => {
   for (let n = 0; n < 4; n++) await page.keyboard.press("ArrowRight");
   const thick = red.replace("-8 8", `-8 ${Number((8 + 4 * step).toFixed(3))}`);
   await edited.has(thick, "thickness");
-  await edited.label("Shape: which").focus();
-  await page.keyboard.type("inf");
+  // Tab goes to the kind that is chosen, a letter to the next one that begins with it.
+  await page.locator(".kind[tabindex='0']").focus();
+  await page.keyboard.press("End");
+  assert.equal(await page.evaluate(() => document.activeElement?.textContent), "none");
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await page.evaluate(() => document.activeElement?.textContent), "default");
+  await page.keyboard.press("i");
+  assert.equal(edited.text(), thick, "going through the kinds chooses none");
+  await page.keyboard.press("Enter");
   await edited.has(thick.replace(/default -8 [\d.]+/, "inflate"), "kind");
   for (const text of [thick, red, hung, named, BEFORE]) {
     await page.keyboard.press("Control+z");
@@ -186,6 +201,146 @@ edit("by keyboard: the same", async (edited) => {
   await page.keyboard.press("Control+Shift+z");
   await edited.has(named, "made again");
 });
+
+edit("while a slider or a swatch is dragged the model follows, and the drawing does not", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await edited.select("Arm");
+  await page.locator("canvas").focus();
+  await page.keyboard.press("3");
+  await page.keyboard.press("5");
+  await still(page);
+  // From the side: before the plane of the drawing, where the arm is not yet.
+  const place = await project(page, (220 - 180) / 100, (200 - 120) / 100, 0.5);
+  const at = async (name?: string): Promise<string> => {
+    await still(page);
+    const [red, green, blue] = (await picture(page, name)).at(place);
+    return green > red + 60 && green > blue + 60 ? "arm" : "nothing";
+  };
+  const tried = (is: boolean) => page.waitForFunction((is) => (document.querySelector("canvas")!.dataset["tried"] !== "") === is, is);
+  assert.equal(await at(), "nothing");
+  const slider = edited.label("Shape: z1");
+  await slider.scrollIntoViewIfNeeded();
+  const drag = async (): Promise<void> => {
+    const { x, y, width, height } = (await slider.boundingBox())!;
+    await page.mouse.move(x + width * 0.54, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width * 0.9, y + height / 2, { steps: 5 });
+    await tried(true);
+    assert.equal(await at("edit-dragged"), "arm");
+    assert.equal(edited.text(), BEFORE);
+  };
+  // Escape takes it back, also if the pointer moves on and lets go then.
+  await drag();
+  await page.keyboard.press("Escape");
+  await tried(false);
+  await page.mouse.move(600, 500, { steps: 3 });
+  await page.mouse.up();
+  assert.equal(await at(), "nothing");
+  assert.equal(await edited.label("Shape: z1, as a number").inputValue(), "8");
+  assert.equal(edited.text(), BEFORE);
+
+  // Another program saves while it is dragged: its save is kept and shown, and the change is made in what it saved.
+  await drag();
+  const saved = BEFORE.replace("#ff0000", "#0000ff");
+  writeFileSync(edited.file, saved);
+  await shown(page, 2);
+  await tried(true);
+  assert.equal(await at(), "arm");
+  await page.mouse.up();
+  await tried(false);
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "3");
+  assert.equal(await at(), "arm");
+  const thick = edited.text();
+  assert.match(thick, /default -8 [3-9]\d(\.\d+)? Bend 0/);
+  assert.equal(thick.replace(/default -8 [\d.]+ Bend/, "default -8 8 Bend"), saved);
+
+  // A colour is dragged in the browser's picker, and let go.
+  const color = (type: string) => edited.label("Color: swatch").evaluate((one, type) => {
+    (one as HTMLInputElement).value = "#00e0ff";
+    one.dispatchEvent(new Event(type, { bubbles: true }));
+  }, type);
+  await color("input");
+  await tried(true);
+  await still(page);
+  const [red, , blue] = (await picture(page)).at(place);
+  assert.ok(blue > red + 60);
+  assert.equal(edited.text(), thick);
+  await color("change");
+  await edited.has(thick.replace("Bend 0", "Bend 0 Color #00e0ff"), "colour");
+  await tried(false);
+});
+
+edit("a part is dragged onto another one in the list, by mouse", async (edited) => {
+  const { page } = edited;
+  const middle = async (part: string): Promise<{ x: number; y: number }> => {
+    const { x, y, width, height } = (await page.locator(`[data-part="${part}"]`).boundingBox())!;
+    return { x: x + width / 2, y: y + height / 2 };
+  };
+  const drag = async (part: string, to: { x: number; y: number }): Promise<void> => {
+    const from = await middle(part);
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(to.x, to.y, { steps: 6 });
+  };
+  const label = page.locator(".hanging");
+  // Nothing is dragged before parts are edited.
+  await drag("Arm", await middle("Head"));
+  assert.equal(await label.isVisible(), false);
+  await page.mouse.up();
+  await page.getByRole("button", { name: "Edit" }).click();
+  await drag("Arm", await middle("Head"));
+  assert.equal(await label.innerText(), "Hang Arm on Head");
+  await picture(page, "edit-hanging");
+  await page.keyboard.press("Escape");
+  assert.equal(await label.isVisible(), false);
+  await page.mouse.up();
+  await drag("Arm", await middle("Head"));
+  await page.mouse.up();
+  const onHead = BEFORE.replace("Arm@Body", "Arm@Head");
+  await edited.has(onHead, "onto the head");
+  await page.locator("[data-part=Arm][aria-level='3'][aria-selected=true]").waitFor();
+  // What hangs on a part cannot carry it: the same refusal as in the form.
+  await drag("Head", await middle("Arm"));
+  await page.mouse.up();
+  const refusal = page.locator(".refusal");
+  await refusal.waitFor();
+  assert.match(await refusal.innerText(), /`?Arm`? hangs on `?Head`?/);
+  assert.equal(edited.text(), onHead);
+  await page.getByRole("button", { name: "Close" }).click();
+  // On itself, or where it hangs already, nothing changes.
+  await drag("Arm", await middle("Head"));
+  assert.equal(await label.innerText(), "Arm");
+  await page.mouse.up();
+  // Where the list is empty, a part hangs on nothing.
+  const { x, y, width, height } = (await page.getByRole("tree").boundingBox())!;
+  await drag("Arm", { x: x + width / 2, y: y + height - 12 });
+  assert.equal(await label.innerText(), "Hang Arm on nothing");
+  await page.mouse.up();
+  await edited.has(BEFORE.replace("Arm@Body", "Arm@Root"), "on nothing");
+  await page.locator("[data-part=Arm][aria-level='1']").waitFor();
+});
+
+edit("a part is dragged onto another one in the list, by touch", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await page.locator(".drawer-opener").click();
+  const [arm, head] = await Promise.all(["Arm", "Head"].map(async (part) => {
+    const { x, y, width, height } = (await page.locator(`[data-part="${part}"]`).boundingBox())!;
+    return { x: x + width / 3, y: y + height / 2 };
+  }));
+  const session = await page.context().newCDPSession(page);
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", at?: { x: number; y: number }) => session.send("Input.dispatchTouchEvent", { type, touchPoints: at ? [at] : [] });
+  // A finger that rests on a row drags it.
+  await touch("touchStart", arm);
+  await page.locator(".hanging").waitFor();
+  await touch("touchMove", { x: arm!.x, y: (arm!.y + head!.y) / 2 });
+  await touch("touchMove", head);
+  assert.equal(await page.locator(".hanging").innerText(), "Hang Arm on Head");
+  await picture(page, "edit-hanging-phone");
+  await touch("touchEnd");
+  await edited.has(BEFORE.replace("Arm@Body", "Arm@Head"), "by touch");
+}, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 
 edit("a refusal is a sentence with its choices, and a choice is made", async (edited) => {
   const { page } = edited;
@@ -313,7 +468,7 @@ edit("a drawing without a string becomes a figure, and nobody writes one", async
   await page.waitForFunction(() => document.querySelector<HTMLInputElement>('[aria-label="Color: as text"]')?.value === "#2f7fc1");
   await shot("2-colour");
   const text = edited.text();
-  await edited.label("Shape: which").selectOption("1");
+  await page.getByRole("radio", { name: "roundv" }).click();
   const choice = page.getByRole("button", { name: /^Give Body this Shape/ });
   await choice.waitFor();
   assert.equal(edited.text(), text, "it is asked before");

@@ -184,6 +184,19 @@ test("a clip waits at its end for a longer one beside it", () => {
   assert.deepEqual([player.end, player.time, root.position.x], [1, 1, 1]);
 });
 
+test("a player begins with a preferred clip, and goes on with the one that is shown", () => {
+  const clips = ["before", "after"].map((name) => new AnimationClip(name, 1, []));
+  const model = () => new Model(new Group(), clips);
+  const player = new Player();
+  player.take(model(), true);
+  assert.equal(player.clip?.name, "before");
+  const other = new Player();
+  other.take(model(), true, ({ name }) => name === "after");
+  assert.equal(other.clip?.name, "after");
+  player.take(model(), true, ({ name }) => name === "after");
+  assert.equal(player.clip?.name, "before");
+});
+
 test("the neighbours of a time are the drawings, or the keys, before and after it", () => {
   const held = { keys: { times: [0, 0.5, 1], held: true } };
   assert.deepEqual([0.2, 0.5, 0.7, 1.5].map((time) => neighbors({ ...held, time }, null)), [[null, 0.5], [0, 1], [0, 1], [0.5, null]]);

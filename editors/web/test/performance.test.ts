@@ -8,6 +8,7 @@ import type { Made } from "./drawings";
 import type { MockHost } from "./mock";
 import { performed, puppet } from "./performed";
 import { browse, example, source } from "./setup";
+import { SIZES } from "./sizes";
 
 const FPS = 24;
 /** The frames of the performance in which the right hand is fastest, and of the motion, from 0. */
@@ -204,6 +205,25 @@ browse("on a phone the chart of a performance is touched, and leaves room for th
   const { height } = (await page.locator("canvas").boundingBox())!;
   assert.ok(height > 140, `the model has ${height} pixels`);
 }, { viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
+
+for (const { name, ...size } of SIZES) {
+  browse(`${name}: both charts leave the model half of the window, and their curves have names`, playing, async (page) => {
+    await shown(page);
+    for (const chart of ["Chart", "Performance"]) {
+      await page.getByRole("button", { name: chart, exact: true }).click();
+    }
+    await still(page);
+    const { height } = (await page.locator("canvas").boundingBox())!;
+    const share = height / page.viewportSize()!.height;
+    assert.ok(share >= 0.499, `the model has ${share}`);
+    assert.deepEqual(await overlaps(page), []);
+    // In the table, or in the chart where the table has no room.
+    const table = await page.locator(".performance-marks").evaluate(({ clientHeight }) => clientHeight);
+    assert.equal(await page.locator(".performance-legend").isVisible(), table < 44);
+    assert.match(await page.locator(table < 44 ? ".performance-legend" : ".performance-marks").innerText(), /red[^]*green/);
+    await picture(page, `charts-${name}`);
+  }, size);
+}
 
 const kicker = await make(
   source(example(join("motion", "kick")))

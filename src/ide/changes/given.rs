@@ -76,7 +76,11 @@ impl Analysis {
     }
 
     /// The edit that gives a part a description.
-    fn describe_with(&self, index: PartId, string: &str) -> Result<Vec<Edit>, Refusal> {
+    pub(in crate::ide) fn describe_with(
+        &self,
+        index: PartId,
+        string: &str,
+    ) -> Result<Vec<Edit>, Refusal> {
         writable(string)?;
         let part = &self.bindings().parts[index];
         let name = self.bindings().describe(self.drawing(), index);

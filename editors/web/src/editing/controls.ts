@@ -1,11 +1,14 @@
 // The controls of an attribute, by the types of its arguments.
 
 import { fill, h, inCode } from "../dom";
+import { kindPictures } from "./kinds";
 import type { Argument, Field, NumberControl, Variant } from "./messages";
 import { digits, flagsOf, hexOf, least, quoted, unquoted, valuesOf, withValue, words } from "./values";
 
 /** Called with the words that are to stand behind the attribute; with null it is to be taken away. */
 export type Sending = (value: string | null) => void;
+/** Called with the words while they are still being decided. */
+export type Trying = (value: string) => void;
 
 /** Text without the signs of code, for places that hold nothing but text. */
 const plain = (text: string): string => text.replaceAll("`", "");
@@ -17,14 +20,14 @@ const PAUSE = 350;
 export const SETTLED = "settled";
 
 /** The controls of a field. */
-export function fieldControls(field: Field, send: Sending): HTMLElement[] {
+export function fieldControls(field: Field, send: Sending, attempt: Trying): HTMLElement[] {
   const all: HTMLElement[] = [];
   const isColor = field.variants.some(({ arguments: [first] }) => first?.takes.type === "hex");
-  if (isColor) return [color(field, send)];
+  if (isColor) return [color(field, send, attempt)];
   const variant = field.variants[field.chosen ?? -1] ?? field.variants.find(({ arguments: all }) => all.length > 0) ?? field.variants[0];
   if (!variant) return [];
   const place = h("div", { class: "arguments" });
-  const draw = (variant: Variant): void => fill(place, ...variant.arguments.map((argument, at) => control(field, variant, argument, at, send)));
+  const draw = (variant: Variant): void => fill(place, ...variant.arguments.map((argument, at) => control(field, variant, argument, at, send, attempt)));
   const bare = field.variants.find(({ word, counts }) => word === null && counts.includes(0));
   if (bare) all.push(onOff(field, bare, send));
   if (field.variants.length > (bare ? 2 : 1)) all.push(choose(field, send, draw));
@@ -61,6 +64,16 @@ function switchOf(field: Field, flag: Field["flags"][number], send: Sending): HT
 
 /** A list of the words that an attribute can begin with, and of the lists without one. */
 function choose(field: Field, send: Sending, draw: (variant: Variant) => void): HTMLElement {
+  const pick = (variant: Variant): void => {
+    const values = least(variant);
+    // Where something must be typed first, it is asked for.
+    if (values) send(words(field, variant, values, flagsOf(field)));
+    else draw(variant);
+  };
+  if (field.attribute === "Shape") {
+    const kinds = field.variants.map(({ word, summary }) => ({ name: word ?? "", summary }));
+    return kindPictures("Shape: which", "Shape which", kinds, field.chosen, field.default, (at) => pick(field.variants[at]!));
+  }
   const select = h("select", { class: "select", attributes: { "aria-label": `${field.attribute}: which`, "data-key": `${field.attribute} which` } });
   const title = ({ word, summary, arguments: all }: Variant): string => (word === null ? all.map(({ name }) => name).join(" and ") : summary === "" ? word : `${word} — ${summary}`);
   const nothing = field.value === null ? [h("option", { attributes: { value: "" } }, `(${field.default})`)] : [];
@@ -69,22 +82,20 @@ function choose(field: Field, send: Sending, draw: (variant: Variant) => void): 
   select.addEventListener("change", () => {
     const variant = field.variants[Number(select.value)];
     if (select.value === "" || !variant) return send(null);
-    const values = least(variant);
-    // Where something must be typed first, it is asked for.
-    if (values) send(words(field, variant, values, flagsOf(field)));
-    else draw(variant);
+    pick(variant);
   });
   return select;
 }
 
-function control(field: Field, variant: Variant, argument: Argument, at: number, send: Sending): HTMLElement {
-  const set = (value: string): void => send(words(field, variant, withValue(variant, at, value), flagsOf(field)));
+function control(field: Field, variant: Variant, argument: Argument, at: number, send: Sending, attempt: Trying): HTMLElement {
+  const all = (value: string): string => words(field, variant, withValue(variant, at, value), flagsOf(field));
+  const set = (value: string): void => send(all(value));
   const label = `${field.attribute}: ${argument.name}`;
   const key = `${field.attribute} ${variant.word ?? ""} ${at}`;
   const { takes } = argument;
   const head = h("span", { class: "argument-name", title: argument.summary }, argument.name);
   const note = h("span", { class: "muted argument-note" }, ...inCode(argument.summary));
-  if (takes.type === "number") return h("div", { class: "argument" }, head, ...slider(takes, argument, label, key, set), note);
+  if (takes.type === "number") return h("div", { class: "argument" }, head, ...slider(takes, argument, label, key, set, (value) => attempt(all(value))), note);
   if (takes.type === "choice") {
     const select = h("select", { class: "select", attributes: { "aria-label": label, "data-key": key } }, ...takes.words.map(([word, summary]) => h("option", { attributes: { value: word } }, plain(`${word} — ${summary}`))));
     select.value = argument.value ?? "";
@@ -103,7 +114,7 @@ function control(field: Field, variant: Variant, argument: Argument, at: number,
 }
 
 /** A slider with the number beside it, which can be typed and may be outside of the slider. */
-function slider(takes: NumberControl, argument: Argument, label: string, key: string, set: (value: string) => void): HTMLElement[] {
+function slider(takes: NumberControl, argument: Argument, label: string, key: string, set: (value: string) => void, attempt: (value: string) => void): HTMLElement[] {
   const { low, high, step, min, max } = takes;
   const written = argument.value === null ? NaN : Number(argument.value);
   const known = Number.isFinite(written) ? written : takes.start;
@@ -114,8 +125,9 @@ function slider(takes: NumberControl, argument: Argument, label: string, key: st
   number.placeholder = known === null ? "" : digits(known, step);
   // A slider rests on multiples of its step only; one that was not moved says nothing.
   let sent = number.value;
+  let [moved, over] = [false, false];
   const commit = (value: string): void => {
-    if (value === sent) return;
+    if (value === sent || over) return;
     sent = value;
     set(value);
   };
@@ -133,9 +145,19 @@ function slider(takes: NumberControl, argument: Argument, label: string, key: st
     clearTimeout(timer);
     timer = undefined;
   };
-  range.addEventListener("keydown", () => (byKey = true));
+  range.addEventListener("keydown", ({ key }) => {
+    byKey = true;
+    // The form puts another slider in the place of one that is given up.
+    if (key !== "Escape" || !moved) return;
+    flush();
+    over = true;
+  });
   range.addEventListener("pointerdown", () => (byKey = false));
-  range.addEventListener("input", () => (number.value = digits(range.valueAsNumber, step)));
+  range.addEventListener("input", () => {
+    moved = true;
+    number.value = digits(range.valueAsNumber, step);
+    attempt(number.value);
+  });
   range.addEventListener("change", (event) => {
     const value = digits(range.valueAsNumber, step);
     if (!byKey) return flush(), commit(value);
@@ -159,11 +181,13 @@ function slider(takes: NumberControl, argument: Argument, label: string, key: st
 }
 
 /** A swatch, which opens the browser's picker, and the colour as text. */
-function color(field: Field, send: Sending): HTMLElement {
+function color(field: Field, send: Sending, attempt: Trying): HTMLElement {
   const now = field.value === null ? null : hexOf(field.value);
   const swatch = h("input", { class: "color-field", attributes: { type: "color", "aria-label": `${field.attribute}: swatch`, "data-key": `${field.attribute} swatch` } });
   swatch.value = now?.hex ?? "#808080";
-  swatch.addEventListener("change", () => send(`${swatch.value}${now?.opacity ?? ""}`));
+  const value = (): string => `${swatch.value}${now?.opacity ?? ""}`;
+  swatch.addEventListener("input", () => attempt(value()));
+  swatch.addEventListener("change", () => send(value()));
   const text = h("input", { class: "text-field", attributes: { type: "text", "aria-label": `${field.attribute}: as text`, "data-key": `${field.attribute} text`, spellcheck: "false" } });
   text.value = field.from === "builtin" ? (now?.hex ?? "") : (field.value ?? "");
   text.addEventListener("change", () => send(text.value.trim() === "" ? null : text.value.trim()));

@@ -1,6 +1,7 @@
 // Editing: what is changed here is written into the drawing. It is off until a person turns it on.
 
 import type { Host } from "../host/host";
+import type { Attempt } from "../viewport/loading";
 import type { State } from "../state";
 import { readForm, readRefusal, type Change, type PartForm, type Refusal } from "./messages";
 
@@ -17,6 +18,12 @@ export class Editing {
   busy = false;
   /** Shows the field for the name of the selected part; set by the page. */
   rename: () => void = () => {};
+  /** Shows what a change would make of the drawing, or the drawing as it is, at once or once the change is made; set by the page. */
+  tries: (attempt: Attempt | "made" | null) => void = () => {};
+  /** Whether a change is tried, and neither made nor given up yet. */
+  private trying = false;
+  /** How many changes are on their way. */
+  private sending = 0;
   private readonly listeners = new Map<EditingTopic, (() => void)[]>();
   /** Changes are made one after the other. */
   private last: Promise<unknown> = Promise.resolve();
@@ -53,6 +60,7 @@ export class Editing {
     this.said = "";
     this.refusal = null;
     this.pick(null);
+    this.giveUp();
     this.notify("mode");
   }
 
@@ -78,6 +86,25 @@ export class Editing {
     return this.send(() => ({ make: { ...change, part: form.part } }), (part) => {
       if (change.change === "name" && part !== null) form.part = part;
     });
+  }
+
+  /** Shows what a change in a part's form would make of the drawing, which stays as it is. */
+  attempt(form: PartForm, change: Change): void {
+    const { current, key } = this.state;
+    const { attempt } = this.host;
+    if (!this.on || current === null || key === null || !attempt) return;
+    this.trying = true;
+    this.tries(async (shows) => {
+      await this.last;
+      return attempt(key, { drawing: current, revision: this.state.drawing?.build?.revision ?? 0, change: { ...change, part: form.part }, shows });
+    });
+  }
+
+  /** Shows the drawing as it is, unless what was tried is being made. */
+  giveUp(): void {
+    if (!this.trying || this.sending > 0) return;
+    this.trying = false;
+    this.tries(null);
   }
 
   /** Makes a change that the program has offered. */
@@ -119,7 +146,19 @@ export class Editing {
   }
 
   private send(what: () => unknown, done: (part: string | null) => void = () => {}): Promise<boolean> {
-    const sent = this.last.then(() => this.sendNow(what(), done));
+    this.sending++;
+    const sent = this.last
+      .then(() => this.sendNow(what(), done))
+      .then((made) => {
+        this.sending--;
+        // What was made is shown until its build comes.
+        if (!made) this.giveUp();
+        else if (this.trying) {
+          this.trying = false;
+          this.tries("made");
+        }
+        return made;
+      });
     this.last = sent;
     return sent;
   }

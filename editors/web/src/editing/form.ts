@@ -3,9 +3,9 @@
 import { MousePointerClick, RotateCcw } from "lucide";
 import { button, fill, h, icon, inCode } from "../dom";
 import type { State } from "../state";
-import { fieldControls, SETTLED, type Sending } from "./controls";
+import { fieldControls, SETTLED, type Sending, type Trying } from "./controls";
 import type { Editing } from "./editing";
-import type { Field, PartForm } from "./messages";
+import type { Change, Field, PartForm } from "./messages";
 
 /** Attributes that are shown without being asked for. */
 const FIRST: readonly string[] = ["Color", "Shape", "Offset"];
@@ -41,6 +41,7 @@ export class FormPanel {
       if (event.key !== "Escape" || !(target instanceof HTMLInputElement) || !this.held) return;
       event.preventDefault();
       this.held = false;
+      this.editing.giveUp();
       this.draw();
     });
     this.name.addEventListener("change", () => this.call());
@@ -52,6 +53,7 @@ export class FormPanel {
     editing.listen(["picking"], () => this.draw());
     state.on(["selection", "current"], () => {
       this.held = this.names = false;
+      editing.giveUp();
       // Until its own form is there, nobody changes another part by mistake. Whoever is in the form has renamed the part.
       const isOther = this.form !== null && this.form.part !== state.selected;
       this.element.inert = isOther && !this.element.contains(document.activeElement);
@@ -70,6 +72,7 @@ export class FormPanel {
 
   private release(): void {
     this.held = false;
+    this.editing.giveUp();
     if (this.late) this.draw();
   }
 
@@ -181,9 +184,11 @@ export class FormPanel {
   }
 
   private inside(form: PartForm, field: Field): HTMLElement[] {
-    const send: Sending = (value) => void this.editing.make(form, value === null ? { change: "reset", part: form.part, attribute: field.attribute } : { change: "set", part: form.part, attribute: field.attribute, value });
+    const set = (value: string): Change => ({ change: "set", part: form.part, attribute: field.attribute, value });
+    const send: Sending = (value) => void this.editing.make(form, value === null ? { change: "reset", part: form.part, attribute: field.attribute } : set(value));
+    const attempt: Trying = (value) => this.editing.attempt(form, set(value));
     const shared = field.shared.length > 0 ? [h("p", { class: "muted field-note" }, `Shared with ${named(field.shared)}.`)] : [];
-    return [h("p", { class: "muted field-note" }, ...inCode(sentence(field.summary))), ...shared, ...fieldControls(field, send)];
+    return [h("p", { class: "muted field-note" }, ...inCode(sentence(field.summary))), ...shared, ...fieldControls(field, send, attempt)];
   }
 }
 

@@ -16,6 +16,7 @@ export class CodeHost implements Host {
   readonly openCamera = null;
   /** The editor holds the text. */
   readonly post = null;
+  readonly attempt = null;
   readonly showsFindings = true;
   /** Pending requests by address. */
   private readonly waiting = new Map<string, Waiting[]>();

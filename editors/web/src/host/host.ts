@@ -12,6 +12,12 @@ export interface Answer {
   readonly body: unknown;
 }
 
+/** A model that no drawing has: what differs in it from another one, and the address by which that is known. */
+export interface Attempted {
+  readonly address: string;
+  readonly bytes: ArrayBuffer;
+}
+
 export interface Host {
   /** Starts to report messages of the host and the state of the connection, with a note that explains it. */
   listen(handler: (message: FromHost) => void, link: (state: Link, note?: string) => void): void;
@@ -23,6 +29,8 @@ export interface Host {
   picture(address: string): Promise<string>;
   /** Asks for a change, or what can be changed, with the host's key; null where the page changes nothing. */
   readonly post: ((what: "changes" | "forms", key: string, request: unknown) => Promise<Answer>) | null;
+  /** Asks for a model of what a change would make of the drawing; null if there is none to show. */
+  readonly attempt: ((key: string, request: unknown) => Promise<Attempted | null>) | null;
   /** Saves a file for the user. */
   save(name: string, content: Blob): Promise<void>;
   /** Whether the host is an editor that shows what is wrong with the drawing. */

@@ -1,7 +1,7 @@
 // The host over HTTP: messages through a WebSocket, models and pictures by GET.
 
 import { Messages, type FromHost, type ToHost } from "../protocol";
-import type { Answer, Host, Link } from "./host";
+import type { Answer, Attempted, Host, Link } from "./host";
 
 /** Delays between attempts to connect, in milliseconds. */
 const FIRST_PAUSE = 200;
@@ -64,11 +64,21 @@ export class WebHost implements Host {
   }
 
   readonly post = async (what: "changes" | "forms", key: string, request: unknown): Promise<Answer> => {
-    const response = await fetch(what, { method: "POST", headers: { "content-type": "application/json", "okoshi-key": key }, body: JSON.stringify(request) });
+    const response = await this.posted(what, key, request);
     return { ok: response.ok, body: await response.json().catch(() => null) };
   };
 
+  readonly attempt = async (key: string, request: unknown): Promise<Attempted | null> => {
+    const response = await this.posted("tries", key, request);
+    const address = response.headers.get("okoshi-model");
+    return response.status === 200 && address !== null ? { address, bytes: await response.arrayBuffer() } : null;
+  };
+
   readonly openCamera = (): WebSocket => new WebSocket(socketAddress("camera"));
+
+  private posted(what: string, key: string, request: unknown): Promise<Response> {
+    return fetch(what, { method: "POST", headers: { "content-type": "application/json", "okoshi-key": key }, body: JSON.stringify(request) });
+  }
 
   private hurry(): void {
     if (this.timer === undefined) return;

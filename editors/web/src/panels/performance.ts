@@ -14,6 +14,8 @@ const SPACE = { top: 22, between: 48, below: 20 };
 /** The same in a picture that is lower, in pixels, where there are neither titles nor numbers. */
 const LOW = 130;
 const LOW_SPACE = { top: 4, between: 14, below: 4 };
+/** A table that is lower, in pixels, does not say which curve is which. */
+const READABLE = 44;
 /** Marks can be told apart without their colours, too. */
 const DASHES = ["", "7 3", "2 3", "9 3 2 3"];
 const ROWS: readonly Row[] = ["performance", "motion"];
@@ -21,6 +23,9 @@ const TITLES: Readonly<Record<Row, string>> = { performance: "marks of the perfo
 
 export class PerformanceChart extends ClipChart {
   private readonly marks = h("tbody");
+  /** The names of the curves, where there is no room for the table. The table has them for screen readers. */
+  private readonly legend = h("div", { class: "performance-legend", hidden: true, attributes: { "aria-hidden": "true" } });
+  private readonly table: HTMLElement;
   private readonly filming = h("p", { class: "muted" });
   private readonly head = svg("path", { class: "performance-head" });
   private times: PerformanceTimes | null = null;
@@ -30,10 +35,11 @@ export class PerformanceChart extends ClipChart {
   constructor(viewer: Viewer, private readonly time: TimeAxis, changed: () => void) {
     super(viewer, changed, { label: "Performance", classes: ["performance", "chart-picture performance-picture"], remembered: "okoshi.performance" });
     const head = h("thead", {}, h("tr", {}, ...["Mark", "Parts", "R", "Effect"].map((title) => h("th", { title: title === "R" ? "Its largest movement over that of the emphasised mark" : "", attributes: { scope: "col" } }, title))));
+    this.table = h("div", { class: "performance-marks", attributes: { role: "group", "aria-label": "Marks", tabindex: 0 } }, h("table", {}, head, this.marks), this.filming);
     fill(
       this.element,
       h("header", { class: "chart-title" }, h("h2", {}, "Performance ", h("span", { class: "muted", title: "Movement per frame, as a ratio of the largest one" }, "movement, 0 to 1")), this.summary, this.file),
-      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks", attributes: { role: "group", "aria-label": "Marks", tabindex: 0 } }, h("table", {}, head, this.marks), this.filming)),
+      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.legend, this.tip), this.table),
     );
   }
 
@@ -82,10 +88,16 @@ export class PerformanceChart extends ClipChart {
     }
     fill(this.picture, ...parts, ...numbers, this.line, this.head);
 
-    fill(this.marks, ...facts.marks.map((mark, at) => {
+    const sample = ({ emphasized, color }: { readonly emphasized: boolean; readonly color: string }, at: number): SVGElement => {
       const sample = svg("svg", { class: "performance-sample", viewBox: "0 0 26 10", "aria-hidden": "true" });
-      sample.append(colored(svg("path", { class: mark.emphasized ? "performance-curve emphasized" : "performance-curve", "stroke-dasharray": dashes(at), d: "M1 5H25" }), mark.color));
-      const name = h("th", { attributes: { scope: "row" } }, sample, mark.name);
+      sample.append(colored(svg("path", { class: emphasized ? "performance-curve emphasized" : "performance-curve", "stroke-dasharray": dashes(at), d: "M1 5H25" }), color));
+      return sample;
+    };
+    fill(this.legend, ...facts.marks.map((mark, at) => h("span", {}, sample(mark, at), mark.name)));
+    this.legend.hidden = this.table.clientHeight >= READABLE;
+    this.table.classList.toggle("squeezed", !this.legend.hidden);
+    fill(this.marks, ...facts.marks.map((mark, at) => {
+      const name = h("th", { attributes: { scope: "row" } }, sample(mark, at), mark.name);
       return h("tr", {}, name, h("td", {}, mark.parts.join(", ")), h("td", { class: "number" }, mark.ratio.toFixed(2)), h("td", {}, describeEffect(mark)));
     }));
     const timing = describeTiming(facts);

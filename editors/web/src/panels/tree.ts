@@ -43,7 +43,7 @@ function noteOf(part: Part): string | null {
 export class Tree {
   readonly element = h("section", { class: "tree-panel", attributes: { "aria-label": "Parts" } });
   private readonly place = h("div", { class: "tree-rows", attributes: { role: "none" } });
-  private readonly list = h("div", { class: "tree", attributes: { role: "tree", "aria-label": "Parts of the drawing" } }, this.place);
+  readonly list = h("div", { class: "tree", attributes: { role: "tree", "aria-label": "Parts of the drawing" } }, this.place);
   private readonly empty = h("p", { class: "muted pad tree-empty", attributes: { role: "status" } });
   private readonly summary = h("span", { class: "muted" });
   private readonly query = h("input", { class: "search-field", attributes: { type: "search", placeholder: "Search parts", "aria-label": "Search parts", "aria-keyshortcuts": "/", spellcheck: "false", autocomplete: "off" } });

@@ -59,8 +59,8 @@ export class Player {
     if (this.time > this.end) this.seek(this.end);
   }
 
-  /** Continues in another model: with the clip of the same name at the same time, otherwise with its first. `plays` applies to the latter. */
-  take(model: Model, plays: boolean): void {
+  /** Continues in another model: with the clip of the same name at the same time, otherwise with one that is `preferred`, or its first. `plays` applies to the latter. */
+  take(model: Model, plays: boolean, preferred: (clip: AnimationClip) => boolean = () => false): void {
     const before = this.clip;
     this.mixer?.stopAllAction();
     this.clips = model.clips;
@@ -71,7 +71,7 @@ export class Player {
       this.time = 0;
       this.playing = plays && model.clips.length > 0;
     }
-    this.use(same ?? model.clips[0] ?? null);
+    this.use(same ?? model.clips.find(preferred) ?? model.clips[0] ?? null);
   }
 
   /** Gives all nodes back what the clip moved, until the next model is taken. */

@@ -1,7 +1,7 @@
 // Loads models: as a whole, or what changed since the one that is shown.
 
 import { painted } from "../dom";
-import type { Host } from "../host/host";
+import type { Attempted, Host } from "../host/host";
 import type { Build } from "../protocol";
 import { Model, type Shading } from "./model";
 import { readChanges, readFile, type Delta, type ModelFile } from "./model-file";
@@ -15,12 +15,19 @@ export interface Wanted {
   readonly address: string;
   readonly clips: Build["clips"];
   readonly originals: string | null;
+  /** Asks what a change would make of this model, for a page that shows the model of an address. */
+  readonly attempt?: Attempt;
+  /** The address of that, once it is shown. */
+  readonly attempted?: string;
 }
 
-/** A model that was read: as a whole, or as what changed since another one. */
-export type Loaded = { readonly model: Model; readonly bytes: ArrayBuffer } | { readonly changes: Delta; readonly since: Wanted };
+/** Asks what a change would make of the drawing. */
+export type Attempt = (shows: string) => Promise<Attempted | null>;
 
-/** Whether two requests are for the same model. */
+/** A model that was read: as a whole, or as what changed since another one. */
+export type Loaded = ({ readonly model: Model; readonly bytes: ArrayBuffer } | { readonly changes: Delta; readonly since: Wanted }) & { readonly attempted?: string };
+
+/** Whether two requests are for the same model of a drawing, whatever is tried with it. */
 export const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing === b.drawing && a.connection === b.connection && a.address === b.address;
 
 /** What the viewer shows when a model is loaded. */
@@ -39,9 +46,13 @@ export async function load(wanted: Wanted, { model, shown, shading }: Shown, hos
     return prepared;
   };
   if (model && shown?.drawing === wanted.drawing && shown.connection === wanted.connection) {
-    const bytes = await host.model(`${wanted.address}?since=${shown.address}`);
+    const before = shown.attempted ?? shown.address;
+    const tried = wanted.attempt && (await wanted.attempt(before));
+    if (tried === null) throw new Error("there is nothing to show of this change");
+    const bytes = tried ? tried.bytes : await host.model(`${wanted.address}?since=${before}`);
     const changes = await readChanges(bytes);
-    return "moved" in changes ? { changes, since: shown } : { model: prepare(changes), bytes };
+    const about = tried ? { attempted: tried.address } : {};
+    return "moved" in changes ? { changes, since: shown, ...about } : { model: prepare(changes), bytes, ...about };
   }
   const bytes = await host.model(wanted.address);
   if (model) return { model: prepare(await readFile(bytes)), bytes };

@@ -56,7 +56,8 @@ export class Playback {
   /** Continues in a model that replaces the last one. */
   take(model: Model, clips: Wanted["clips"]): void {
     this.exposures.take(clips);
-    this.player.take(model, !prefersReducedMotion());
+    // A performed clip is what the drawing is about; the motion that it was made of may stand before it.
+    this.player.take(model, !prefersReducedMotion(), (clip) => this.exposures.of(clip).some(({ facts }) => facts.performance !== null));
     this.pose.apply();
   }
 

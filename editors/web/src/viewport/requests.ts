@@ -3,7 +3,7 @@
 import type { Host } from "../host/host";
 import type { State } from "../state";
 import { Latest } from "./latest";
-import { isSame, load, type Loaded, type Wanted } from "./loading";
+import { isSame, load, type Attempt, type Loaded, type Wanted } from "./loading";
 import type { Model, Shading } from "./model";
 import type { RenderLoop } from "./render-loop";
 
@@ -27,6 +27,10 @@ export class ModelRequests {
   private shown: Wanted | null = null;
   /** The last request that is not shown yet. */
   private awaited: Wanted | null = null;
+  /** A change that is being tried. */
+  private attempt: Attempt | null = null;
+  /** Whether it is made, and only shown until its build comes. */
+  private made = false;
   /** The file of the model; null if only what changed in it was read. */
   private bytes: ArrayBuffer | null = null;
   /** Why the newest model is not shown, as a message. */
@@ -54,11 +58,26 @@ export class ModelRequests {
     const { clips, originals } = build;
     const wanted: Wanted = { drawing: drawing.id, connection: drawing.connection, revision: build.revision, address: build.model, clips, originals };
     // The same model, but its parts may be bound to other strings now.
-    if (isSame(wanted, this.awaited ?? this.shown)) return this.display.kept();
+    if (isSame(wanted, before) && (this.attempt !== null || !isTried(before))) return this.display.kept();
+    if (this.made) this.attempt = null;
     // Addresses hold within one connection: a lost host cannot be asked, and a new one not for a model of the last.
     if (this.state.link !== "open" || drawing.connection !== this.state.connection) return;
     this.awaited = wanted;
     this.loading.want(wanted);
+  }
+
+  /** Shows what a change would make of the drawing; with null, the drawing as it is, once the change is made, its next build. */
+  tries(attempt: Attempt | "made" | null): void {
+    const { shown } = this;
+    this.made = attempt === "made";
+    if (attempt === "made") return;
+    this.attempt = attempt;
+    if (attempt === null) return this.update();
+    // A build that is on its way is shown first: it is what the change would be made in.
+    if (!shown || (this.awaited && !this.awaited.attempt)) return;
+    const { attempted: _, ...base } = shown;
+    this.awaited = { ...base, attempt };
+    this.loading.want(this.awaited);
   }
 
   /** The file of the model; null if the server that has it is gone. */
@@ -79,15 +98,20 @@ export class ModelRequests {
       if ("model" in loaded) loaded.model.dispose();
       return;
     }
-    this.shown = wanted;
-    this.bytes = "changes" in loaded ? null : loaded.bytes;
+    const { attempted } = loaded;
+    this.shown = attempted === undefined ? wanted : { ...wanted, attempted };
+    this.bytes = "changes" in loaded || attempted !== undefined ? null : loaded.bytes;
     this.failure = "";
-    this.display.take(loaded, wanted);
+    this.display.take(loaded, this.shown);
+    // Whoever is still deciding goes on with the new build.
+    if (!wanted.attempt && this.attempt && !this.made) this.tries(this.attempt);
   }
 
   private failed(error: unknown, wanted: Wanted): void {
     if (wanted !== this.awaited) return;
     this.awaited = null;
+    // A change that cannot be made is not shown.
+    if (wanted.attempt) return this.tries(null);
     if (wanted.drawing !== this.state.current || this.state.link === "lost") return;
     this.failure = error instanceof Error ? error.message : String(error);
     this.display.failed();
@@ -95,8 +119,11 @@ export class ModelRequests {
 
   private remove(): void {
     this.bytes = null;
-    this.shown = this.awaited = null;
+    this.shown = this.awaited = this.attempt = null;
     this.failure = "";
     this.display.remove();
   }
 }
+
+/** Whether it is about a change that is only tried. */
+const isTried = (wanted: Wanted | null): boolean => wanted !== null && (wanted.attempt ?? wanted.attempted) !== undefined;

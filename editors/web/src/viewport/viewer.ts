@@ -184,6 +184,7 @@ export class Viewer {
     if (first) this.view.frame("threeQuarter", false);
     this.playback.goAlong();
     this.canvas.dataset["revision"] = String(wanted.revision);
+    this.canvas.dataset["tried"] = wanted.attempted ?? "";
     this.canvas.setAttribute("aria-label", `Model of ${this.state.drawing?.name ?? "the drawing"}: ${count(model.triangles, "triangle")}`);
     this.renderLoop.afterNext(() => {
       // Not before the new model has taken over the shaders, or they would be compiled again.
