@@ -135,6 +135,9 @@ export async function picture(page: Page, name?: string): Promise<{ at(place: { 
 /** Takes a picture of the manual, which `tests/all.sh` compares with the one in `docs`; `OKOSHI_REWRITE=pictures` replaces that. */
 export async function manual(shown: Page | Locator, path: string): Promise<void> {
   const file = join(OUT, "manual", path);
+  const page = "page" in shown ? shown.page() : shown;
+  // How long a build takes on this machine says nothing.
+  await page.locator(".bar-time").evaluateAll((times) => times.forEach((time) => ((time as HTMLElement).style.display = "none")));
   await shown.screenshot({ path: file });
   if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) {
     const kept = join("..", "..", "docs", path);

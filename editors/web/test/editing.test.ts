@@ -437,8 +437,6 @@ edit("a drawing without a string becomes a figure, and nobody writes one", async
   const { page } = edited;
   const shot = async (name: string): Promise<void> => {
     await page.mouse.move(5, 5);
-    // The time of a build says nothing.
-    await page.locator(".bar-time").evaluate((time) => (time.style.display = "none"));
     await still(page);
     await manual(page, join("without-strings", `${name}.png`));
   };

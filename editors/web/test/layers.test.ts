@@ -45,8 +45,6 @@ browse("a part under the pointer shows its depth and the reason", one(DOLL), asy
   const mark = (await page.locator(".layers-mark").boundingBox())!;
   assert.ok(Math.abs(mark.x - plane.x) > 2, "the line of the arm lies beside it");
   await page.locator("canvas").evaluate((canvas) => canvas.blur());
-  // The time of a build without optimisations says nothing.
-  await page.locator(".bar-time").evaluate((time) => time.remove());
   await manual(page, "preview-layers.png");
   await page.locator("[data-part=Body]").click();
   await page.mouse.move(2, 2);

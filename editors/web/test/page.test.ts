@@ -405,8 +405,6 @@ browse("the picture of the manual", one(example("clockwork-dragon")), async (pag
   for (const key of ["ArrowLeft", "ArrowLeft", "+"]) await page.keyboard.press(key);
   await page.mouse.move(2, 2);
   assert.ok(await page.locator("[data-part=Head]").evaluate((row) => row.getBoundingClientRect().bottom <= row.closest(".tree")!.getBoundingClientRect().bottom), "the chosen row stays in sight beside its details");
-  // The time of a build without optimisations says nothing.
-  await page.locator(".bar-time").evaluate((time) => time.remove());
   await still(page);
   await manual(page, "preview.png");
   const { width, height, data } = await picture(page);
