@@ -126,13 +126,8 @@ pub(super) async fn attempt(
         Err(refused) => return refused,
     };
     let tried = tokio::task::spawn_blocking(move || {
-        let ToTry {
-            drawing,
-            revision,
-            change,
-            shows,
-        } = asked;
-        shared.hub.tried(&drawing, revision, &change, &shows)
+        let hub = &shared.hub;
+        hub.tried(&asked.drawing, asked.revision, &asked.change, &asked.shows)
     });
     match tried.await {
         Ok(Ok((address, bytes))) => {

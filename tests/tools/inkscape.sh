@@ -7,7 +7,6 @@
 # Without OKOSHI the program is taken from target/. Exits with status 77 and a reason if something is not installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-repository=$PWD
 project=$PWD
 if [ -z "${OKOSHI:-}" ]; then
   for built in target/debug/okoshi target/release/okoshi; do [ ! -x $built ] || OKOSHI=$built; done
@@ -232,7 +231,7 @@ await selected text154
 settle
 shot check-selected
 case ",${OKOSHI_REWRITE:-}," in
-  *,pictures,*) convert "$SCRATCH/shots/check-selected.png" +dither -colors 128 "$repository/docs/editors/inkscape.png" ;;
+  *,pictures,*) convert "$SCRATCH/shots/check-selected.png" +dither -colors 128 "$project/docs/editors/inkscape.png" ;;
 esac
 # Another check shows its result in the same window.
 action delete-selection

@@ -244,8 +244,6 @@ browse("the picture of the manual", (host) => {
   // Just after the key, so that the playhead does not cover the line between the keys.
   await seek(page, KEY + 1);
   await page.evaluate(() => (document.activeElement as HTMLElement).blur());
-  // The time of a build without optimisations says nothing.
-  await page.locator(".bar-time").evaluate((time) => time.remove());
   await page.mouse.move(2, 2);
   await still(page);
   await manual(page, "preview-performance.png");
