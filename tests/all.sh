@@ -54,6 +54,15 @@ closing() { # LOG
   ' "$1"
 }
 
+# What failed in a step, so that the summary tells it: tests' names, and the places and first lines of panics.
+faults() { # LOG
+  awk '
+    left > 0 { print "  " $0; left-- }
+    /^test .* \.\.\. FAILED$/ || /^FAILED / || /^ *✖ / { print }
+    / panicked at / { print; left = 3 }
+  ' "$1" | awk '!seen[$0]++' | cut -c 1-240 | head -n 40
+}
+
 isolated() { (set -e; exec >&3 2>&1 3>&-; "$1"); }
 
 # Runs a step. Its output goes to its log too, and what became of it, with its time and that of all its processors, into a file beside that.
@@ -90,7 +99,7 @@ conclude() { # NAME
   summary+=("$(printf '%-12s %4d s, CPU %4d s  %s' "$1" "$seconds" "$processor" "$verdict")")
   while IFS= read -r line; do
     [ -z "$line" ] || summary+=("                       $line")
-  done < <(closing "$log"; echo "$left_out")
+  done < <(closing "$log"; case $status in 0 | 77) ;; *) faults "$log" ;; esac; echo "$left_out")
 }
 
 step() { # NAME FUNCTION
