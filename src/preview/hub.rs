@@ -1,8 +1,8 @@
 //! The drawings that pages show, and their updates.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rustc_hash::FxHashMap;
 use serde_json::value::{RawValue, to_raw_value};
@@ -11,25 +11,14 @@ use tokio::sync::{Semaphore, watch};
 use super::changes::Editing;
 use super::delta::delta;
 use super::message::{Build, Listed, PartOrKept, ToPage, findings};
+use super::models::{Bytes, StoredModel, TriedModels, originals};
 use super::starters::Starters;
+use super::texts::Texts;
 use crate::compile::Compiled;
-use crate::export::{self, GLB, Written};
+use crate::export::Written;
 use crate::ide::changes::{Change, Refusal};
-use crate::render::{self, Options, PosedModel, write_png};
 use crate::report::{clips, everything};
-use crate::resolver::MemoryResolver;
 use crate::watch::{Action, BuildTimes, Done, NotChanged, Steps};
-
-/// How many texts of a drawing are kept: a page may still show an older build when somebody changes something there.
-const MAX_TEXTS: usize = 64;
-/// How many bytes they may have together, besides the last one.
-const MAX_TEXT_BYTES: usize = 16 << 20;
-
-/// How many models of changes that were only tried are kept, so that only what differs is sent of the next one.
-const MAX_TRIED: usize = 4;
-
-/// The side of the thumbnails in the gallery, in pixels.
-const THUMBNAIL_SIZE: u32 = 320;
 
 /// All drawings that pages can show. Each page asks for the updates since its last request, so that a slow page gets only
 /// the newest ones, and nothing is queued for a page that does not read.
@@ -51,9 +40,6 @@ impl std::fmt::Debug for Hub {
         f.debug_struct("Hub").finish_non_exhaustive()
     }
 }
-
-/// A file that is sent.
-pub(super) type Bytes = Arc<[u8]>;
 
 /// Called with the id of a drawing and what was clicked in it.
 type OnPick = dyn Fn(&str, Picked<'_>) + Send + Sync;
@@ -82,8 +68,8 @@ struct State {
     drawings: BTreeMap<String, Entry>,
     /// The number of the last model; numbers are never reused.
     models: u64,
-    /// Models of changes that were only tried, with their numbers. They are no drawing's, and are not sent by themselves.
-    tried: VecDeque<(u64, Bytes)>,
+    /// Models of changes that were only tried. They are no drawing's, and are not sent by themselves.
+    tried: TriedModels,
 }
 
 /// A drawing, with the time of the last change to each of its parts.
@@ -97,8 +83,8 @@ struct Entry {
     light: (u64, Option<String>),
     /// What can be undone and redone.
     steps: (u64, Steps),
-    /// The last texts that were built, by their revisions, if pages may change the drawing.
-    texts: VecDeque<(u64, Arc<str>)>,
+    /// The last texts that were built, if pages may change the drawing.
+    texts: Texts,
     /// The last two models: a page may still be about to fetch the older one.
     models: Vec<Arc<StoredModel>>,
     /// Whether a model of it without errors was shown.
@@ -116,72 +102,6 @@ struct StoredBuild {
     message: Arc<str>,
     /// The time of the build before, and what pages that know that one need.
     changes: Option<(u64, Arc<str>)>,
-}
-
-/// A model that can be fetched.
-pub(super) struct StoredModel {
-    pub(super) number: u64,
-    pub(super) bytes: Bytes,
-    /// Its clips before they were performed and limited, as binary glTF without meshes.
-    pub(super) originals: Option<Bytes>,
-    /// The description of its clips.
-    clips: Box<RawValue>,
-    written: Written,
-    picture: OnceLock<Option<Bytes>>,
-    /// The number of the model before, and what changed since.
-    delta: OnceLock<(u64, Option<Bytes>)>,
-}
-
-impl StoredModel {
-    /// What changed since another model, as binary glTF; the whole model if that is too much.
-    pub(super) fn since(&self, (before, bytes): &(u64, Bytes)) -> Bytes {
-        let compare = || delta(bytes, &self.bytes, *before).map(Bytes::from);
-        let (number, delta) = self.delta.get_or_init(|| (*before, compare()));
-        let delta = if number == before {
-            delta.clone()
-        } else {
-            compare()
-        };
-        delta.unwrap_or_else(|| self.bytes.clone())
-    }
-
-    /// A thumbnail as PNG; `None` if it cannot be drawn. It is drawn on the first call.
-    pub(super) fn picture(&self) -> Option<Bytes> {
-        let drawn = || thumbnail(&self.bytes);
-        self.picture.get_or_init(drawn).clone()
-    }
-}
-
-impl Entry {
-    /// Keeps the text of the present revision, and lets old ones go.
-    fn keep_text(&mut self, text: &str) {
-        let text = match self.texts.back() {
-            Some((_, last)) if **last == *text => last.clone(),
-            _ => text.into(),
-        };
-        self.texts.push_back((self.revision, text));
-        let bytes = |texts: &VecDeque<(u64, Arc<str>)>| -> usize {
-            texts.iter().map(|(_, text)| text.len()).sum()
-        };
-        while self.texts.len() > MAX_TEXTS
-            || self.texts.len() > 1 && bytes(&self.texts) > MAX_TEXT_BYTES
-        {
-            self.texts.pop_front();
-        }
-    }
-}
-
-/// A small picture of a model in binary glTF, as PNG; `None` if it cannot be drawn.
-pub(super) fn thumbnail(model: &[u8]) -> Option<Bytes> {
-    let model = render::read(model, &MemoryResolver::default()).ok()?;
-    let posed = PosedModel::new(&model, &model.rest()).ok()?;
-    let options = Options {
-        size: [THUMBNAIL_SIZE; 2],
-        ..Options::default()
-    };
-    let mut png = Vec::new();
-    write_png(&posed.picture(&options).ok()?, &mut png).ok()?;
-    Some(Bytes::from(png))
 }
 
 /// How builds are sent.
@@ -264,26 +184,16 @@ impl Hub {
             entry.revision += 1;
             entry.gone = None;
             if self.editing.is_some() {
-                entry.keep_text(shown.text);
+                entry.texts.keep(entry.revision, shown.text);
             }
             entry.was_good |= shown.model.is_some() && !shown.compiled.has_errors();
             if let Some((bytes, written)) = shown.model {
-                let is_equal = |last: &Arc<StoredModel>| {
-                    let same = last.bytes == *bytes && last.originals == originals;
-                    same && last.clips.get() == clips.get()
-                };
+                let is_equal = |last: &Arc<StoredModel>| last.is(bytes, originals.as_ref(), &clips);
                 let same = entry.models.last().is_some_and(is_equal);
                 if !same {
                     state.models = number;
-                    entry.models.push(Arc::new(StoredModel {
-                        number,
-                        bytes: bytes.clone(),
-                        originals,
-                        clips,
-                        written,
-                        picture: OnceLock::new(),
-                        delta: OnceLock::new(),
-                    }));
+                    let model = StoredModel::new(number, bytes.clone(), originals, clips, written);
+                    entry.models.push(Arc::new(model));
                     let old = entry.models.len().saturating_sub(2);
                     entry.models.drain(..old);
                 }
@@ -381,19 +291,13 @@ impl Hub {
         let mut state = self.state();
         state.models += 1;
         let number = state.models;
-        state.tried.push_back((number, bytes));
-        if state.tried.len() > MAX_TRIED {
-            state.tried.pop_front();
-        }
+        state.tried.keep(number, bytes);
         Ok((format!("tries/{number}.glb"), sent))
     }
 
     /// The text of a build of a drawing; `None` if it is not known any more.
     fn text_of(&self, id: &str, revision: u64) -> Option<Arc<str>> {
-        let state = self.state();
-        let mut texts = state.drawings.get(id)?.texts.iter();
-        let known = texts.find(|(known, _)| *known == revision);
-        known.map(|(_, text)| text.clone())
+        self.state().drawings.get(id)?.texts.of(revision)
     }
 
     /// The model of an address, also if it was only tried.
@@ -403,9 +307,7 @@ impl Hub {
         if let Some(model) = self.model(number) {
             return Some((number, model.bytes.clone()));
         }
-        let state = self.state();
-        let mut tried = state.tried.iter();
-        tried.find(|(known, _)| *known == number).cloned()
+        Some((number, self.state().tried.get(number)?))
     }
 
     /// What changes a drawing that is shown.
@@ -602,12 +504,6 @@ impl Hub {
         drop(state);
         starters.begin(key, starter)
     }
-}
-
-/// The clips of a drawing before they were performed and limited, as binary glTF; `None` if none was either.
-fn originals(compiled: &Compiled) -> Option<Bytes> {
-    let model = export::to_memory(&GLB, &compiled.originals()?, None).ok()?;
-    Some(model.bytes.into())
 }
 
 /// A list of parts in which those of another list are named by their positions there.

@@ -17,10 +17,12 @@ mod changes;
 mod delta;
 mod hub;
 mod message;
+mod models;
 mod page;
 mod server;
 mod socket;
 mod starters;
+mod texts;
 
 pub(crate) use changes::Editing;
 pub(crate) use hub::{Builds, Hub, Picked, Shown};

@@ -3,8 +3,8 @@
 use std::hash::{BuildHasher, RandomState};
 use std::sync::OnceLock;
 
-use super::hub::{Bytes, thumbnail};
 use super::message::{ListedStarter, ToPage};
+use super::models::{Bytes, thumbnail};
 use crate::compile::{Options, compile};
 use crate::export::{self, GLB};
 use crate::resolver::MemoryResolver;
