@@ -16,6 +16,7 @@ use okoshi::internals::billboard::{Character, RegionId, ViewId};
 use okoshi::internals::geometry::{bounds, contains};
 use okoshi::internals::report::picture_of_matches;
 use okoshi::resolver::MemoryResolver;
+use serde_json::Value;
 use typed_index_collections::TiVec;
 
 const EXAMPLES: [&str; 4] = ["bird", "boy", "cat", "robot"];
@@ -257,4 +258,37 @@ fn inspect_never_replaces_an_input() {
         done.err
     );
     assert_eq!(room.read("bird-side.png"), before);
+}
+
+#[test]
+fn the_report_says_how_each_region_looks_in_each_view() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/view-no-partner");
+    let text = fs::read_to_string(folder.join("drawing.svg")).expect("a drawing");
+    let room = Room::with("a.svg", text);
+    let done = room.run(&["inspect", "--json", "a.svg"]);
+    let report: Value = serde_json::from_str(&done.out).expect("JSON");
+    let regions = report["billboards"][0]["regions"]
+        .as_array()
+        .expect("regions");
+    let found = regions.iter().map(|region| {
+        let looks = region["looks"].as_array().expect("a list");
+        let looks = looks.iter().map(|looks| {
+            let at = looks["at"].as_array()?;
+            let percent =
+                |share: &Value| (share.as_f64().expect("a number") * 100.0).round() as i64;
+            let at = at.iter().map(percent).collect::<Vec<_>>();
+            Some((looks["color"].as_str().expect("a colour"), at))
+        });
+        looks.collect::<Vec<_>>()
+    });
+    assert_eq!(
+        found.collect::<Vec<_>>(),
+        [
+            [
+                Some(("#3366cc", vec![50, 50])),
+                Some(("#3366cc", vec![50, 50]))
+            ],
+            [Some(("#ffcc00", vec![25, 40])), None],
+        ]
+    );
 }

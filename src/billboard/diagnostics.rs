@@ -281,7 +281,7 @@ pub(super) fn describe(
         return drawing.describe(drawn.shape);
     }
     // Regions of a picture have no element of their own.
-    let looks = views[view].view.describe(id);
+    let looks = views[view].view.looks(id);
     format!(
         "the region in {looks}, of {}",
         drawing.describe(drawn.shape)

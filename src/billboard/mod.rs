@@ -34,7 +34,7 @@ pub(crate) use character::{RegionModel, read};
 pub(crate) use matching::{Candidate, Pair, Reason, RegionInView, Track, TrackId, Unmatched};
 pub(crate) use nodes::{RegionMaterials, add};
 pub use region::RegionId;
-pub(crate) use region::View;
+pub(crate) use region::{Looks, View};
 pub(crate) use sides::Side;
 
 pub use crate::scene::ViewId;

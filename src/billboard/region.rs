@@ -61,21 +61,38 @@ pub struct View {
     pub regions: TiVec<RegionId, Region>,
 }
 
+/// What tells a region from others in its view.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Looks {
+    /// Its mean colour, as `#rrggbb`.
+    pub color: String,
+    /// How far its middle is from the left and from the top of what the view shows, as shares of its width and height; `None` for a
+    /// region without extent.
+    pub at: Option<[f64; 2]>,
+}
+
+impl std::fmt::Display for Looks {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { color, at } = self;
+        f.write_str(color)?;
+        let Some([left, top]) = at.map(|at| at.map(|share| share * 100.0)) else {
+            return Ok(());
+        };
+        write!(f, ", {left:.0} % from the left and {top:.0} % from the top")
+    }
+}
+
 impl View {
-    /// A region for people: its colour, and how far its middle is from the left and from the top of what the view shows.
-    pub(crate) fn describe(&self, id: RegionId) -> String {
+    /// How a region looks.
+    pub(crate) fn looks(&self, id: RegionId) -> Looks {
         let region = &self.regions[id];
         let [r, g, b] = [0, 1, 2].map(|i| (region.color[i] * 255.0).round() as u8);
-        let color = format!("#{r:02x}{g:02x}{b:02x}");
-        match bounds(&region.outline).zip(self.bounds()) {
-            Some(((low, high), (least, greatest))) => {
-                let at = ((low + high) / 2.0 - least) / (greatest - least) * 100.0;
-                format!(
-                    "{color}, {:.0} % from the left and {:.0} % from the top",
-                    at.x, at.y
-                )
-            }
-            None => color,
+        let place = bounds(&region.outline).zip(self.bounds());
+        Looks {
+            color: format!("#{r:02x}{g:02x}{b:02x}"),
+            at: place.map(|((low, high), (least, greatest))| {
+                (((low + high) / 2.0 - least) / (greatest - least)).to_array()
+            }),
         }
     }
 

@@ -198,7 +198,7 @@ fn regions(loaded: &Loaded, character: &Character, numbers: Numbers) -> Vec<[Str
             .zip(&character.views)
             .map(|((shape, id), view)| match (shape, id) {
                 (Some(shape), Some(id)) => match drawing.shapes[*shape].picture {
-                    Some(_) => view.describe(*id),
+                    Some(_) => view.looks(*id).to_string(),
                     None => drawing.shapes[*shape].element.describe(),
                 },
                 _ => "not drawn".to_owned(),
