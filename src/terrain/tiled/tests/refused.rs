@@ -26,17 +26,17 @@ fn layer(width: i64, height: i64, data: &str) -> String {
     )
 }
 
-/// Reads a map, in little time.
+/// How long a map may take: this only ends a test that would not end, also on a slow machine that does much else.
+const PATIENCE: Duration = Duration::from_secs(300);
+
+/// Reads a map.
 fn tried(text: &str) -> Result<TiledMap, TiledError> {
     let files = MemoryResolver::default()
         .with("m.tmx", text.as_bytes())
         .with("a.png", sheet());
     let started = Instant::now();
     let read = read("m.tmx", &files);
-    assert!(
-        started.elapsed() < Duration::from_secs(20),
-        "it takes too long"
-    );
+    assert!(started.elapsed() < PATIENCE, "it takes too long");
     read
 }
 
