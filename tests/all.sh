@@ -163,7 +163,6 @@ manual() {
 features() {
   local feature packages
   OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --lib --profile test
-  OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --test layers --test models
   # `watch` is `disk` and one module, which comes with `preview`.
   for feature in disk render tracking preview lsp; do
     OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features "$feature"
