@@ -33,7 +33,7 @@ impl Work {
             Self::Dashes => (5_000, 1),
             // A plate takes four of each point.
             Self::Triangles => (450_000, 8),
-            Self::LeastTriangles => (500_000, 16),
+            Self::LeastTriangles => (600_000, 16),
             Self::UnaskedTriangles => (800_000, 0),
             Self::ClipPoints => (4_000_000, 32),
             // One outline of 4,096.
