@@ -137,6 +137,44 @@ fn only_what_changed_is_sent() {
 }
 
 #[test]
+fn a_moving_picture_is_made_when_it_is_asked_for() {
+    use image::AnimationDecoder;
+
+    let folder = folder();
+    let (_live, port) = served(folder.path(), "a.svg");
+    heard(&mut socket(port, None).expect("let in"), "build");
+    let (status, gif) = got(port, "/films/1.gif?view=30,15");
+    assert_eq!(status, 200);
+    let decoder = image::codecs::gif::GifDecoder::new(std::io::Cursor::new(gif));
+    let pictures = decoder.expect("a GIF").into_frames().collect_frames();
+    let pictures = pictures.expect("pictures");
+    assert_eq!(pictures.len(), 48, "a turn");
+    let reds = |number: usize| {
+        let pixels = pictures[number].buffer().pixels();
+        pixels
+            .filter(|pixel| pixel[0] > 100 && pixel[1] < 60)
+            .count()
+    };
+    // The plate is seen from its side after a quarter of the turn, less 30 degrees.
+    assert!(reds(0) > 3 * reds(8), "{} and {}", reds(0), reds(8));
+    let (status, why) = got(port, "/films/1.gif?clip=0&view=30,15");
+    assert_eq!(status, 422);
+    let why = String::from_utf8_lossy(&why).into_owned();
+    assert!(why.contains("without this clip"), "{why}");
+    for wrong in [
+        "",
+        "?view=1",
+        "?view=nan,0",
+        "?clip=x&view=0,0",
+        "?clip=0",
+        "?a=b&view=0,0",
+    ] {
+        assert_eq!(got(port, &format!("/films/1.gif{wrong}")).0, 404, "{wrong}");
+    }
+    assert_eq!(got(port, "/films/99.gif?view=0,0").0, 404);
+}
+
+#[test]
 fn a_folder_is_listed() {
     let folder = folder();
     fs::create_dir(folder.path().join("sub")).expect("a folder");
@@ -172,7 +210,13 @@ fn foreign_pages_and_paths_are_refused() {
         "Host: 127.0.0.1:PORT\nOrigin: null",
         "Host: 127.0.0.1:PORT\nSec-Fetch-Site: cross-site",
     ] {
-        for path in ["/", "/page.js", "/builds/1.glb", "/pictures/1.png"] {
+        for path in [
+            "/",
+            "/page.js",
+            "/builds/1.glb",
+            "/pictures/1.png",
+            "/films/1.gif?view=0,0",
+        ] {
             let request = format!("GET {path} HTTP/1.1\n{headers}\nConnection: close\n\n");
             let (status, body) = asked(port, &request);
             assert!([400, 403].contains(&status), "{headers}: {status}");

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use serde::Serialize;
 use typed_index_collections::TiVec;
 
 use crate::geometry::{Outline, bounds};
@@ -62,7 +63,7 @@ pub struct View {
 }
 
 /// What tells a region from others in its view.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Looks {
     /// Its mean colour, as `#rrggbb`.
     pub color: String,

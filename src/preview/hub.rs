@@ -33,6 +33,8 @@ pub(crate) struct Hub {
     pub(super) editing: Option<Editing>,
     /// Thumbnails are drawn one at a time, so that they do not delay builds.
     pub(super) drawing_pictures: Semaphore,
+    /// So are moving pictures, which take longer.
+    pub(super) drawing_films: Semaphore,
 }
 
 impl std::fmt::Debug for Hub {
@@ -145,6 +147,7 @@ impl Hub {
             starters,
             editing,
             drawing_pictures: Semaphore::new(1),
+            drawing_films: Semaphore::new(1),
         })
     }
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  watch, or an editor ─► Hub ─► sockets ─► pages          (only the newest build of each drawing, if a page reads slowly)
-//!                          └─► models and thumbnails, by number
+//!                          └─► models, thumbnails and moving pictures, by number
 //!  changes of a page ─► changes ─► the editor of `watch` ─► the drawing's file
 //!  pictures of a page's camera ─► camera ─► places of marks, a track
 //! ```
@@ -15,6 +15,7 @@ mod access;
 mod camera;
 mod changes;
 mod delta;
+mod films;
 mod hub;
 mod message;
 mod models;

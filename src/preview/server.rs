@@ -20,8 +20,9 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 
 use super::access::{Hosts, control};
+use super::films::Shot;
 use super::hub::Hub;
-use super::{camera, changes, page, socket};
+use super::{camera, changes, films, page, socket};
 
 /// The port that is tried first, so that an open page finds the server again after a restart.
 const PORT: u16 = 4173;
@@ -139,6 +140,7 @@ fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
         .route("/builds/{file}", get(build))
         .route("/originals/{file}", get(originals))
         .route("/pictures/{file}", get(picture))
+        .route("/films/{file}", get(film))
         .route("/starters/{file}", get(starter));
     for (path, kind, bytes) in page::ASSETS {
         router = router.route(
@@ -184,6 +186,38 @@ async fn picture(State(shared): State<Shared>, Path(file): Path<String>) -> Resp
     let _permit = shared.hub.drawing_pictures.acquire().await;
     let drawn = tokio::task::spawn_blocking(move || model.picture()).await;
     served("image/png", drawn.ok().flatten())
+}
+
+/// A moving picture of a model: of a clip with `?clip=` and its number, and from the direction `view=` yaw and pitch in degrees.
+async fn film(State(shared): State<Shared>, Path(file): Path<String>, uri: Uri) -> Response {
+    let model = number(&file, ".gif").and_then(|number| shared.hub.model(number));
+    let (Some(model), Some(shot)) = (model, shot(uri.query().unwrap_or_default())) else {
+        return StatusCode::NOT_FOUND.into_response();
+    };
+    let _permit = shared.hub.drawing_films.acquire().await;
+    let drawn = tokio::task::spawn_blocking(move || films::gif(&model.bytes, shot)).await;
+    match drawn {
+        Ok(Ok(bytes)) => served("image/gif", Some(bytes)),
+        Ok(Err(why)) => (StatusCode::UNPROCESSABLE_ENTITY, why.to_string()).into_response(),
+        Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+    }
+}
+
+/// What a query asks for; `None` if it asks for anything else.
+fn shot(query: &str) -> Option<Shot> {
+    let (mut clip, mut view) = (None, None);
+    for (name, value) in query.split('&').filter_map(|pair| pair.split_once('=')) {
+        match name {
+            "clip" => clip = Some(value.parse().ok()?),
+            "view" => {
+                let (yaw, pitch) = value.split_once(',')?;
+                let angle = |text: &str| text.parse().ok().filter(|angle: &f64| angle.is_finite());
+                view = Some([angle(yaw)?, angle(pitch)?]);
+            }
+            _ => return None,
+        }
+    }
+    Some(Shot { clip, view: view? })
 }
 
 async fn starter(State(shared): State<Shared>, Path(file): Path<String>) -> Response {

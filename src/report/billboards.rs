@@ -52,7 +52,7 @@ pub(crate) struct BillboardRegion<'a> {
     /// Per view its number there, from 1; `None` where the view does not show it.
     pub numbers: Vec<Option<usize>>,
     /// Per view how it looks there; `None` where the view does not show it.
-    pub looks: Vec<Option<BillboardLooks>>,
+    pub looks: Vec<Option<Looks>>,
     /// The least similarity of its pairs (Kitamura, equation 4.1), 0 to 1; `None` for a region without a partner.
     pub similarity: Option<f64>,
     /// The greatest cost of its pairs, by which they were chosen: 0 for a perfect one; `None` for a region without a partner.
@@ -64,16 +64,6 @@ pub(crate) struct BillboardRegion<'a> {
     /// Per view what it is painted with; `None` where the view does not show it. Only of a region that does not look the same in all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub paints: Option<Vec<Option<String>>>,
-}
-
-/// What tells a region from others in a view.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct BillboardLooks {
-    /// Its mean colour, as `#rrggbb`.
-    pub color: String,
-    /// How far its middle is from the left and from the top of what the view shows, as shares of its width and height; `None` for a
-    /// region without extent.
-    pub at: Option<[f64; 2]>,
 }
 
 /// What a region's pairs are made by.
@@ -174,10 +164,7 @@ fn region<'a>(
     });
     let number = |region: &Option<RegionId>| Some(usize::from((*region)?) + 1);
     let looks = track.regions.iter().zip(&character.views);
-    let looks = looks.map(|(region, view)| {
-        let Looks { color, at } = view.looks((*region)?);
-        Some(BillboardLooks { color, at })
-    });
+    let looks = looks.map(|(region, view)| Some(view.looks((*region)?)));
     let fit = Fit::of(character, track);
     BillboardRegion {
         name: &model.name,

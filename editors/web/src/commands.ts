@@ -2,8 +2,6 @@
 
 import type { Editing } from "./editing/editing";
 import { partNode } from "./viewport/model";
-import { screenshot } from "./viewport/screenshot";
-import type { Host } from "./host/host";
 import type { Pointer } from "./viewport/pointer";
 import type { State } from "./state";
 import type { Shading } from "./viewport/model";
@@ -21,7 +19,7 @@ export class Commands {
   /** Opens the panel that records a puppet, where there are cameras; set by the page. */
   recordPuppet: (() => void) | null = null;
 
-  constructor(private readonly viewer: Viewer, private readonly state: State, private readonly host: Host) {}
+  constructor(private readonly viewer: Viewer, private readonly state: State) {}
 
   /** Calls the listener when posing mode is switched. */
   onMode(listener: () => void): void {
@@ -94,24 +92,8 @@ export class Commands {
     if (next) this.viewer.setShading(next);
   }
 
-  async screenshot(transparent: boolean): Promise<void> {
-    if (!this.viewer.model) return;
-    const background = transparent ? null : getComputedStyle(document.body).backgroundColor;
-    await this.host.save(`${this.fileName()}.png`, await screenshot(this.viewer, background));
-  }
-
-  async download(): Promise<void> {
-    const bytes = await this.viewer.requests.file();
-    if (bytes) await this.host.save(`${this.fileName()}.glb`, new Blob([bytes], { type: "model/gltf-binary" }));
-  }
-
   async toggleFullScreen(): Promise<void> {
     if (document.fullscreenElement) await document.exitFullscreen();
     else if (document.fullscreenEnabled) await document.documentElement.requestFullscreen();
-  }
-
-  /** The drawing's name without folder and extension. */
-  private fileName(): string {
-    return (this.state.drawing?.name ?? "").replace(/^.*[\\/]/, "").replace(/\.svgz?$/i, "") || "model";
   }
 }

@@ -9,6 +9,7 @@ import { EditBar } from "./editing/bar";
 import { Editing } from "./editing/editing";
 import { FormPanel } from "./editing/form";
 import { HangingByDrag } from "./editing/hanging";
+import { Exports } from "./exports";
 import { findHost } from "./host/host";
 import { Bar } from "./panels/bar";
 import { BendBar } from "./panels/bendbar";
@@ -35,7 +36,8 @@ function start(page: HTMLElement): void {
   const host = findHost();
   const place = h("div", { class: "viewport" });
   const viewer = new Viewer(state, host, place);
-  const commands = new Commands(viewer, state, host);
+  const commands = new Commands(viewer, state);
+  const exports = new Exports(viewer, state, host);
   const editing = new Editing(state, host);
   commands.editing = editing;
   const form = new FormPanel(editing, state);
@@ -86,9 +88,9 @@ function start(page: HTMLElement): void {
   viewer.canvas.addEventListener("dblclick", byDoubleClick);
   tree.element.addEventListener("dblclick", byDoubleClick);
   place.append(new EditBar(editing, state, viewer).element);
-  place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer).element, findings.element, side.opener);
+  place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer, exports).element, findings.element, side.opener);
   const gallery = new Gallery(state, host);
-  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, side.element);
+  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands, exports).element, place, new BendBar(viewer, commands).element, clips.panel, side.element);
   page.append(new Bar(state, viewer).element, studio, gallery.element, help.element);
 
   const shows = (): boolean => state.current !== null;
@@ -110,7 +112,7 @@ function start(page: HTMLElement): void {
   viewer.setShading("smooth");
   followTheme(({ accent, grid, ink }) => viewer.setColors(accent, grid, ink));
   followAddress(state);
-  listenToKeys(viewer, commands, keys, { clips, findings, side, gallery: () => state.list.length > 1 && openGallery() }, shows);
+  listenToKeys(viewer, commands, exports, keys, { clips, findings, side, gallery: () => state.list.length > 1 && openGallery() }, shows);
   host.listen(
     (message) => state.receive(message),
     (link, note) => state.setLink(link, note),

@@ -1,6 +1,7 @@
 // Keyboard shortcuts.
 
 import type { Commands } from "./commands";
+import type { Exports } from "./exports";
 import { isRemembered, remember } from "./panels/remembered";
 import type { Viewer } from "./viewport/viewer";
 
@@ -37,7 +38,7 @@ export class Keys {
   }
 }
 
-export function listenToKeys(viewer: Viewer, commands: Commands, keys: Keys, places: Places, shows: () => boolean): void {
+export function listenToKeys(viewer: Viewer, commands: Commands, exports: Exports, keys: Keys, places: Places, shows: () => boolean): void {
   const { view } = viewer;
   addEventListener("keydown", (event) => {
     if (!event.defaultPrevented && shows() && steps(event)) return event.preventDefault();
@@ -102,8 +103,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, keys: Keys, pla
       l: () => viewer.stack.toggle(),
       z: () => commands.nextShading(),
       p: () => commands.togglePosing(),
-      s: () => void commands.screenshot(shiftKey),
-      d: () => void commands.download(),
+      s: () => void exports.screenshot(shiftKey),
+      d: () => void (shiftKey ? exports.film() : exports.model()),
       t: () => side.focusTree(),
       h: shiftKey ? () => commands.isolate() : () => commands.hide(),
       a: () => commands.showAll(),

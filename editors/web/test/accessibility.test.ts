@@ -85,7 +85,7 @@ for (const colorScheme of ["light", "dark"] as const) {
       await is(page, "help");
       await page.keyboard.press("Escape");
       if (small) await page.getByRole("button", { name: "More tools" }).click();
-      await page.getByRole("button", { name: "Screenshot" }).click();
+      await page.getByRole("button", { name: "Export" }).click();
       await is(page, "menu");
       await page.keyboard.press("Escape");
       await press(page, "p");

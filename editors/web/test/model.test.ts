@@ -296,9 +296,12 @@ browse("screenshots and the model are saved under the drawing's name", one(FIGUR
   const opaque = await take(() => page.keyboard.press("s"));
   assert.equal(opaque.name, "figure.png");
   const clear = await take(async () => {
-    await page.getByRole("button", { name: "Screenshot" }).click();
-    await page.getByRole("menuitem", { name: "Transparent" }).click();
+    await page.getByRole("button", { name: "Export" }).click();
+    await page.getByRole("menuitem", { name: "Transparent picture" }).click();
   });
+  // A host that has no such picture says why.
+  await page.keyboard.press("Shift+D");
+  await page.getByText("There is no moving picture: the drawing was built again meanwhile").waitFor();
   const pixels = (bytes: Buffer) => {
     const { data } = PNG.sync.read(bytes);
     let clear = 0;

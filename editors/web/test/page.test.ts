@@ -172,7 +172,7 @@ browse("everything works by keyboard, with a visible focus", one(HUMAN), async (
     assert.equal(ring, "true", `${name} shows that it is focused`);
     reached.add(name!);
   }
-  for (const name of ["Three-quarter view", "Wireframe", "Frame the model", "Parallel", "Pose", "Screenshot", "Help", "2 hints", "Lbody"]) assert.ok(reached.has(name), `${name} is reached: ${[...reached].join(", ")}`);
+  for (const name of ["Three-quarter view", "Wireframe", "Frame the model", "Parallel", "Pose", "Export", "Help", "2 hints", "Lbody"]) assert.ok(reached.has(name), `${name} is reached: ${[...reached].join(", ")}`);
   assert.ok([...reached].some((name) => name.startsWith("Model of human.svg")), "the model is reached");
 
   await page.keyboard.press("t");

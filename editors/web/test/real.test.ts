@@ -1,7 +1,7 @@
 // The page with the real program: `okoshi preview`, files that are saved, and the result on the page.
 
 import assert from "node:assert/strict";
-import { copyFileSync, existsSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
@@ -154,6 +154,13 @@ real("a clip plays, its drawings are marked, and the full motion is shown beside
   await page.waitForFunction(() => [...document.querySelectorAll<HTMLElement>(".captions > *")].map((caption) => caption.innerText).sort().join() === "full,limited");
   await page.locator("[data-part=Rshin]").click();
   assert.match(await page.locator(".inspector").innerText(), /RightLeg/);
+  // A moving picture of the clip, with each of its drawings.
+  const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Shift+D")]);
+  assert.equal(download.suggestedFilename(), "kick-kick.gif");
+  const gif = readFileSync(await download.path());
+  assert.equal(gif.subarray(0, 6).toString(), "GIF89a");
+  assert.equal(gif.readUInt16LE(6), 480);
+  assert.equal(await page.locator(".notes").isVisible(), false);
   const drawing = join(folder, "moving", "kick.svg");
   writeFileSync(drawing, source(drawing).replace("Limited 4 30", ""));
   await page.waitForFunction(() => /kick · 2\.8 s$/.test(document.querySelector<HTMLSelectElement>(".clips select")?.selectedOptions[0]?.text ?? ""));

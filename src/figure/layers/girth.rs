@@ -9,7 +9,7 @@ use typed_index_collections::TiVec;
 
 use super::super::FigureContext;
 use super::nodes::{Nodes, RootedShapes};
-use super::overlaps::{Overlap, Scratch};
+use super::overlaps::{Overlap, SAMPLES, Scratch};
 use super::shapes::Shape;
 use super::{Cover, node_depths::quantile};
 use crate::bind::{Garment, Part, PartId, Seen};
@@ -225,7 +225,9 @@ fn ratio(shapes: &[Shape], own: usize, inside: &[usize], girth: &Girth) -> Optio
     let mut scratch = Scratch::default();
     let mut ratios = Vec::new();
     for inside in inside {
-        let points = scratch.samples(&shapes[own], &shapes[*inside]).into_iter();
+        let points = scratch
+            .samples(&shapes[own], &shapes[*inside], SAMPLES)
+            .into_iter();
         ratios.extend(points.filter_map(|point| {
             let around = round.around(point);
             let inside = shapes[*inside].front(point);

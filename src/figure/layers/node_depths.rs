@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::TiSlice;
 
 use super::nodes::Nodes;
-use super::overlaps::{Overlap, Scratch};
+use super::overlaps::{Overlap, SAMPLES, Scratch};
 use super::shapes::Shape;
 use super::{Cover, Reason, vehicles};
 use crate::bind::{Part, PartId};
@@ -17,6 +17,8 @@ const QUANTILE: f64 = 0.9;
 const RAMP: f64 = 0.25;
 /// How far a unit is moved away from its parent at most, in its own heights.
 const FARTHEST: f64 = 1.5;
+/// In a drawing with more pairs of shapes that overlap, fewer points of each pair are looked at.
+const MANY_OVERLAPS: usize = 1 << 12;
 /// How much of a backdrop a later shape of what it hangs on covers, at least.
 const BACKDROP: f64 = 0.5;
 /// The same for a cape or a wing.
@@ -252,6 +254,12 @@ impl Figure<'_> {
     /// For pairs of units that overlap, how far the later one is to be in front of the earlier one.
     fn constraints(&self, unit_of: &[usize], units: &[Unit]) -> FxHashMap<[usize; 2], f64> {
         let unit = |shape: usize| unit_of[self.nodes.of_shape[shape]];
+        let count: usize = self.overlaps.iter().map(Vec::len).sum();
+        let on_line = if count > MANY_OVERLAPS {
+            SAMPLES / 4
+        } else {
+            SAMPLES
+        };
         let pairs = self.overlaps.par_iter().enumerate();
         let pairs = pairs
             .flat_map_iter(|(above, below)| below.iter().map(move |overlap| (above, *overlap)));
@@ -268,7 +276,7 @@ impl Figure<'_> {
                 let distance = match (&earlier.natural, &later.natural) {
                     (None, None) => by(DVec2::ZERO),
                     _ => {
-                        let samples = scratch.samples(later, earlier);
+                        let samples = scratch.samples(later, earlier, on_line);
                         quantile(samples.into_iter().map(by).collect())
                     }
                 };
@@ -459,7 +467,7 @@ impl Figure<'_> {
         for overlap in &self.overlaps[shape] {
             if unit_of[self.nodes.of_shape[overlap.below]] == parent {
                 let below = &self.shapes[overlap.below];
-                let samples = scratch.samples(&self.shapes[shape], below);
+                let samples = scratch.samples(&self.shapes[shape], below, SAMPLES);
                 fronts.extend(samples.into_iter().map(|point| below.front(point)));
             }
         }

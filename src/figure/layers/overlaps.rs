@@ -21,7 +21,7 @@ const MAX_UNHIDDEN: usize = 192;
 /// Shapes overlap if they have more in common than this share of the smaller one.
 const LEAST: f64 = 1e-4;
 /// Points along a line of samples.
-const SAMPLES: usize = 12;
+pub(super) const SAMPLES: usize = 12;
 
 /// An earlier shape that a shape lies over.
 #[derive(Debug, Clone, Copy)]
@@ -160,13 +160,13 @@ impl Scratch {
         lines.map_or(0.0, |lines| self.own.common(&self.other) * lines.weight())
     }
 
-    /// Points spread over what two shapes have in common.
-    pub(super) fn samples(&mut self, a: &Shape, b: &Shape) -> Vec<DVec2> {
+    /// Points spread over what two shapes have in common, on each line across it as many as given if it is as wide everywhere.
+    pub(super) fn samples(&mut self, a: &Shape, b: &Shape, on_line: usize) -> Vec<DVec2> {
         let Some(lines) = self.cut(a, b) else {
             return Vec::new();
         };
         let width = a.bounds.1.x.min(b.bounds.1.x) - a.bounds.0.x.max(b.bounds.0.x);
-        let apart = width / SAMPLES as f64;
+        let apart = width / on_line as f64;
         let mut points = Vec::new();
         self.own.spread_common(&self.other, apart, |line, x| {
             points.push(DVec2::new(x, lines.place(line)));

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::super::FigureContext;
 use super::nodes::{Nodes, RootedShapes};
-use super::overlaps::Scratch;
+use super::overlaps::{SAMPLES, Scratch};
 use super::shapes::Shape;
 use super::{Cover, node_depths::quantile};
 use crate::geometry::contains;
@@ -128,7 +128,7 @@ impl Limb<'_> {
         let pieces = self.pieces.iter();
         let mut points: Vec<(DVec2, f64)> = pieces
             .flat_map(|piece| {
-                let points = scratch.samples(piece, piece);
+                let points = scratch.samples(piece, piece, SAMPLES);
                 points.into_iter().map(|point| (point, piece.front(point)))
             })
             .collect();

@@ -28,23 +28,36 @@ impl Corner {
     }
 }
 
+/// The direction of rays: no edge of a drawn figure is parallel to it.
+const RAY: DVec3 = DVec3::new(0.351, 0.217, 0.911);
+
 /// A surface in the world.
 pub(super) struct Surface<'a> {
     corners: Vec<DVec3>,
+    /// The lowest and the highest corner of its bounding box.
+    bounds: [DVec3; 2],
     triangles: &'a [[u32; 3]],
 }
 
 impl Surface<'_> {
-    /// Whether a point is inside: the sum of the solid angles of its triangles (van Oosterom & Strackee 1983) is that of a whole sphere.
+    /// Whether a point is inside: a ray from it leaves the surface more often than it enters it.
     pub(super) fn contains(&self, point: DVec3) -> bool {
-        let angles = self.triangles.iter().map(|triangle| {
+        let [low, high] = self.bounds;
+        if point.clamp(low, high) != point {
+            return false;
+        }
+        let mut leaves = 0;
+        for triangle in self.triangles {
             let [a, b, c] = triangle.map(|corner| self.corners[corner as usize] - point);
-            let [x, y, z] = [a, b, c].map(DVec3::length);
-            let volume = a.dot(b.cross(c));
-            let below = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
-            2.0 * volume.atan2(below)
-        });
-        angles.sum::<f64>() > 2.0 * std::f64::consts::PI
+            let normals = [a.cross(b), b.cross(c), c.cross(a)];
+            let sides = normals.map(|normal| normal.dot(RAY) > 0.0);
+            // On the same side of all edges, the ray meets the triangle, ahead of the point or behind it.
+            if sides[0] == sides[1] && sides[1] == sides[2] {
+                let is_ahead = (a.dot(normals[1]) > 0.0) == sides[0];
+                leaves += i32::from(is_ahead) * if sides[0] { 1 } else { -1 };
+            }
+        }
+        leaves > 0
     }
 }
 
@@ -177,12 +190,15 @@ impl Model {
     /// A node's mesh in the world.
     pub(super) fn surface(&self, node: usize, world: &[Transform]) -> Surface<'_> {
         let node = &self.nodes[node];
+        let corners = node.corners.iter().map(|corner| corner.place(world));
+        let corners: Vec<DVec3> = corners.collect();
+        let [low, high] = [DVec3::min, DVec3::max].map(|extreme| {
+            let extremes = corners.iter().copied();
+            extremes.reduce(extreme).unwrap_or_default()
+        });
         Surface {
-            corners: node
-                .corners
-                .iter()
-                .map(|corner| corner.place(world))
-                .collect(),
+            corners,
+            bounds: [low, high],
             triangles: &node.triangles,
         }
     }

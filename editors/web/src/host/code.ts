@@ -14,6 +14,7 @@ type Waiting = { readonly resolve: (bytes: ArrayBuffer) => void; readonly reject
 export class CodeHost implements Host {
   /** Webviews are not given cameras. */
   readonly openCamera = null;
+  readonly film = null;
   /** The editor holds the text. */
   readonly post = null;
   readonly attempt = null;

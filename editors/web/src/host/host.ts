@@ -27,6 +27,9 @@ export interface Host {
   model(address: string): Promise<ArrayBuffer>;
   /** The address of a thumbnail, for an `<img>`. */
   picture(address: string): Promise<string>;
+  /** A moving picture, as GIF: of the clip with this number, or of the model that turns, from a direction in degrees to its left and up. Null where the
+   * host makes none. */
+  readonly film: ((model: string, clip: number | null, view: readonly [number, number]) => Promise<Blob>) | null;
   /** Asks for a change, or what can be changed, with the host's key; null where the page changes nothing. */
   readonly post: ((what: "changes" | "forms", key: string, request: unknown) => Promise<Answer>) | null;
   /** Asks for a model of what a change would make of the drawing; null if there is none to show. */

@@ -63,6 +63,15 @@ export class WebHost implements Host {
     setTimeout(() => URL.revokeObjectURL(address), 60_000);
   }
 
+  readonly film = async (model: string, clip: number | null, view: readonly [number, number]): Promise<Blob> => {
+    // Moving pictures have the numbers of their models.
+    const address = model.replace(/^builds\/(\d+)\.glb$/, "films/$1.gif");
+    const asked = `view=${view.map((angle) => angle.toFixed(2)).join(",")}`;
+    const response = await fetch(clip === null ? `${address}?${asked}` : `${address}?clip=${clip}&${asked}`);
+    if (response.ok) return response.blob();
+    throw new Error(response.status === 404 ? "the drawing was built again meanwhile; try once more" : (await response.text()) || `the server answered ${response.status}`);
+  };
+
   readonly post = async (what: "changes" | "forms", key: string, request: unknown): Promise<Answer> => {
     const response = await this.posted(what, key, request);
     return { ok: response.ok, body: await response.json().catch(() => null) };

@@ -11,7 +11,7 @@ const GROUPS: readonly (readonly [string, readonly (readonly [string, string])[]
   ["Edit", [["W", "turn editing on or off"], ["F2, double-click", "name the selected part"], ["Ctrl + Z", "undo (Ctrl + Shift + Z: redo)"]]],
   ["Clips", [["Space", "play, pause"], ["J K", "previous or next drawing or key"], ["C", "movement chart"], ["I", "performance: marks, joints and timing"], ["O", "a performed or limited clip and its original side by side"], ["N", "onion skin: the drawings before and after, while the clip is paused"], ["V", "follow a figure that travels"], ["M", "look through the camera of the clip"]]],
   ["Puppets", [["R", "record a puppet with the camera"]]],
-  ["Export", [["S", "screenshot (Shift: transparent)"], ["D", "download the model"], ["Shift + F", "full screen"], ["G", "all drawings"]]],
+  ["Export", [["D", "3D model (Shift: moving picture)"], ["S", "picture (Shift: transparent)"], ["Shift + F", "full screen"], ["G", "all drawings"]]],
 ];
 
 export class Help {

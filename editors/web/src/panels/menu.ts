@@ -1,16 +1,18 @@
-// A button that opens a menu.
+// A button that opens a menu; both are returned.
 
 import type { IconNode } from "lucide";
 import { button, h } from "../dom";
 
 export interface Choice {
   readonly label: string;
-  readonly key: string;
+  /** What it is for, below the label. */
+  readonly note?: string;
+  readonly key?: string;
   readonly press: () => void;
 }
 
-export function menu({ icon, label }: { readonly icon: IconNode; readonly label: string }, choices: readonly Choice[]): HTMLElement {
-  const items = choices.map(({ label, key, press }) =>
+export function menu({ icon, label }: { readonly icon: IconNode; readonly label: string }, choices: readonly Choice[]): [HTMLElement, HTMLButtonElement] {
+  const items = choices.map(({ label, note, key, press }) =>
     h(
       "button",
       {
@@ -23,8 +25,8 @@ export function menu({ icon, label }: { readonly icon: IconNode; readonly label:
           },
         },
       },
-      h("span", {}, label),
-      h("kbd", {}, key),
+      h("span", {}, label, note !== undefined && h("span", { class: "menu-note" }, note)),
+      key !== undefined && h("kbd", {}, key),
     ),
   );
   const list = h("div", { class: "menu", hidden: true, attributes: { role: "menu", "aria-label": label } }, ...items);
@@ -50,5 +52,5 @@ export function menu({ icon, label }: { readonly icon: IconNode; readonly label:
     event.preventDefault();
     event.stopPropagation();
   });
-  return element;
+  return [element, opener];
 }

@@ -1,15 +1,17 @@
 // A status message over the viewport.
 
 import { fill, h } from "../dom";
+import type { Exports } from "../exports";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
 
 export class Notes {
   readonly element = h("div", { class: "notes", attributes: { role: "status" } });
 
-  constructor(private readonly state: State, private readonly viewer: Viewer) {
+  constructor(private readonly state: State, private readonly viewer: Viewer, private readonly exports: Exports) {
     state.on(["current", "build", "drawings"], () => this.draw());
     viewer.on(["model", "sideBySide"], () => this.draw());
+    exports.onWords(() => this.draw());
     this.draw();
   }
 
@@ -28,7 +30,7 @@ export class Notes {
     if (this.viewer.requests.failure !== "") return `The model could not be shown: ${this.viewer.requests.failure}`;
     if (drawing.gone) return this.viewer.model ? "The drawing's file is missing at the moment. This is its last model." : "The drawing's file is missing at the moment.";
     if (this.viewer.playback.comparison.failure !== "") return `The original clips could not be shown: ${this.viewer.playback.comparison.failure}`;
-    if (this.viewer.model) return "";
+    if (this.viewer.model) return this.exports.words;
     if (!drawing.build) return "Building…";
     return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has problems." : "There is no model: the drawing has no parts.") : "";
   }

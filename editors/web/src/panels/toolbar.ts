@@ -1,8 +1,9 @@
 // The buttons above the viewport.
 
-import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PencilLine, PersonStanding, Video } from "lucide";
+import { Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PencilLine, PersonStanding, Video } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
+import type { Exports } from "../exports";
 import type { Shading } from "../viewport/model";
 import type { Viewer } from "../viewport/viewer";
 import { menu } from "./menu";
@@ -11,7 +12,7 @@ import { more } from "./more";
 export class Toolbar {
   readonly element = h("div", { class: "toolbar-place" });
 
-  constructor(viewer: Viewer, commands: Commands) {
+  constructor(viewer: Viewer, commands: Commands, exports: Exports) {
     const shadings: [Shading, HTMLButtonElement][] = (
       [
         ["smooth", Circle, "Smooth"],
@@ -24,11 +25,13 @@ export class Toolbar {
     const layers = button({ icon: Layers, label: "Layers from the side", key: "L", press: () => viewer.stack.toggle() });
     const pose = button({ icon: PersonStanding, label: "Pose", key: "P", wide: true, press: () => commands.togglePosing() });
     const edit = button({ icon: PencilLine, label: "Edit", key: "W", wide: true, press: () => commands.editing?.toggle() });
-    const picture = menu({ icon: Camera, label: "Screenshot" }, [
-      { label: "With background", key: "S", press: () => void commands.screenshot(false) },
-      { label: "Only the model, transparent", key: "Shift+S", press: () => void commands.screenshot(true) },
-    ]);
-    const download = button({ icon: Download, label: "Download the model (GLB)", key: "D", press: () => void commands.download() });
+    const choices = [
+      { label: "3D model (GLB)", note: "for Blender, games and web pages", key: "D", press: () => void exports.model() },
+      { label: "Picture (PNG)", note: "as the view shows it", key: "S", press: () => void exports.screenshot(false) },
+      { label: "Transparent picture (PNG)", note: "only the model", key: "Shift+S", press: () => void exports.screenshot(true) },
+      { label: "Moving picture (GIF)", note: "of the clip, or once around", key: "Shift+D", press: () => void exports.film() },
+    ];
+    const [exported, opensExported] = menu({ icon: Download, label: "Export" }, exports.films ? choices : choices.slice(0, -1));
     const views = ([["¾", "threeQuarter", "0", "Three-quarter view"], ["Front", "front", "1", "Front view"], ["Side", "side", "3", "Side view"], ["Top", "top", "7", "Top view"]] as const).map(([text, name, key, label]) =>
       h("button", { class: "button text", title: `${label} (${key})`, attributes: { type: "button", "aria-label": label, "aria-keyshortcuts": key }, on: { click: () => viewer.view.look(name) } }, text),
     );
@@ -39,8 +42,7 @@ export class Toolbar {
       h("span", { class: "spring" }),
       group(
         "Export",
-        picture,
-        download,
+        exported,
         document.fullscreenEnabled && button({ icon: Fullscreen, label: "Full screen", key: "Shift+F", press: () => void commands.toggleFullScreen() }),
         button({ icon: CircleQuestionMark, label: "Help", key: "?", press: () => commands.help() }),
       ),
@@ -53,7 +55,7 @@ export class Toolbar {
       layers.setAttribute("aria-pressed", String(viewer.stack.isOn));
       layers.disabled = viewer.model === null;
       pose.setAttribute("aria-pressed", String(commands.isPosing));
-      download.disabled = viewer.model === null;
+      opensExported.disabled = viewer.model === null;
     };
     viewer.on(["display", "model", "layers"], follow);
     const followEditing = (): void => {

@@ -101,6 +101,12 @@ export class View {
     return `${numbers.map((one) => Number(one.toPrecision(6))).join(" ")} ${this.isParallel ? "parallel" : "perspective"}`;
   }
 
+  /** The direction from which the user's camera looks: degrees to the model's left, and up. */
+  angles(): [number, number] {
+    const { theta, phi } = new Spherical().setFromVector3(this.own.position.clone().sub(this.controls.target));
+    return [(theta * 180) / Math.PI, 90 - (phi * 180) / Math.PI];
+  }
+
   resize(aspect: number): void {
     this.aspect = aspect;
     this.perspective.aspect = aspect;
