@@ -1,0 +1,103 @@
+//! What the shapes of a drawing are in which nobody has given names: heads by their eyes, wheels by their form and place, and what
+//! belongs to those.
+//!
+//! This is only the beginning: with these names the drawing is a figure, whose limbs `label_drawn` finds as it does for motion.
+
+mod animals;
+mod faces;
+mod mask;
+mod people;
+mod shapes;
+mod vehicles;
+
+pub(crate) use mask::{Mask, SIDE};
+pub(crate) use shapes::Drawn;
+
+use crate::anatomy::Noun;
+use crate::labels::Side;
+use shapes::Shapes;
+
+/// How sure it is that a shape is what it is said to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Certainty {
+    /// A person should look.
+    Uncertain,
+    /// Several signs agree.
+    Likely,
+    /// Nothing else looks like this.
+    Certain,
+}
+
+impl Certainty {
+    /// The word for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uncertain => "uncertain",
+            Self::Likely => "likely",
+            Self::Certain => "certain",
+        }
+    }
+}
+
+/// What a shape is.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Guess {
+    /// The index of the shape.
+    pub(crate) shape: usize,
+    /// What it is.
+    pub(crate) noun: Noun,
+    /// Its side, if it is one of a pair; from the figure's point of view.
+    pub(crate) side: Option<Side>,
+    pub(crate) certainty: Certainty,
+    /// Why, as a clause: `two dark spots of one size lie on it`.
+    pub(crate) why: &'static str,
+}
+
+/// The guesses so far, at most one for each shape.
+#[derive(Debug, Default)]
+struct Guesses(Vec<Guess>);
+
+impl Guesses {
+    fn has(&self, shape: usize) -> bool {
+        self.0.iter().any(|guess| guess.shape == shape)
+    }
+
+    fn add(&mut self, shape: usize, noun: Noun, certainty: Certainty, why: &'static str) {
+        self.add_sided(shape, noun, None, certainty, why);
+    }
+
+    fn add_sided(
+        &mut self,
+        shape: usize,
+        noun: Noun,
+        side: Option<Side>,
+        certainty: Certainty,
+        why: &'static str,
+    ) {
+        if !self.has(shape) {
+            self.0.push(Guess {
+                shape,
+                noun,
+                side,
+                certainty,
+                why,
+            });
+        }
+    }
+}
+
+/// Says what shapes are, which are in the order in which they are drawn. Those that have names keep them, and count as what these say.
+pub(crate) fn guess(drawn: &[Drawn]) -> Vec<Guess> {
+    let Some(shapes) = Shapes::measure(drawn) else {
+        return vec![];
+    };
+    let mut guesses = Guesses::default();
+    if let Some(face) = faces::find(&shapes) {
+        people::around(&shapes, &face, &mut guesses);
+    } else if !vehicles::find(&shapes, &mut guesses) {
+        animals::find(&shapes, &mut guesses);
+    }
+    guesses.0.retain(|guess| drawn[guess.shape].name.is_empty());
+    guesses.0.sort_by_key(|guess| guess.shape);
+    guesses.0
+}
