@@ -7,12 +7,13 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Analysis, Refusal};
 use crate::anatomy::{Language, Noun};
-use crate::bind::{Numbers, PartKind, written_by_a_person};
+use crate::bind::{Bindings, Numbers, PartId, PartKind, written_by_a_person};
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Edit, applied};
 use crate::ide::rename::label_edit;
 use crate::labels::{Certainty, Class, Drawn, GRID_SIDE, Guess, Label, LimbSegment, Mask, Side, guess};
 use crate::resolver::MemoryResolver;
+use crate::rig::FigureFacing;
 use crate::source::Span;
 use crate::svg::{Drawing, Element, GroupId, GroupKind, ShapeId};
 
@@ -20,6 +21,9 @@ use crate::svg::{Drawing, Element, GroupId, GroupKind, ShapeId};
 const WHOLE: f64 = 0.6;
 /// How many shapes and groups are looked at, the largest ones: the others are details.
 const MAX_UNITS: usize = 400;
+/// The second piece of a leg or an arm is a foot or a hand if it is at most this share of the first.
+const FOOT: f64 = 0.75;
+const HAND: f64 = 0.5;
 /// What makes a figure of parts without names.
 const MOVING: &str = "<text>%Motion walk</text>";
 
@@ -43,8 +47,26 @@ struct Unit {
     group: Option<GroupId>,
     shapes: Vec<ShapeId>,
     drawn: Drawn,
+    /// Per shape what it covers, and its colour.
+    details: Vec<(Mask, [u8; 3])>,
     /// Whether it may be named: nothing names it, and its element is no one else's.
     is_free: bool,
+}
+
+impl Unit {
+    /// Its shapes by themselves.
+    fn details(&self, index: usize) -> impl Iterator<Item = (ShapeId, Drawn)> {
+        let shapes = self.shapes.iter().zip(&self.details);
+        shapes.map(move |(shape, (mask, color))| {
+            let drawn = Drawn {
+                name: String::new(),
+                mask: mask.clone(),
+                color: *color,
+                unit: index,
+            };
+            (*shape, drawn)
+        })
+    }
 }
 
 /// A name before it is written.
@@ -90,7 +112,14 @@ impl Analysis {
         let language = Language::of(names.iter().copied());
         let taken: FxHashSet<String> = names.iter().map(|name| (*name).to_owned()).collect();
         let drawn: Vec<Drawn> = units.iter().map(|unit| unit.drawn.clone()).collect();
-        let mut found: Vec<Found> = guess(&drawn).into_iter().map(Found::from).collect();
+        let mut shapes: Vec<(ShapeId, Drawn)> = units
+            .iter()
+            .enumerate()
+            .flat_map(|(index, unit)| unit.details(index))
+            .collect();
+        shapes.sort_by_key(|(shape, _)| *shape);
+        let shapes: Vec<Drawn> = shapes.into_iter().map(|(_, drawn)| drawn).collect();
+        let mut found: Vec<Found> = guess(&drawn, &shapes).into_iter().map(Found::from).collect();
         found.retain(|found| units[found.unit].is_free);
         let first = self.written(&units, &found, language, &taken);
         let second = self.named_so(&first, names.len());
@@ -233,7 +262,12 @@ impl Analysis {
                     name: known.map_or_else(String::new, |name| (*name).to_owned()),
                     mask,
                     color,
+                    unit: 0,
                 },
+                details: shapes
+                    .iter()
+                    .map(|shape| (masks[shape].clone(), drawing.shapes[*shape].paint.color))
+                    .collect(),
                 is_free: known.is_none(),
                 shapes,
             };
@@ -331,27 +365,35 @@ fn by_labels(units: &[Unit], known: &[Found], compiled: &Compiled) -> Vec<Found>
         });
     }
     let parts = &compiled.bindings.parts;
+    let has = |nouns: &[Noun]| known.iter().any(|found| nouns.contains(&found.noun));
+    let is_bust = has(&[Noun::Head]) && stands_on_body(units, known);
     let mut seen: FxHashSet<usize> = known.iter().map(|found| found.unit).collect();
     let mut found = Vec::new();
     for figure in &compiled.facings {
-        let labels = figure.labels.iter();
-        let leg_pairs = labels
-            .clone()
+        let leg_pairs = figure
+            .labels
+            .iter()
             .filter(|(_, label, _)| label.class == Class::Leg)
             .map(|(_, label, _)| label.pair + 1)
             .max();
-        for (part, label, _) in labels {
-            let part = &parts[*part];
+        for (index, label, _) in &figure.labels {
+            let part = &parts[*index];
             let Some(unit) = unit_of.get(&part.shape).copied() else {
                 continue;
             };
-            if !part.is_automatic() || !units[unit].is_free || !seen.insert(unit) {
+            let is_known = match label.class {
+                Class::Body => has(&[Noun::Body]),
+                Class::Head => has(&[Noun::Head]),
+                Class::Neck => has(&[Noun::Neck]),
+                Class::Arm | Class::Leg | Class::Tail | Class::Hips => is_bust,
+            };
+            if !part.is_automatic() || is_known || !units[unit].is_free || !seen.insert(unit) {
                 continue;
             }
             let fore = (label.class == Class::Leg && leg_pairs == Some(2)).then_some(label.pair > 0);
             found.push(Found {
                 unit,
-                noun: noun(label),
+                noun: noun(label, ends(&compiled.bindings, figure, *index)),
                 side: label.side,
                 fore,
                 certainty: certainty(label, known.is_empty()),
@@ -360,6 +402,63 @@ fn by_labels(units: &[Unit], known: &[Found], compiled: &Compiled) -> Vec<Found>
         }
     }
     found
+}
+
+/// Whether a figure ends with its body, as a bust does.
+fn stands_on_body(units: &[Unit], known: &[Found]) -> bool {
+    let bottom = |unit: &Unit| unit.drawn.mask.lowest();
+    let ground = units.iter().filter_map(bottom).max();
+    let bodies = known.iter().filter(|found| found.noun == Noun::Body);
+    let body = bodies.filter_map(|found| bottom(&units[found.unit])).max();
+    let legs = known
+        .iter()
+        .any(|found| matches!(found.noun, Noun::Legs | Noun::Shoes | Noun::FarLegs | Noun::NearLegs));
+    !legs && matches!((ground, body), (Some(ground), Some(body)) if body + GRID_SIDE / 20 >= ground)
+}
+
+/// What a limb ends with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ends {
+    /// This piece is a hand or a foot.
+    Here,
+    /// The next one is.
+    Next,
+    Elsewhere,
+}
+
+/// Where a limb in two pieces ends: the second one may be a shin, or a foot.
+fn ends(bindings: &Bindings, figure: &FigureFacing, index: PartId) -> Ends {
+    let parts = &bindings.parts;
+    let label_of = |part: PartId| figure.labels.iter().find(|(other, ..)| *other == part);
+    let size = |part: PartId| {
+        let (low, high) = parts[part].measure.bounds;
+        high - low
+    };
+    let is_end = |part: PartId| {
+        let Some(((_, label, _), parent)) = label_of(part).zip(parts[part].parent) else {
+            return false;
+        };
+        let is_last = !figure
+            .labels
+            .iter()
+            .any(|(other, next, _)| parts[*other].parent == Some(part) && next.class == label.class);
+        let (own, above) = (size(part), size(parent));
+        let share = if label.class == Class::Leg { FOOT } else { HAND };
+        let lies = label.class == Class::Arm || own.y <= 1.3 * own.x;
+        label.segment == LimbSegment::Lower
+            && is_last
+            && lies
+            && own.max_element() <= share * above.max_element()
+    };
+    if is_end(index) {
+        return Ends::Here;
+    }
+    let mut next = figure.labels.iter().map(|(other, ..)| *other);
+    if next.any(|other| parts[other].parent == Some(index) && is_end(other)) {
+        Ends::Next
+    } else {
+        Ends::Elsewhere
+    }
 }
 
 /// How sure a label is that only shape and place tell.
@@ -371,21 +470,25 @@ fn certainty(label: &Label, is_alone: bool) -> Certainty {
     }
 }
 
-fn noun(label: &Label) -> Noun {
-    match (label.class, label.segment) {
-        (Class::Head, _) => Noun::Head,
-        (Class::Neck, _) => Noun::Neck,
-        (Class::Body, _) => Noun::Body,
-        (Class::Hips, _) => Noun::Hips,
-        (Class::Tail, _) => Noun::Tail,
-        (Class::Arm, LimbSegment::Upper) => Noun::UpperArm,
-        (Class::Arm, LimbSegment::Lower) => Noun::Forearm,
-        (Class::Arm, LimbSegment::End | LimbSegment::Beyond) => Noun::Hand,
-        (Class::Arm, _) => Noun::Arm,
-        (Class::Leg, LimbSegment::Upper) => Noun::Thigh,
-        (Class::Leg, LimbSegment::Lower) => Noun::Shin,
-        (Class::Leg, LimbSegment::End | LimbSegment::Beyond) => Noun::Foot,
-        (Class::Leg, _) => Noun::Leg,
+fn noun(label: &Label, ends: Ends) -> Noun {
+    match (label.class, label.segment, ends) {
+        (Class::Head, _, _) => Noun::Head,
+        (Class::Neck, _, _) => Noun::Neck,
+        (Class::Body, _, _) => Noun::Body,
+        (Class::Hips, _, _) => Noun::Hips,
+        (Class::Tail, _, _) => Noun::Tail,
+        (Class::Arm, _, Ends::Here) => Noun::Hand,
+        (Class::Arm, _, Ends::Next) => Noun::Arm,
+        (Class::Leg, _, Ends::Here) => Noun::Foot,
+        (Class::Leg, _, Ends::Next) => Noun::Leg,
+        (Class::Arm, LimbSegment::Upper, _) => Noun::UpperArm,
+        (Class::Arm, LimbSegment::Lower, _) => Noun::Forearm,
+        (Class::Arm, LimbSegment::End | LimbSegment::Beyond, _) => Noun::Hand,
+        (Class::Arm, _, _) => Noun::Arm,
+        (Class::Leg, LimbSegment::Upper, _) => Noun::Thigh,
+        (Class::Leg, LimbSegment::Lower, _) => Noun::Shin,
+        (Class::Leg, LimbSegment::End | LimbSegment::Beyond, _) => Noun::Foot,
+        (Class::Leg, _, _) => Noun::Leg,
     }
 }
 

@@ -6,12 +6,14 @@ use super::mask::{Box2, Island};
 use super::shapes::{Shape, Shapes};
 
 /// An eye is at most this share of the head that it lies on, and at least this many cells.
-const LARGEST_EYE: f64 = 0.12;
+const LARGEST_EYE: f64 = 0.1;
 const SMALLEST_EYE: usize = 2;
 /// The share of an eye that lies on its head.
 const ON: f64 = 0.8;
 /// What is at most this much wider than both eyes together is no head but a mask, or glasses.
-const MASK: f64 = 1.45;
+const MASK: f64 = 1.3;
+/// Eyes differ by at least this distance of colours from what they lie on.
+const CONTRAST: f64 = 60.0;
 /// How far the middle between the eyes is from that of the head, as a share of the head's width.
 const OFF: f64 = 0.3;
 /// A head is at least this share of the figure's box, and at most this much longer than wide or the other way round.
@@ -115,6 +117,7 @@ fn host(shapes: &Shapes, pair: &Pair) -> Option<usize> {
     let first = pair.shapes[0];
     let holds = |(index, shape): &(usize, &Shape)| {
         *index < first
+            && shapes.get(first).is_some_and(|eye| eye.distance_of_colors(shape) >= CONTRAST)
             && pair.spots.iter().all(|spot| shape.mask.covers(spot.bounds.middle()))
             && shape.mask.covers(between(pair))
             && pair

@@ -117,6 +117,32 @@ impl Mask {
         self.bits.iter_mut().zip(&other.bits).for_each(|(a, b)| *a &= !b);
     }
 
+    /// Whether both cover neighbouring cells, or the same.
+    pub(super) fn touches(&self, other: &Self) -> bool {
+        let row_of = |mask: &Self, row: usize| -> [u64; WORDS] {
+            std::array::from_fn(|word| mask.bits[row * WORDS + word])
+        };
+        let wide = |bits: [u64; WORDS]| -> [u64; WORDS] {
+            std::array::from_fn(|word| {
+                let before = if word > 0 { bits[word - 1] >> 63 } else { 0 };
+                let after = bits.get(word + 1).map_or(0, |next| next << 63);
+                bits[word] | bits[word] << 1 | bits[word] >> 1 | before | after
+            })
+        };
+        (0..SIDE).any(|row| {
+            let own = wide(row_of(self, row));
+            (row.saturating_sub(1)..=(row + 1).min(SIDE - 1)).any(|near| {
+                let theirs = row_of(other, near);
+                own.iter().zip(theirs).any(|(a, b)| a & b != 0)
+            })
+        })
+    }
+
+    /// The lowest covered row, counted downwards.
+    pub(crate) fn lowest(&self) -> Option<usize> {
+        (0..SIDE).rev().find(|row| self.span(*row).is_some())
+    }
+
     /// The box around all covered cells.
     pub(super) fn bounds(&self) -> Option<Box2> {
         let rows = 0..SIDE;
@@ -222,6 +248,8 @@ mod tests {
         assert_eq!(mask.fullness(islands[0].bounds), 1.0);
         let other = Mask::of_rings([square(15.0, 40.0)].iter().map(Vec::as_slice));
         assert_eq!(mask.shared(&other), 25 + 16);
+        let beside = |low: f64| Mask::of_rings([square(low, low + 1.0)].iter().map(Vec::as_slice));
+        assert!(beside(63.0).touches(&beside(64.0)) && !beside(62.0).touches(&beside(64.0)));
     }
 
     #[test]

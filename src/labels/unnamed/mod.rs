@@ -4,6 +4,7 @@
 //! This is only the beginning: with these names the drawing is a figure, whose limbs `label_drawn` finds as it does for motion.
 
 mod animals;
+mod bodies;
 mod faces;
 mod mask;
 mod people;
@@ -15,6 +16,7 @@ pub(crate) use shapes::Drawn;
 
 use crate::anatomy::Noun;
 use crate::labels::Side;
+use faces::Face;
 use shapes::Shapes;
 
 /// How sure it is that a shape is what it is said to be.
@@ -86,18 +88,27 @@ impl Guesses {
     }
 }
 
-/// Says what shapes are, which are in the order in which they are drawn. Those that have names keep them, and count as what these say.
-pub(crate) fn guess(drawn: &[Drawn]) -> Vec<Guess> {
-    let Some(shapes) = Shapes::measure(drawn) else {
+/// Says what units are: shapes, or groups that are one part, in the order in which they are drawn. Those that have names keep them. Eyes
+/// are looked for among all shapes, also those in groups.
+pub(crate) fn guess(units: &[Drawn], all: &[Drawn]) -> Vec<Guess> {
+    let (Some(shapes), Some(details)) = (Shapes::measure(units), Shapes::measure(all)) else {
         return vec![];
     };
+    let unit = |shape: usize| all[shape].unit;
     let mut guesses = Guesses::default();
-    if let Some(face) = faces::find(&shapes) {
+    if let Some(face) = faces::find(&details) {
+        let face = Face {
+            head: unit(face.head),
+            eyes: face.eyes.into_iter().map(unit).collect(),
+        };
         people::around(&shapes, &face, &mut guesses);
     } else if !vehicles::find(&shapes, &mut guesses) {
-        animals::find(&shapes, &mut guesses);
+        match animals::eye(&details) {
+            Some((eye, host)) => animals::around(&shapes, [unit(eye), unit(host)], &mut guesses),
+            None => bodies::find(&shapes, &mut guesses),
+        }
     }
-    guesses.0.retain(|guess| drawn[guess.shape].name.is_empty());
+    guesses.0.retain(|guess| units[guess.shape].name.is_empty());
     guesses.0.sort_by_key(|guess| guess.shape);
     guesses.0
 }

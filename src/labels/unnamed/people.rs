@@ -14,6 +14,13 @@ const SKIN: f64 = 110.0;
 /// Hair and hats differ from the skin by at least this.
 const OTHER: f64 = 45.0;
 
+/// Shoes are at most this share of the figure high.
+const SHOE: f64 = 0.12;
+/// A hand is at most this share of the head, and at least.
+const HANDS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
+/// Hands have the colour of the head, within this distance.
+const ALIKE: f64 = 40.0;
+
 /// A head with what is around it.
 struct Around<'a> {
     shapes: &'a Shapes,
@@ -41,15 +48,18 @@ pub(super) fn around(shapes: &Shapes, face: &Face, guesses: &mut Guesses) {
     around.cover(guesses);
     if around.body(guesses) {
         around.limbs(guesses);
+        around.hands(guesses);
     }
 }
 
 impl Around<'_> {
     fn eyes(&self, guesses: &mut Guesses) {
         let why = "they are two of one size at one height";
-        match self.face.eyes.as_slice() {
+        let apart = self.face.eyes.iter().copied().filter(|eye| *eye != self.index);
+        let apart: Vec<usize> = apart.collect();
+        match apart.as_slice() {
             [both] => guesses.add(*both, Noun::Eyes, Certainty::Likely, why),
-            [left, right] => {
+            [left, right] if left != right => {
                 // The figure's right is on the drawing's left.
                 let mut pair = [*left, *right];
                 let x = |eye: usize| self.shapes.get(eye).map_or(0.0, |shape| shape.middle().x);
@@ -231,7 +241,7 @@ impl Around<'_> {
         };
         let (ground, height) = (self.shapes.bounds.high.y, self.shapes.height());
         let axis = self.head.middle().x;
-        let mut found = Vec::new();
+        let (mut found, mut arms) = (Vec::new(), Vec::new());
         for (index, shape) in self.free(guesses) {
             let Some([left, right]) = shape.twins() else {
                 continue;
@@ -247,7 +257,8 @@ impl Around<'_> {
             let below = a.low.y.min(b.low.y) >= body.bounds.high.y - 0.15 * body.size().y;
             let beside = (b.middle().x - a.middle().x) >= 0.5 * body.size().x;
             let share = shape.cells / body.cells;
-            if stands && below && long(a) && long(b) {
+            let is_low = shape.size().y <= SHOE * height;
+            if stands && below && !is_low && long(a) && long(b) {
                 let why = "they are two, and stand on the ground below the body";
                 found.push((index, Noun::Legs, Certainty::Likely, why));
             } else if stands && below {
@@ -255,11 +266,42 @@ impl Around<'_> {
                 found.push((index, Noun::Shoes, Certainty::Likely, why));
             } else if beside && long(a) && long(b) && (0.03..=1.0).contains(&share) && !below {
                 let why = "they are two of one size, at both sides of the body";
-                found.push((index, Noun::Arms, Certainty::Likely, why));
+                let spread = b.middle().x - a.middle().x;
+                arms.push((spread * shape.cells, index, why));
             }
+        }
+        // Sleeves, cuffs and collars are pairs, too.
+        if let Some((_, index, why)) = arms.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
+            found.push((index, Noun::Arms, Certainty::Likely, why));
         }
         for (index, noun, certainty, why) in found {
             guesses.add(index, noun, certainty, why);
+        }
+    }
+
+    /// Of a bust, what has the colour of the head and lies apart from it.
+    fn hands(&self, guesses: &mut Guesses) {
+        if guesses.0.iter().any(|guess| matches!(guess.noun, Noun::Legs | Noun::Shoes)) {
+            return;
+        }
+        let middle = self.head.middle().x;
+        let is_hand = |shape: &Shape| {
+            shape.islands.len() == 1
+                && HANDS.contains(&(shape.cells / self.head.cells))
+                && shape.distance_of_colors(self.head) <= ALIKE
+                && shape.bounds.low.y > self.head.bounds.high.y - 0.2 * self.head.size().y
+                && (shape.middle().x - middle).abs() >= 0.4 * self.head.size().x
+        };
+        let hands = self.free(guesses).filter(|(_, shape)| is_hand(shape));
+        let hands: Vec<(usize, Side)> = hands
+            .map(|(index, shape)| {
+                let is_left = shape.middle().x > middle;
+                (index, if is_left { Side::Left } else { Side::Right })
+            })
+            .collect();
+        let why = "it has the colour of the head, and lies apart from it";
+        for (index, side) in hands {
+            guesses.add_sided(index, Noun::Hand, Some(side), Certainty::Uncertain, why);
         }
     }
 }

@@ -16,6 +16,8 @@ pub(crate) struct Drawn {
     pub(crate) mask: Mask,
     /// Its colour, or that of its largest shape.
     pub(crate) color: [u8; 3],
+    /// The unit that it belongs to: a group of shapes that is one part, or itself.
+    pub(crate) unit: usize,
 }
 
 /// A drawn shape with what was measured of it.
