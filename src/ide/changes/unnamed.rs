@@ -4,14 +4,16 @@
 //! which it moves. What hangs on what follows from the names, as for any drawing with names.
 
 use rustc_hash::{FxHashMap, FxHashSet};
+use typed_index_collections::TiSlice;
 
 use super::{Analysis, Refusal};
 use crate::anatomy::{Language, Noun};
-use crate::bind::{Bindings, Numbers, PartId, PartKind, written_by_a_person};
+use crate::bind::{Bindings, Numbers, Part, PartId, PartKind, written_by_a_person};
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Edit, applied};
 use crate::ide::rename::label_edit;
-use crate::labels::{Certainty, Class, Drawn, GRID_SIDE, Guess, Label, LimbSegment, Mask, Side, guess};
+use crate::labels::{
+    BUST, Certainty, Class, Drawn, GRID_SIDE, Guess, Guesses, Label, LimbSegment, Mask, Side, guess};
 use crate::resolver::MemoryResolver;
 use crate::rig::FigureFacing;
 use crate::source::Span;
@@ -24,6 +26,8 @@ const MAX_UNITS: usize = 400;
 /// The second piece of a leg or an arm is a foot or a hand if it is at most this share of the first.
 const FOOT: f64 = 0.75;
 const HAND: f64 = 0.5;
+/// How often the figure is looked at, with what was found before.
+const ROUNDS: usize = 3;
 /// What makes a figure of parts without names.
 const MOVING: &str = "<text>%Motion walk</text>";
 
@@ -93,6 +97,12 @@ impl From<Guess> for Found {
 }
 
 impl Analysis {
+    /// Whether no part has a name that a person gave it.
+    pub(in crate::ide) fn is_nameless(&self) -> bool {
+        let parts = self.bindings().parts.iter();
+        self.is_sound() && parts.clone().all(|part| part.is_automatic() || part.name.is_empty())
+    }
+
     /// Names for the parts that have none, in the order of the file.
     ///
     /// # Errors
@@ -107,7 +117,8 @@ impl Analysis {
         if !units.iter().any(|unit| unit.is_free) {
             return Err(Refusal::new("every part has a name already"));
         }
-        let names = self.bindings().parts.iter().filter(|part| !part.is_automatic());
+        let parts = self.bindings().parts.iter();
+        let names = parts.filter(|part| !part.is_automatic() && !part.name.is_empty());
         let names: Vec<&str> = names.map(|part| part.name.as_str()).collect();
         let language = Language::of(names.iter().copied());
         let taken: FxHashSet<String> = names.iter().map(|name| (*name).to_owned()).collect();
@@ -119,13 +130,21 @@ impl Analysis {
             .collect();
         shapes.sort_by_key(|(shape, _)| *shape);
         let shapes: Vec<Drawn> = shapes.into_iter().map(|(_, drawn)| drawn).collect();
-        let mut found: Vec<Found> = guess(&drawn, &shapes).into_iter().map(Found::from).collect();
+        let Guesses { all, has_head } = guess(&drawn, &shapes);
+        let mut found: Vec<Found> = all.into_iter().map(Found::from).collect();
         found.retain(|found| units[found.unit].is_free);
-        let first = self.written(&units, &found, language, &taken);
-        let second = self.named_so(&first, names.len());
-        found.extend(by_labels(&units, &found, &second));
+        // Each name says more about what hangs on what, and that says more about what it is.
+        for _ in 0..ROUNDS {
+            let so_far = self.written(&units, &found, language, &taken);
+            let figure = self.named_so(&so_far, names.len());
+            let more = by_labels(&units, &found, has_head, &figure);
+            if more.is_empty() {
+                break;
+            }
+            found.extend(more);
+        }
         let all = self.written(&units, &found, language, &taken);
-        if all.is_empty() {
+        if names.is_empty() && !is_figure(&found) || all.is_empty() {
             return Err(Refusal::new(
                 "nothing looks like a head with two eyes, like wheels, or like limbs around a body: name at least two parts, and the rest \
                  can be found from these",
@@ -356,8 +375,28 @@ fn chain(drawing: &Drawing, group: GroupId) -> impl Iterator<Item = GroupId> {
     })
 }
 
+/// Whether what was found makes a figure or a vehicle: a lamp has a body and a foot, too.
+fn is_figure(found: &[Found]) -> bool {
+    let has = |nouns: &[Noun]| found.iter().any(|found| nouns.contains(&found.noun));
+    let limbs = found.iter().filter(|found| found.side.is_some() || found.noun == Noun::Tail);
+    has(&[
+        Noun::Eye,
+        Noun::Eyes,
+        Noun::Wheel,
+        Noun::Wheels,
+        Noun::FarLegs,
+        Noun::NearLegs,
+    ]) || found.iter().any(|found| found.certainty == Certainty::Certain)
+        || limbs.count() >= if has(&[Noun::Head]) { 1 } else { 3 }
+}
+
 /// What the labels of the figures say about parts without names.
-fn by_labels(units: &[Unit], known: &[Found], compiled: &Compiled) -> Vec<Found> {
+fn by_labels(
+    units: &[Unit],
+    known: &[Found],
+    has_head: bool,
+    compiled: &Compiled,
+) -> Vec<Found> {
     let mut unit_of: FxHashMap<ShapeId, usize> = FxHashMap::default();
     for (index, unit) in units.iter().enumerate() {
         unit.shapes.iter().for_each(|shape| {
@@ -383,11 +422,13 @@ fn by_labels(units: &[Unit], known: &[Found], compiled: &Compiled) -> Vec<Found>
             };
             let is_known = match label.class {
                 Class::Body => has(&[Noun::Body]),
-                Class::Head => has(&[Noun::Head]),
+                Class::Head => has_head,
                 Class::Neck => has(&[Noun::Neck]),
                 Class::Arm | Class::Leg | Class::Tail | Class::Hips => is_bust,
             };
-            if !part.is_automatic() || is_known || !units[unit].is_free || !seen.insert(unit) {
+            // Pairs that are one shape were looked at before: a limb by itself is one piece.
+            let is_pair = label.class.is_limb() && units[unit].drawn.has_several_pieces();
+            if is_pair || !part.is_automatic() || is_known || !units[unit].is_free || !seen.insert(unit) {
                 continue;
             }
             let fore = (label.class == Class::Leg && leg_pairs == Some(2)).then_some(label.pair > 0);
@@ -397,11 +438,29 @@ fn by_labels(units: &[Unit], known: &[Found], compiled: &Compiled) -> Vec<Found>
                 side: label.side,
                 fore,
                 certainty: certainty(label, known.is_empty()),
-                why: label.why.replace(&format!("`{}`", part.name), "it"),
+                why: without_names(&label.why, part, figure, parts),
             });
         }
     }
     found
+}
+
+/// A reason that speaks of parts by what they are: the names that they have so far are numbers.
+fn without_names(
+    why: &str,
+    own: &Part,
+    figure: &FigureFacing,
+    parts: &TiSlice<PartId, Part>,
+) -> String {
+    let mut why = why.replace(&format!("`{}`", own.name), "it");
+    for (other, label, _) in &figure.labels {
+        let other = &parts[*other];
+        if other.is_automatic() {
+            let is = format!("the {}", label.class.name());
+            why = why.replace(&format!("`{}`", other.name), &is);
+        }
+    }
+    why
 }
 
 /// Whether a figure ends with its body, as a bust does.
@@ -409,10 +468,11 @@ fn stands_on_body(units: &[Unit], known: &[Found]) -> bool {
     let bottom = |unit: &Unit| unit.drawn.mask.lowest();
     let ground = units.iter().filter_map(bottom).max();
     let bodies = known.iter().filter(|found| found.noun == Noun::Body);
-    let body = bodies.filter_map(|found| bottom(&units[found.unit])).max();
+    let flat = bodies.filter(|found| units[found.unit].drawn.mask.foot() >= BUST);
+    let body = flat.filter_map(|found| bottom(&units[found.unit])).max();
     let legs = known
         .iter()
-        .any(|found| matches!(found.noun, Noun::Legs | Noun::Shoes | Noun::FarLegs | Noun::NearLegs));
+        .any(|found| matches!(found.noun, Noun::Legs | Noun::Shoes | Noun::FarLegs | Noun::NearLegs | Noun::Feet));
     !legs && matches!((ground, body), (Some(ground), Some(body)) if body + GRID_SIDE / 20 >= ground)
 }
 

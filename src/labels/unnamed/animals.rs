@@ -1,7 +1,7 @@
 //! Finds animals that are drawn from the side, by their one eye.
 
 use super::shapes::{Shape, Shapes};
-use super::{Certainty, Guesses};
+use super::{Certainty, Guesses, bodies};
 use crate::anatomy::Noun;
 
 /// An eye is at most this share of what it lies on, and at least this many cells.
@@ -9,11 +9,13 @@ const LARGEST_EYE: f64 = 0.05;
 const SMALLEST_EYE: f64 = 3.0;
 /// Eyes are darker than this.
 const DARK: f64 = 0.45;
-/// The share of an eye that lies on what it belongs to.
+/// What lies on something larger by this share belongs to it.
 const ON: f64 = 0.85;
 /// An eye is within this share of the drawing's width from one of its ends, and this share of its height from the top.
 const END: f64 = 0.42;
 const HIGH: f64 = 0.6;
+/// What is drawn from the side and at least this share of its width high stands on two legs.
+const UPRIGHT: f64 = 1.2;
 /// Legs stand at most this share of the height above the ground, and reach up to at most this share of it.
 const LOW: f64 = 0.08;
 const REACH: f64 = 0.62;
@@ -39,7 +41,13 @@ pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Gue
         let why = "it is dark and round, and lies near one end";
         guesses.add(eye, Noun::Eye, Certainty::Likely, why);
     }
+    if host != body && is_above(shapes, host, trunk) {
+        guesses.add(host, Noun::Head, Certainty::Certain, "an eye lies on it");
+        bodies::find(shapes, Some(host), guesses);
+        return;
+    }
     if host == body {
+        guesses.has_head = true;
         let why = "it is the largest shape, and an eye lies on it";
         guesses.add(body, Noun::Body, Certainty::Likely, why);
     } else {
@@ -48,6 +56,16 @@ pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Gue
         guesses.add(body, Noun::Body, Certainty::Certain, why);
     }
     name_legs(shapes, trunk, guesses);
+}
+
+/// Whether a head is above the body of a figure that stands upright.
+fn is_above(shapes: &Shapes, head: usize, trunk: &Shape) -> bool {
+    let size = shapes.bounds.size();
+    let Some(head) = shapes.get(head) else {
+        return false;
+    };
+    let off = (head.middle().x - trunk.middle().x).abs();
+    size.y >= UPRIGHT * size.x && off <= 0.5 * trunk.size().x
 }
 
 /// The eye, and the shape on which it lies.
@@ -65,7 +83,7 @@ pub(super) fn eye(shapes: &Shapes) -> Option<(usize, usize)> {
                 && place.y <= HIGH;
             let holds = |(other, host): &(usize, &Shape)| {
                 *other < index
-                    && shape.on(host) >= ON
+                    && host.mask.covers(spot.bounds.middle())
                     && cells <= LARGEST_EYE * host.cells
                     && cells * 6.0 <= host.seen
                     && host.distance_of_colors(shape) >= 40.0
@@ -101,10 +119,15 @@ fn name_legs(shapes: &Shapes, trunk: &Shape, guesses: &mut Guesses) {
             let size = leg.bounds.size();
             size.y >= 0.9 * size.x
         });
+        if reaches <= LOW * height && count > 1 {
+            let why = "its pieces lie on the ground";
+            guesses.add(index, Noun::Feet, Certainty::Likely, why);
+            continue;
+        }
         if !are_long {
             continue;
         }
-        let body = guesses.0.iter().find(|guess| guess.noun == Noun::Body);
+        let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
         let is_behind = body.is_some_and(|body| index < body.shape);
         let noun = if is_behind { Noun::FarLegs } else { Noun::NearLegs };
         let why = "its pieces stand on the ground below the body";

@@ -9,7 +9,7 @@ use super::shapes::{Shape, Shapes};
 const LARGEST_EYE: f64 = 0.1;
 const SMALLEST_EYE: usize = 2;
 /// The share of an eye that lies on its head.
-const ON: f64 = 0.8;
+const ON: f64 = 0.5;
 /// What is at most this much wider than both eyes together is no head but a mask, or glasses.
 const MASK: f64 = 1.3;
 /// Eyes differ by at least this distance of colours from what they lie on.
@@ -118,7 +118,6 @@ fn host(shapes: &Shapes, pair: &Pair) -> Option<usize> {
     let holds = |(index, shape): &(usize, &Shape)| {
         *index < first
             && shapes.get(first).is_some_and(|eye| eye.distance_of_colors(shape) >= CONTRAST)
-            && pair.spots.iter().all(|spot| shape.mask.covers(spot.bounds.middle()))
             && shape.mask.covers(between(pair))
             && pair
                 .shapes
@@ -127,6 +126,7 @@ fn host(shapes: &Shapes, pair: &Pair) -> Option<usize> {
                 .all(|eye| eye.on(shape) >= ON)
             && shape.cells * LARGEST_EYE >= cells as f64
             && shape.size().x > MASK * eyes.size().x
+            && shape.size().max_element() <= LONGEST_HEAD * shape.size().min_element()
     };
     let hosts = shapes.iter().filter(holds);
     hosts.last().map(|(index, _)| index)
@@ -140,7 +140,6 @@ fn score(shapes: &Shapes, pair: &Pair, head: usize) -> Option<f64> {
     let down = (between(pair).y - head.bounds.low.y) / size.y;
     let is_head = off <= OFF
         && (0.12..=0.75).contains(&down)
-        && size.max_element() <= LONGEST_HEAD * size.min_element()
         && head.cells >= SMALLEST_HEAD * shapes.area();
     if !is_head {
         return None;

@@ -143,6 +143,14 @@ impl Mask {
         (0..SIDE).rev().find(|row| self.span(*row).is_some())
     }
 
+    /// How wide it is just above its lowest row, as a share of its whole width.
+    pub(crate) fn foot(&self) -> f64 {
+        let width = |row: usize| self.span(row).map_or(0, |(first, last)| last + 1 - first);
+        let lowest = self.lowest().unwrap_or(0);
+        let widest = (0..SIDE).map(width).max().unwrap_or(0).max(1);
+        width(lowest.saturating_sub(2)) as f64 / widest as f64
+    }
+
     /// The box around all covered cells.
     pub(super) fn bounds(&self) -> Option<Box2> {
         let rows = 0..SIDE;

@@ -12,6 +12,7 @@ mod shapes;
 mod vehicles;
 
 pub(crate) use mask::{Mask, SIDE};
+pub(crate) use people::BUST;
 pub(crate) use shapes::Drawn;
 
 use crate::anatomy::Noun;
@@ -55,13 +56,17 @@ pub(crate) struct Guess {
     pub(crate) why: &'static str,
 }
 
-/// The guesses so far, at most one for each shape.
+/// What shapes are, at most one guess for each.
 #[derive(Debug, Default)]
-struct Guesses(Vec<Guess>);
+pub(crate) struct Guesses {
+    pub(crate) all: Vec<Guess>,
+    /// Whether a head is known, or the body has one that is no shape of its own.
+    pub(crate) has_head: bool,
+}
 
 impl Guesses {
     fn has(&self, shape: usize) -> bool {
-        self.0.iter().any(|guess| guess.shape == shape)
+        self.all.iter().any(|guess| guess.shape == shape)
     }
 
     fn add(&mut self, shape: usize, noun: Noun, certainty: Certainty, why: &'static str) {
@@ -76,8 +81,9 @@ impl Guesses {
         certainty: Certainty,
         why: &'static str,
     ) {
+        self.has_head |= noun == Noun::Head;
         if !self.has(shape) {
-            self.0.push(Guess {
+            self.all.push(Guess {
                 shape,
                 noun,
                 side,
@@ -90,9 +96,9 @@ impl Guesses {
 
 /// Says what units are: shapes, or groups that are one part, in the order in which they are drawn. Those that have names keep them. Eyes
 /// are looked for among all shapes, also those in groups.
-pub(crate) fn guess(units: &[Drawn], all: &[Drawn]) -> Vec<Guess> {
+pub(crate) fn guess(units: &[Drawn], all: &[Drawn]) -> Guesses {
     let (Some(shapes), Some(details)) = (Shapes::measure(units), Shapes::measure(all)) else {
-        return vec![];
+        return Guesses::default();
     };
     let unit = |shape: usize| all[shape].unit;
     let mut guesses = Guesses::default();
@@ -105,10 +111,10 @@ pub(crate) fn guess(units: &[Drawn], all: &[Drawn]) -> Vec<Guess> {
     } else if !vehicles::find(&shapes, &mut guesses) {
         match animals::eye(&details) {
             Some((eye, host)) => animals::around(&shapes, [unit(eye), unit(host)], &mut guesses),
-            None => bodies::find(&shapes, &mut guesses),
+            None => bodies::find(&shapes, None, &mut guesses),
         }
     }
-    guesses.0.retain(|guess| units[guess.shape].name.is_empty());
-    guesses.0.sort_by_key(|guess| guess.shape);
-    guesses.0
+    guesses.all.retain(|guess| units[guess.shape].name.is_empty());
+    guesses.all.sort_by_key(|guess| guess.shape);
+    guesses
 }

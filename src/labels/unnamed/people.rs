@@ -14,8 +14,10 @@ const SKIN: f64 = 110.0;
 /// Hair and hats differ from the skin by at least this.
 const OTHER: f64 = 45.0;
 
+/// A bust is at least this share of its width wide where it ends.
+pub(crate) const BUST: f64 = 0.6;
 /// Shoes are at most this share of the figure high.
-const SHOE: f64 = 0.12;
+const SHOE: f64 = 0.16;
 /// A hand is at most this share of the head, and at least.
 const HANDS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
 /// Hands have the colour of the head, within this distance.
@@ -220,7 +222,7 @@ impl Around<'_> {
             let covers_middle = off <= 0.5 * shape.size().x;
             let is_one = shape.islands.len() == 1;
             (below > 0.3 * head.size().y && begins && covers_middle)
-                .then_some(shape.seen * if is_one { 1.0 } else { 0.4 } / (1.0 + 6.0 * gap / self.shapes.height()))
+                .then_some(shape.seen * if is_one { 1.0 } else { 0.4 } / (1.0 + 20.0 * gap / self.shapes.height()))
         };
         let found = self
             .free(guesses)
@@ -235,7 +237,7 @@ impl Around<'_> {
 
     /// Arms, legs and shoes of which two are one shape; what is single is found by the labels of motion.
     fn limbs(&self, guesses: &mut Guesses) {
-        let body = guesses.0.iter().find(|guess| guess.noun == Noun::Body);
+        let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
         let Some(body) = body.and_then(|guess| self.shapes.get(guess.shape)) else {
             return;
         };
@@ -264,7 +266,7 @@ impl Around<'_> {
             } else if stands && below {
                 let why = "they are two, and lie on the ground";
                 found.push((index, Noun::Shoes, Certainty::Likely, why));
-            } else if beside && long(a) && long(b) && (0.03..=1.0).contains(&share) && !below {
+            } else if beside && long(a) && long(b) && (0.08..=1.0).contains(&share) && !below {
                 let why = "they are two of one size, at both sides of the body";
                 let spread = b.middle().x - a.middle().x;
                 arms.push((spread * shape.cells, index, why));
@@ -281,7 +283,10 @@ impl Around<'_> {
 
     /// Of a bust, what has the colour of the head and lies apart from it.
     fn hands(&self, guesses: &mut Guesses) {
-        if guesses.0.iter().any(|guess| matches!(guess.noun, Noun::Legs | Noun::Shoes)) {
+        let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
+        let body = body.and_then(|guess| self.shapes.get(guess.shape));
+        let ground = self.shapes.bounds.high.y - 0.05 * self.shapes.height();
+        if body.is_none_or(|body| body.bounds.high.y < ground || body.mask.foot() < BUST) {
             return;
         }
         let middle = self.head.middle().x;

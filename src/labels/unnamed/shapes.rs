@@ -20,6 +20,20 @@ pub(crate) struct Drawn {
     pub(crate) unit: usize,
 }
 
+impl Drawn {
+    /// Whether it is in several pieces that are about as large.
+    pub(crate) fn has_several_pieces(&self) -> bool {
+        large(self.mask.islands()).len() > 1
+    }
+}
+
+/// Pieces without specks.
+fn large(mut islands: Vec<Island>) -> Vec<Island> {
+    let largest = islands.first().map_or(0, |island| island.cells) as f64;
+    islands.retain(|island| island.cells as f64 >= PIECE * largest);
+    islands
+}
+
 /// A drawn shape with what was measured of it.
 #[derive(Debug)]
 pub(super) struct Shape {
@@ -127,9 +141,7 @@ impl Shape {
 
 fn measure(drawn: &Drawn, later: &Mask) -> Option<Shape> {
     let bounds = drawn.mask.bounds()?;
-    let mut islands = drawn.mask.islands();
-    let largest = islands.first()?.cells as f64;
-    islands.retain(|island| island.cells as f64 >= PIECE * largest);
+    let islands = large(drawn.mask.islands());
     let mut seen = drawn.mask.clone();
     seen.remove(later);
     Some(Shape {
