@@ -92,7 +92,12 @@ impl Noun {
     }
 
     /// The name of a part: `Larm`, `Rforeleg`, `右腕`. `left` says which side it is on, `fore` whether it is a fore or a hind one.
-    pub(crate) fn written(self, left: Option<bool>, fore: Option<bool>, language: Language) -> String {
+    pub(crate) fn written(
+        self,
+        left: Option<bool>,
+        fore: Option<bool>,
+        language: Language,
+    ) -> String {
         let [english, japanese] = self.words();
         match language {
             Language::Japanese => {

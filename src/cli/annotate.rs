@@ -68,7 +68,10 @@ pub(super) fn run(arguments: &Annotate, common: Common) -> Result<Outcome, Failu
         .map_err(|refusal| format!("`{path}` {refusal}"))?;
     write([&text, &new], output, linked, arguments)?;
     let lines = LineIndex::new(text.as_str());
-    let written: Vec<Written<'_>> = names.iter().map(|name| written(name, &after, &lines)).collect();
+    let written: Vec<Written<'_>> = names
+        .iter()
+        .map(|name| written(name, &after, &lines))
+        .collect();
     let listed = if arguments.json {
         json(&path, &written)
     } else if common.quiet {
@@ -152,10 +155,15 @@ fn table(path: &str, written: &[Written<'_>], names: &[Suggestion]) -> String {
             one.certainty, one.line, one.why
         );
     }
-    let unsure = names.iter().filter(|name| name.certainty == Certainty::Uncertain);
+    let unsure = names
+        .iter()
+        .filter(|name| name.certainty == Certainty::Uncertain);
     let unsure = unsure.count();
     if unsure > 0 {
-        out += &format!("look at {}: only place and shape tell\n", counted(unsure, "uncertain name"));
+        out += &format!(
+            "look at {}: only place and shape tell\n",
+            counted(unsure, "uncertain name")
+        );
     }
     out
 }

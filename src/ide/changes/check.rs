@@ -25,7 +25,9 @@ pub fn check(
         return if unnamed::keeps_names(before, after) {
             Ok(None)
         } else {
-            Err(Refusal::new("parts that have names would be called otherwise"))
+            Err(Refusal::new(
+                "parts that have names would be called otherwise",
+            ))
         };
     }
     let (old, new) = (&before.bindings().parts, &after.bindings().parts);

@@ -13,7 +13,8 @@ use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Edit, applied};
 use crate::ide::rename::label_edit;
 use crate::labels::{
-    BUST, Certainty, Class, Drawn, GRID_SIDE, Guess, Guesses, Label, LimbSegment, Mask, Side, guess};
+    BUST, Certainty, Class, Drawn, GRID_SIDE, Guess, Guesses, Label, LimbSegment, Mask, Side, guess,
+};
 use crate::resolver::MemoryResolver;
 use crate::rig::FigureFacing;
 use crate::source::Span;
@@ -100,7 +101,10 @@ impl Analysis {
     /// Whether no part has a name that a person gave it.
     pub(in crate::ide) fn is_nameless(&self) -> bool {
         let parts = self.bindings().parts.iter();
-        self.is_sound() && parts.clone().all(|part| part.is_automatic() || part.name.is_empty())
+        self.is_sound()
+            && parts
+                .clone()
+                .all(|part| part.is_automatic() || part.name.is_empty())
     }
 
     /// Names for the parts that have none, in the order of the file.
@@ -262,7 +266,10 @@ impl Analysis {
             });
             let rings: Vec<_> = rings.collect();
             let mask = Mask::of_rings(rings.iter().map(Vec::as_slice));
-            masks.entry(part.shape).or_insert_with(Mask::empty).add(&mask);
+            masks
+                .entry(part.shape)
+                .or_insert_with(Mask::empty)
+                .add(&mask);
         }
         let named: FxHashMap<ShapeId, &str> = parts
             .iter()
@@ -309,8 +316,13 @@ impl Analysis {
         let all = self.drawing().shapes.iter();
         let alike = all.filter(|shape| shape.element.span == own.span).count();
         let is_written = own.span.start < own.span.end;
-        let is_named = |name: &Option<String>| name.as_deref().and_then(written_by_a_person).is_some();
-        is_written && alike <= 1 && !is_named(&own.label) && !is_named(&own.id) && own.desc.is_none()
+        let is_named =
+            |name: &Option<String>| name.as_deref().and_then(written_by_a_person).is_some();
+        is_written
+            && alike <= 1
+            && !is_named(&own.label)
+            && !is_named(&own.id)
+            && own.desc.is_none()
     }
 }
 
@@ -378,7 +390,9 @@ fn chain(drawing: &Drawing, group: GroupId) -> impl Iterator<Item = GroupId> {
 /// Whether what was found makes a figure or a vehicle: a lamp has a body and a foot, too.
 fn is_figure(found: &[Found]) -> bool {
     let has = |nouns: &[Noun]| found.iter().any(|found| nouns.contains(&found.noun));
-    let limbs = found.iter().filter(|found| found.side.is_some() || found.noun == Noun::Tail);
+    let limbs = found
+        .iter()
+        .filter(|found| found.side.is_some() || found.noun == Noun::Tail);
     has(&[
         Noun::Eye,
         Noun::Eyes,
@@ -386,17 +400,14 @@ fn is_figure(found: &[Found]) -> bool {
         Noun::Wheels,
         Noun::FarLegs,
         Noun::NearLegs,
-    ]) || found.iter().any(|found| found.certainty == Certainty::Certain)
+    ]) || found
+        .iter()
+        .any(|found| found.certainty == Certainty::Certain)
         || limbs.count() >= if has(&[Noun::Head]) { 1 } else { 3 }
 }
 
 /// What the labels of the figures say about parts without names.
-fn by_labels(
-    units: &[Unit],
-    known: &[Found],
-    has_head: bool,
-    compiled: &Compiled,
-) -> Vec<Found> {
+fn by_labels(units: &[Unit], known: &[Found], has_head: bool, compiled: &Compiled) -> Vec<Found> {
     let mut unit_of: FxHashMap<ShapeId, usize> = FxHashMap::default();
     for (index, unit) in units.iter().enumerate() {
         unit.shapes.iter().for_each(|shape| {
@@ -428,10 +439,16 @@ fn by_labels(
             };
             // Pairs that are one shape were looked at before: a limb by itself is one piece.
             let is_pair = label.class.is_limb() && units[unit].drawn.has_several_pieces();
-            if is_pair || !part.is_automatic() || is_known || !units[unit].is_free || !seen.insert(unit) {
+            if is_pair
+                || !part.is_automatic()
+                || is_known
+                || !units[unit].is_free
+                || !seen.insert(unit)
+            {
                 continue;
             }
-            let fore = (label.class == Class::Leg && leg_pairs == Some(2)).then_some(label.pair > 0);
+            let fore =
+                (label.class == Class::Leg && leg_pairs == Some(2)).then_some(label.pair > 0);
             found.push(Found {
                 unit,
                 noun: noun(label, ends(&compiled.bindings, figure, *index)),
@@ -470,9 +487,12 @@ fn stands_on_body(units: &[Unit], known: &[Found]) -> bool {
     let bodies = known.iter().filter(|found| found.noun == Noun::Body);
     let flat = bodies.filter(|found| units[found.unit].drawn.mask.foot() >= BUST);
     let body = flat.filter_map(|found| bottom(&units[found.unit])).max();
-    let legs = known
-        .iter()
-        .any(|found| matches!(found.noun, Noun::Legs | Noun::Shoes | Noun::FarLegs | Noun::NearLegs | Noun::Feet));
+    let legs = known.iter().any(|found| {
+        matches!(
+            found.noun,
+            Noun::Legs | Noun::Shoes | Noun::FarLegs | Noun::NearLegs | Noun::Feet
+        )
+    });
     !legs && matches!((ground, body), (Some(ground), Some(body)) if body + GRID_SIDE / 20 >= ground)
 }
 
@@ -498,12 +518,15 @@ fn ends(bindings: &Bindings, figure: &FigureFacing, index: PartId) -> Ends {
         let Some(((_, label, _), parent)) = label_of(part).zip(parts[part].parent) else {
             return false;
         };
-        let is_last = !figure
-            .labels
-            .iter()
-            .any(|(other, next, _)| parts[*other].parent == Some(part) && next.class == label.class);
+        let is_last = !figure.labels.iter().any(|(other, next, _)| {
+            parts[*other].parent == Some(part) && next.class == label.class
+        });
         let (own, above) = (size(part), size(parent));
-        let share = if label.class == Class::Leg { FOOT } else { HAND };
+        let share = if label.class == Class::Leg {
+            FOOT
+        } else {
+            HAND
+        };
         let lies = label.class == Class::Arm || own.y <= 1.3 * own.x;
         label.segment == LimbSegment::Lower
             && is_last

@@ -71,7 +71,10 @@ fn is_above(shapes: &Shapes, head: usize, trunk: &Shape) -> bool {
 /// The eye, and the shape on which it lies.
 pub(super) fn eye(shapes: &Shapes) -> Option<(usize, usize)> {
     let mut best: Option<(f64, usize, usize)> = None;
-    for (index, shape) in shapes.iter().filter(|(_, shape)| shape.brightness() <= DARK) {
+    for (index, shape) in shapes
+        .iter()
+        .filter(|(_, shape)| shape.brightness() <= DARK)
+    {
         for spot in &shape.islands {
             let size = spot.bounds.size();
             let round = size.min_element() / size.max_element();
@@ -112,7 +115,11 @@ fn name_legs(shapes: &Shapes, trunk: &Shape, guesses: &mut Guesses) {
             .filter(|leg| leg.bounds.high.y >= ground - LOW * height);
         let count = stand.count();
         let reaches = shape.bounds.high.y - shape.bounds.low.y;
-        if count < 2 || count < shape.islands.len() || reaches > REACH * height || shape.cells >= trunk.cells {
+        if count < 2
+            || count < shape.islands.len()
+            || reaches > REACH * height
+            || shape.cells >= trunk.cells
+        {
             continue;
         }
         let are_long = shape.islands.iter().all(|leg| {
@@ -129,7 +136,11 @@ fn name_legs(shapes: &Shapes, trunk: &Shape, guesses: &mut Guesses) {
         }
         let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
         let is_behind = body.is_some_and(|body| index < body.shape);
-        let noun = if is_behind { Noun::FarLegs } else { Noun::NearLegs };
+        let noun = if is_behind {
+            Noun::FarLegs
+        } else {
+            Noun::NearLegs
+        };
         let why = "its pieces stand on the ground below the body";
         guesses.add(index, noun, Certainty::Likely, why);
     }

@@ -19,7 +19,9 @@ const HEADS: std::ops::RangeInclusive<f64> = 0.03..=1.5;
 pub(super) fn find(shapes: &Shapes, known: Option<usize>, guesses: &mut Guesses) {
     let touching = |index: usize, shape: &Shape| {
         let others = shapes.iter().filter(|(other, _)| *other != index);
-        others.filter(|(_, other)| shape.mask.touches(&other.mask)).count()
+        others
+            .filter(|(_, other)| shape.mask.touches(&other.mask))
+            .count()
     };
     let trunk = shapes
         .iter()

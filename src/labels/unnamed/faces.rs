@@ -117,7 +117,9 @@ fn host(shapes: &Shapes, pair: &Pair) -> Option<usize> {
     let first = pair.shapes[0];
     let holds = |(index, shape): &(usize, &Shape)| {
         *index < first
-            && shapes.get(first).is_some_and(|eye| eye.distance_of_colors(shape) >= CONTRAST)
+            && shapes
+                .get(first)
+                .is_some_and(|eye| eye.distance_of_colors(shape) >= CONTRAST)
             && shape.mask.covers(between(pair))
             && pair
                 .shapes
@@ -138,9 +140,8 @@ fn score(shapes: &Shapes, pair: &Pair, head: usize) -> Option<f64> {
     let size = head.size();
     let off = (between(pair).x - head.middle().x).abs() / size.x;
     let down = (between(pair).y - head.bounds.low.y) / size.y;
-    let is_head = off <= OFF
-        && (0.12..=0.75).contains(&down)
-        && head.cells >= SMALLEST_HEAD * shapes.area();
+    let is_head =
+        off <= OFF && (0.12..=0.75).contains(&down) && head.cells >= SMALLEST_HEAD * shapes.area();
     if !is_head {
         return None;
     }

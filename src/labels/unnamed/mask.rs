@@ -98,7 +98,10 @@ impl Mask {
 
     /// The number of covered cells.
     pub(crate) fn count(&self) -> usize {
-        self.bits.iter().map(|word| word.count_ones() as usize).sum()
+        self.bits
+            .iter()
+            .map(|word| word.count_ones() as usize)
+            .sum()
     }
 
     /// The number of cells that both cover.
@@ -109,12 +112,18 @@ impl Mask {
 
     /// Adds the cells of another mask.
     pub(crate) fn add(&mut self, other: &Self) {
-        self.bits.iter_mut().zip(&other.bits).for_each(|(a, b)| *a |= b);
+        self.bits
+            .iter_mut()
+            .zip(&other.bits)
+            .for_each(|(a, b)| *a |= b);
     }
 
     /// Takes the cells of another mask away.
     pub(super) fn remove(&mut self, other: &Self) {
-        self.bits.iter_mut().zip(&other.bits).for_each(|(a, b)| *a &= !b);
+        self.bits
+            .iter_mut()
+            .zip(&other.bits)
+            .for_each(|(a, b)| *a &= !b);
     }
 
     /// Whether both cover neighbouring cells, or the same.

@@ -114,7 +114,9 @@ pub(crate) fn guess(units: &[Drawn], all: &[Drawn]) -> Guesses {
             None => bodies::find(&shapes, None, &mut guesses),
         }
     }
-    guesses.all.retain(|guess| units[guess.shape].name.is_empty());
+    guesses
+        .all
+        .retain(|guess| units[guess.shape].name.is_empty());
     guesses.all.sort_by_key(|guess| guess.shape);
     guesses
 }

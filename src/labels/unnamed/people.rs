@@ -57,7 +57,12 @@ pub(super) fn around(shapes: &Shapes, face: &Face, guesses: &mut Guesses) {
 impl Around<'_> {
     fn eyes(&self, guesses: &mut Guesses) {
         let why = "they are two of one size at one height";
-        let apart = self.face.eyes.iter().copied().filter(|eye| *eye != self.index);
+        let apart = self
+            .face
+            .eyes
+            .iter()
+            .copied()
+            .filter(|eye| *eye != self.index);
         let apart: Vec<usize> = apart.collect();
         match apart.as_slice() {
             [both] => guesses.add(*both, Noun::Eyes, Certainty::Likely, why),
@@ -221,8 +226,10 @@ impl Around<'_> {
             let begins = shape.bounds.low.y > head.bounds.low.y + 0.35 * head.size().y;
             let covers_middle = off <= 0.5 * shape.size().x;
             let is_one = shape.islands.len() == 1;
-            (below > 0.3 * head.size().y && begins && covers_middle)
-                .then_some(shape.seen * if is_one { 1.0 } else { 0.4 } / (1.0 + 20.0 * gap / self.shapes.height()))
+            (below > 0.3 * head.size().y && begins && covers_middle).then_some(
+                shape.seen * if is_one { 1.0 } else { 0.4 }
+                    / (1.0 + 20.0 * gap / self.shapes.height()),
+            )
         };
         let found = self
             .free(guesses)
@@ -250,7 +257,8 @@ impl Around<'_> {
             };
             let (a, b) = (left.bounds, right.bounds);
             let mirrored = (a.middle().x + b.middle().x - 2.0 * axis).abs();
-            let is_pair = mirrored <= 0.25 * body.size().x && a.middle().x < axis && b.middle().x > axis;
+            let is_pair =
+                mirrored <= 0.25 * body.size().x && a.middle().x < axis && b.middle().x > axis;
             if !is_pair || a.low.y < self.head.middle().y {
                 continue;
             }

@@ -121,7 +121,12 @@ fn name_hubs(shapes: &Shapes, wheels: &[&Disc], guesses: &mut Guesses) {
         };
         // Hubs in one shape, on wheels of their own, move with none of those without a name.
         if shape.islands.len() > 1 && is_hub(shape) && lies_on(shape) {
-            guesses.add(index, Noun::Hubs, Certainty::Likely, "they lie in the middle of wheels");
+            guesses.add(
+                index,
+                Noun::Hubs,
+                Certainty::Likely,
+                "they lie in the middle of wheels",
+            );
         }
     }
 }
