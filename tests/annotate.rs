@@ -2,6 +2,10 @@
 //!
 //! `OKOSHI_PRINT=1 cargo test --test annotate -- --nocapture` prints what differs. `tests/tools/annotate.mjs` scores figures by others.
 #![cfg(feature = "cli")]
+#![allow(
+    clippy::print_stderr,
+    reason = "the figures are for people who tune the rules"
+)]
 
 mod common;
 
@@ -145,11 +149,11 @@ fn figures_get_back_the_names_that_their_strings_gave() {
             let hangs_so = got.is_some_and(|(_, got)| got == parent);
             hangs += usize::from(hangs_so);
             if std::env::var_os("OKOSHI_PRINT").is_some() && !(is_right && hangs_so) {
-                println!("{figure}: {name} on {parent:?} is {got:?}");
+                eprintln!("{figure}: {name} on {parent:?} is {got:?}");
             }
         }
     }
-    println!("{right} of {named} names, {hangs} of {hung} parents");
+    eprintln!("{right} of {named} names, {hangs} of {hung} parents");
     assert!(
         right * 100 >= NAMES * named,
         "{right} of {named} names are right"

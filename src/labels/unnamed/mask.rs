@@ -179,7 +179,7 @@ impl Mask {
     fn span(&self, row: usize) -> Option<(usize, usize)> {
         let mut columns = (0..SIDE).filter(|column| self.has(row, *column));
         let first = columns.next()?;
-        Some((first, columns.last().unwrap_or(first)))
+        Some((first, columns.next_back().unwrap_or(first)))
     }
 
     /// The share of a box that lies between the first and the last covered cell of each of its rows: holes count as filled.
@@ -189,7 +189,7 @@ impl Mask {
             let columns = bounds.low.x as usize..(bounds.high.x as usize).min(SIDE);
             let mut covered = columns.filter(|column| self.has(row, *column));
             let first = covered.next()?;
-            Some(covered.last().unwrap_or(first) - first + 1)
+            Some(covered.next_back().unwrap_or(first) - first + 1)
         };
         let filled: usize = rows.filter_map(within).sum();
         let all = bounds.size().element_product();
@@ -207,7 +207,7 @@ impl Mask {
                 }
             }
         }
-        found.sort_by(|a, b| b.cells.cmp(&a.cells));
+        found.sort_by_key(|island: &Island| std::cmp::Reverse(island.cells));
         found
     }
 

@@ -82,9 +82,8 @@ impl Around<'_> {
     /// Shapes that have no name yet, and are not on the face.
     fn free<'b>(&'b self, guesses: &'b Guesses) -> impl Iterator<Item = (usize, &'b Shape)> {
         self.shapes.iter().filter(|(index, shape)| {
-            !guesses.has(*index)
-                && !(*index > self.index && shape.on(self.head) >= ON)
-                && shape.name.is_empty()
+            let is_on_face = *index > self.index && shape.on(self.head) >= ON;
+            !guesses.has(*index) && !is_on_face && shape.name.is_empty()
         })
     }
 
