@@ -215,6 +215,7 @@ fn kind(change: &Change) -> &'static str {
         Change::Name { .. } => "name",
         Change::Hang { .. } => "hang",
         Change::LeaveOut { .. } => "leave out",
+        Change::NameParts => "name-parts",
         Change::Variable { .. } => "variable",
     }
 }

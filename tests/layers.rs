@@ -153,13 +153,16 @@ const USES: &[(&str, &[&str])] = &[
     (
         "ide",
         &[
+            "anatomy",
             "billboard",
             "bind",
             "compile",
             "diagnostic",
             "geometry",
+            "labels",
             "lang",
             "limited",
+            "resolver",
             "rig",
             "source",
             "svg",

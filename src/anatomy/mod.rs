@@ -7,6 +7,7 @@ pub(crate) mod name_words;
 mod role;
 mod things;
 mod vocabulary;
+mod written;
 
 pub(crate) use clothes::dress;
 pub(crate) use role::{Role, sides};
@@ -15,6 +16,7 @@ pub(crate) use things::{
     is_plant, is_rolling, is_sheet, is_supple, is_tentacle, says_far_or_near, thing,
 };
 pub(crate) use vocabulary::{Term, is_several_limbs, terms};
+pub(crate) use written::{Language, Noun};
 
 /// Whether a name is that of a limb that is attached at one end: an arm or a leg or a piece of one, a wing, a tail, a neck, an ear.
 /// Hands, feet and what is worn are none.

@@ -6,11 +6,13 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{EXPORTERS, extensions};
 
+mod annotate;
 mod motion;
 mod puppet;
 mod render;
 mod track;
 
+pub(super) use annotate::Annotate;
 pub(super) use motion::{Filming, Motion, Performing};
 pub(super) use puppet::Puppet;
 pub(super) use render::{Background, Bend, Projection, Render, Shading};
@@ -19,6 +21,7 @@ pub(super) use track::Track;
 const EXAMPLES: &str = "\
 Examples:
   okoshi new robot                       writes robot.svg, a drawing to start from
+  okoshi annotate art.svg -o me.svg      gives the parts of a drawing names that nobody has named
   okoshi build human.svg                 writes human.glb beside the drawing
   okoshi build human.svg -o out/man.glb  writes it somewhere else
   okoshi check *.svg                     reports problems, writes nothing
@@ -76,6 +79,8 @@ pub(super) enum Color {
 pub(super) enum Command {
     /// Write a starter drawing, ready to build
     New(New),
+    /// Give the parts of a drawing names that nobody has named
+    Annotate(Annotate),
     /// Build a model from a drawing
     Build(Build),
     /// Draw a picture of a model

@@ -8,6 +8,7 @@
     reason = "this is the module that prints"
 )]
 
+mod annotate;
 mod args;
 mod build;
 mod check;
@@ -100,6 +101,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let outcome = match &cli.command {
         Command::New(arguments) => new::run(arguments, cli.common),
+        Command::Annotate(arguments) => annotate::run(arguments, cli.common),
         Command::Build(arguments) => build::run(arguments, cli.common),
         Command::Render(arguments) => render::run(arguments, cli.common),
         Command::Check(arguments) => Ok(check::run(arguments, cli.common)),

@@ -31,7 +31,7 @@ impl Analysis {
     /// The code actions within `window`.
     pub fn actions(&self, window: Span) -> Vec<Action> {
         if !self.is_annotated() {
-            return vec![];
+            return self.name_the_parts(window).into_iter().collect();
         }
         let mut actions = vec![];
         for (index, diagnostic) in self.diagnostics().iter().enumerate() {
@@ -63,6 +63,23 @@ impl Analysis {
             }
         }
         actions
+    }
+
+    /// Names for all parts of a drawing in which nothing has one, at the start of the drawing or of a shape.
+    fn name_the_parts(&self, window: Span) -> Option<Action> {
+        let root = self.drawing().groups.first()?.element.span;
+        let is_at_root = (root.start..=root.end).contains(&window.start);
+        let is_there = is_at_root || self.at(window.start).is_some();
+        if !is_there || !self.is_nameless() {
+            return None;
+        }
+        let (edits, _) = self.named_parts().ok()?;
+        Some(Action {
+            title: "Name the parts of this drawing".to_owned(),
+            edits,
+            diagnostic: None,
+            is_preferred: false,
+        })
     }
 
     /// Actions that give a part without a string one: in its description, or as a text beside it.

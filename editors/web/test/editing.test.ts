@@ -509,3 +509,19 @@ for (const colorScheme of ["light", "dark"] as const) {
     }, { ...options, colorScheme });
   }
 }
+
+const BARE = join("..", "..", "tests", "cases", "art-fluent-person-standing", "drawing.svg");
+
+edit("a drawing without names is named in one step, and undo takes all names back", async (edited) => {
+  const { page } = edited;
+  const before = source(BARE);
+  await page.getByRole("button", { name: "Edit" }).click();
+  await page.getByText("Nothing here has a name.").waitFor();
+  await page.getByRole("button", { name: "Name the parts for me" }).click();
+  await page.locator("[data-part=Head]").waitFor();
+  await page.getByText("Nothing here has a name.").waitFor({ state: "hidden" });
+  assert.match(edited.text(), /="Body"/);
+  await page.getByRole("button", { name: /^Undo/ }).click();
+  await edited.has(before, "undo");
+  await page.getByText("Nothing here has a name.").waitFor();
+}, { drawing: BARE });

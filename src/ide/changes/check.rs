@@ -1,6 +1,6 @@
 //! Whether a change did what it says, and nothing else.
 
-use super::{Analysis, Change, Place, Refusal};
+use super::{Analysis, Change, Place, Refusal, unnamed};
 use crate::bind::{Part, PartId, PartKind};
 use crate::diagnostic::Severity;
 use crate::lang::keyword::Keyword;
@@ -20,6 +20,16 @@ pub fn check(
     change: &Change,
 ) -> Result<Option<String>, Refusal> {
     no_worse(before, after)?;
+    if *change == Change::NameParts {
+        // All that has no name may come to hang elsewhere, and pairs of limbs in one shape become two parts.
+        return if unnamed::keeps_names(before, after) {
+            Ok(None)
+        } else {
+            Err(Refusal::new(
+                "parts that have names would be called otherwise",
+            ))
+        };
+    }
     let (old, new) = (&before.bindings().parts, &after.bindings().parts);
     if old.len() != new.len() && is_first_shape(before, change) {
         // The person agreed to that.

@@ -13,10 +13,12 @@ mod settings;
 mod strings;
 #[cfg(test)]
 mod tests;
+mod unnamed;
 
 pub use check::check;
 pub(crate) use check::no_worse;
 pub use history::{History, Step, rebased};
+pub(crate) use unnamed::Suggestion;
 
 pub(super) use given::{as_description, string_for};
 
@@ -74,6 +76,8 @@ pub enum Change {
         /// The part.
         part: String,
     },
+    /// Every part that nobody has named gets a name, as far as shapes tell what they are.
+    NameParts,
     /// A variable of the drawing gets a number.
     Variable {
         /// Its name.
@@ -116,7 +120,7 @@ pub struct Choice {
 }
 
 impl Change {
-    /// The part that it is about; `None` for a variable.
+    /// The part that it is about; `None` if it is about none, or about all.
     pub fn part(&self) -> Option<&str> {
         match self {
             Self::Set { part, .. }
@@ -124,7 +128,7 @@ impl Change {
             | Self::Name { part, .. }
             | Self::Hang { part, .. }
             | Self::LeaveOut { part } => Some(part),
-            Self::Variable { .. } => None,
+            Self::NameParts | Self::Variable { .. } => None,
         }
     }
 
@@ -148,6 +152,7 @@ impl Change {
             Self::Name { name, .. } => format!("the name {name}"),
             Self::Hang { part, .. } => format!("the parent of {part}"),
             Self::LeaveOut { part } => format!("leaving out {part}"),
+            Self::NameParts => "the names of the parts".to_owned(),
             Self::Variable { name, .. } => format!("the number {name}"),
         }
     }
@@ -178,11 +183,7 @@ impl Refusal {
 /// # Errors
 /// If the change cannot be made, or it has to be decided how.
 pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal> {
-    if !analysis.is_sound() {
-        return Err(Refusal::new(
-            "the drawing cannot be read as it is: correct its errors first",
-        ));
-    }
+    readable(analysis)?;
     let mut edits = match change {
         Change::Set {
             part,
@@ -198,12 +199,23 @@ pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal>
         Change::Name { part, name } => analysis.call(part, name)?,
         Change::Hang { part, parent } => analysis.hang(part, parent.as_deref())?,
         Change::LeaveOut { part } => analysis.leave_out(part)?,
+        Change::NameParts => analysis.named_parts()?.0,
         Change::Variable { name, value } => analysis.set_variable(name, *value)?,
     };
     edits.sort_by_key(|edit| edit.span);
     edits.dedup();
     edits.retain(|edit| analysis.source[edit.span.start..edit.span.end] != edit.text);
     Ok(edits)
+}
+
+/// Refuses to change a drawing that cannot be read.
+fn readable(analysis: &Analysis) -> Result<(), Refusal> {
+    if analysis.is_sound() {
+        return Ok(());
+    }
+    Err(Refusal::new(
+        "the drawing cannot be read as it is: correct its errors first",
+    ))
 }
 
 /// The attributes that a change can set. The others decide what a string is about, or belong to the clips around them.

@@ -6,7 +6,7 @@ const HIDDEN = /^(defs|clipPath|mask|pattern|filter|linearGradient|radialGradien
 const INKSCAPE = 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
 
 /** Where the drawn shapes are in the text, in their order: those of these sets are empty elements. */
-function shapes(text) {
+export function shapes(text) {
   const found = []
   let hidden = 0
   for (const { 0: tag, 1: close, 2: name, 3: empty, index } of text.matchAll(/<(\/?)([A-Za-z]+)\b[^>]*?(\/?)>/g)) {

@@ -5,11 +5,13 @@ import { button, fill, h, inCode, setHidden } from "../dom";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
 import type { Editing } from "./editing";
+import { isNameless, namelessLine } from "./nameless";
 
 export class EditBar {
   readonly element = h("section", { class: "editbar", hidden: true, attributes: { "aria-label": "Editing" } });
   private readonly words = h("p", { class: "edit-words", attributes: { role: "status" } });
   private readonly refused = h("div", { class: "refusal", hidden: true, attributes: { role: "alert" } });
+  private readonly nameless: HTMLElement;
   private readonly undo: HTMLButtonElement;
   private readonly redo: HTMLButtonElement;
 
@@ -17,7 +19,8 @@ export class EditBar {
     this.undo = button({ icon: Undo2, label: "Undo", press: () => editing.undo() });
     this.redo = button({ icon: Redo2, label: "Redo", press: () => editing.redo() });
     const row = h("div", { class: "edit-row" }, this.words, this.undo, this.redo, button({ icon: X, label: "Stop editing", key: "W", press: () => editing.toggle() }));
-    fill(this.element, row, this.refused);
+    this.nameless = namelessLine(editing);
+    fill(this.element, row, this.nameless, this.refused);
     this.refused.addEventListener("keydown", (event) => {
       if (event.key !== "Escape") return;
       event.preventDefault();
@@ -36,6 +39,7 @@ export class EditBar {
     label(this.redo, "Redo", editing.redoes, "Ctrl+Shift+Z");
     const words = this.now();
     if (this.words.textContent !== words) this.words.textContent = words;
+    setHidden(this.nameless, editing.isPicking || editing.refusal !== null || !isNameless(this.state.parts), this.viewer.canvas);
     this.drawRefusal();
   }
 

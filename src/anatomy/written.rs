@@ -1,0 +1,180 @@
+//! Names for parts that nobody has named, as a person would write them.
+
+use super::terms;
+
+/// What a part is, for its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Noun {
+    Head,
+    Eye,
+    Eyes,
+    Ear,
+    Ears,
+    Hair,
+    Hat,
+    Neck,
+    Body,
+    Hips,
+    Arm,
+    Arms,
+    UpperArm,
+    Forearm,
+    Hand,
+    Leg,
+    Legs,
+    FarLegs,
+    NearLegs,
+    Thigh,
+    Shin,
+    Foot,
+    Feet,
+    Shoes,
+    Tail,
+    Wheel,
+    Wheels,
+    Hubs,
+}
+
+/// The language of names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Language {
+    #[default]
+    English,
+    Japanese,
+}
+
+impl Language {
+    /// The language of most names that mean something.
+    pub(crate) fn of<'a>(names: impl Iterator<Item = &'a str>) -> Self {
+        let known = names.filter(|name| !terms(name).is_empty());
+        let (latin, other): (Vec<&str>, Vec<&str>) = known.partition(|name| name.is_ascii());
+        if other.len() > latin.len() {
+            Self::Japanese
+        } else {
+            Self::English
+        }
+    }
+}
+
+impl Noun {
+    /// The word in English and in Japanese.
+    pub(crate) fn words(self) -> [&'static str; 2] {
+        match self {
+            Self::Head => ["Head", "頭"],
+            Self::Eye => ["Eye", "目"],
+            Self::Eyes => ["Eyes", "両目"],
+            Self::Ear => ["Ear", "耳"],
+            Self::Ears => ["Ears", "両耳"],
+            Self::Hair => ["Hair", "髪"],
+            Self::Hat => ["Hat", "帽子"],
+            Self::Neck => ["Neck", "首"],
+            Self::Body => ["Body", "体"],
+            Self::Hips => ["Hips", "腰"],
+            Self::Arm => ["Arm", "腕"],
+            Self::Arms => ["Arms", "両腕"],
+            Self::UpperArm => ["Upperarm", "上腕"],
+            Self::Forearm => ["Forearm", "前腕"],
+            Self::Hand => ["Hand", "手"],
+            Self::Leg => ["Leg", "脚"],
+            Self::Legs => ["Legs", "両脚"],
+            Self::FarLegs => ["Far legs", "奥の両脚"],
+            Self::NearLegs => ["Near legs", "手前の両脚"],
+            Self::Thigh => ["Thigh", "太もも"],
+            Self::Shin => ["Shin", "すね"],
+            Self::Foot => ["Foot", "足首"],
+            Self::Feet => ["Feet", "両足首"],
+            Self::Shoes => ["Shoes", "靴"],
+            Self::Tail => ["Tail", "尾"],
+            Self::Wheel => ["Wheel", "車輪"],
+            Self::Wheels => ["Wheels", "車輪"],
+            Self::Hubs => ["Hubs", "ハブ"],
+        }
+    }
+
+    /// The name of a part: `Larm`, `Rforeleg`, `右腕`. `left` says which side it is on, `fore` whether it is a fore or a hind one.
+    pub(crate) fn written(
+        self,
+        left: Option<bool>,
+        fore: Option<bool>,
+        language: Language,
+    ) -> String {
+        let [english, japanese] = self.words();
+        match language {
+            Language::Japanese => {
+                let side = match left {
+                    Some(true) => "左",
+                    Some(false) => "右",
+                    None => "",
+                };
+                let pair = match fore {
+                    Some(true) => "前",
+                    Some(false) => "後",
+                    None => "",
+                };
+                format!("{side}{pair}{japanese}")
+            }
+            Language::English => {
+                let pair = match fore {
+                    Some(true) => "fore",
+                    Some(false) => "hind",
+                    None => "",
+                };
+                // `Rear` would be a word of its own.
+                let is_feature = matches!(self, Self::Ear | Self::Eye);
+                match left {
+                    Some(left) if is_feature => {
+                        let side = if left { "Left" } else { "Right" };
+                        format!("{side} {}", english.to_lowercase())
+                    }
+                    Some(left) => {
+                        let side = if left { 'L' } else { 'R' };
+                        format!("{side}{pair}{}", english.to_lowercase())
+                    }
+                    None if !pair.is_empty() => format!("{}{pair}{}", "", english.to_lowercase()),
+                    None => english.to_owned(),
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::anatomy::{Role, Term, sides};
+
+    #[test]
+    fn names_are_read_as_what_they_were_written_for() {
+        let limbs = [
+            (Noun::Arm, Role::UpperArm),
+            (Noun::UpperArm, Role::UpperArm),
+            (Noun::Forearm, Role::LowerArm),
+            (Noun::Hand, Role::Hand),
+            (Noun::Leg, Role::Thigh),
+            (Noun::Thigh, Role::Thigh),
+            (Noun::Shin, Role::Shin),
+            (Noun::Foot, Role::Foot),
+            (Noun::Head, Role::Head),
+            (Noun::Body, Role::Body),
+            (Noun::Hips, Role::Hips),
+            (Noun::Neck, Role::Neck),
+            (Noun::Tail, Role::Tail),
+        ];
+        for language in [Language::English, Language::Japanese] {
+            for (noun, role) in limbs {
+                let name = noun.written(None, None, language);
+                assert_eq!(Role::of(&terms(&name)), Some(role), "{name}");
+            }
+            for (noun, role) in &limbs[..8] {
+                for left in [true, false] {
+                    let name = noun.written(Some(left), None, language);
+                    assert_eq!(Role::of(&terms(&name)), Some(*role), "{name}");
+                    assert_eq!(sides(&terms(&name)), [left, !left], "{name}");
+                }
+            }
+            let name = Noun::Leg.written(Some(true), Some(true), language);
+            assert!(terms(&name).contains(&Term::Fore), "{name}");
+            assert!(terms(&name).contains(&Term::Leg), "{name}");
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Finds animals that are drawn from the side, by their one eye.
+
+use super::shapes::{Shape, Shapes};
+use super::{Certainty, Guesses, bodies};
+use crate::anatomy::Noun;
+
+/// An eye is at most this share of what it lies on, and at least this many cells.
+const LARGEST_EYE: f64 = 0.05;
+const SMALLEST_EYE: f64 = 3.0;
+/// Eyes are darker than this.
+const DARK: f64 = 0.45;
+/// What lies on something larger by this share belongs to it.
+const ON: f64 = 0.85;
+/// An eye is within this share of the drawing's width from one of its ends, and this share of its height from the top.
+const END: f64 = 0.42;
+const HIGH: f64 = 0.6;
+/// What is drawn from the side and at least this share of its width high stands on two legs.
+const UPRIGHT: f64 = 1.2;
+/// Legs stand at most this share of the height above the ground, and reach up to at most this share of it.
+const LOW: f64 = 0.08;
+const REACH: f64 = 0.62;
+
+/// Names eye, head, body and legs of an animal in profile, whose eye lies on `host`.
+pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Guesses) {
+    let body = shapes
+        .iter()
+        .filter(|(index, _)| *index != eye || eye == host)
+        .max_by(|a, b| a.1.seen.total_cmp(&b.1.seen));
+    let Some((mut body, mut trunk)) = body else {
+        return;
+    };
+    // Wool or a saddle may be what is seen most of a body.
+    let below = shapes.iter().filter(|(index, other)| {
+        *index < body && other.cells > trunk.cells && trunk.on(other) >= ON
+    });
+    if let Some((index, other)) = below.max_by(|a, b| a.1.cells.total_cmp(&b.1.cells)) {
+        (body, trunk) = (index, other);
+    }
+    let is_single = shapes.get(eye).is_some_and(|eye| eye.islands.len() == 1);
+    if eye != host && is_single {
+        let why = "it is dark and round, and lies near one end";
+        guesses.add(eye, Noun::Eye, Certainty::Likely, why);
+    }
+    if host != body && is_above(shapes, host, trunk) {
+        guesses.add(host, Noun::Head, Certainty::Certain, "an eye lies on it");
+        bodies::find(shapes, Some(host), guesses);
+        return;
+    }
+    if host == body {
+        guesses.has_head = true;
+        let why = "it is the largest shape, and an eye lies on it";
+        guesses.add(body, Noun::Body, Certainty::Likely, why);
+    } else {
+        guesses.add(host, Noun::Head, Certainty::Certain, "an eye lies on it");
+        let why = "it is the largest shape beside a head";
+        guesses.add(body, Noun::Body, Certainty::Certain, why);
+    }
+    name_legs(shapes, trunk, guesses);
+}
+
+/// Whether a head is above the body of a figure that stands upright.
+fn is_above(shapes: &Shapes, head: usize, trunk: &Shape) -> bool {
+    let size = shapes.bounds.size();
+    let Some(head) = shapes.get(head) else {
+        return false;
+    };
+    let off = (head.middle().x - trunk.middle().x).abs();
+    size.y >= UPRIGHT * size.x && off <= 0.5 * trunk.size().x
+}
+
+/// The eye, and the shape on which it lies.
+pub(super) fn eye(shapes: &Shapes) -> Option<(usize, usize)> {
+    let mut best: Option<(f64, usize, usize)> = None;
+    for (index, shape) in shapes
+        .iter()
+        .filter(|(_, shape)| shape.brightness() <= DARK)
+    {
+        for spot in &shape.islands {
+            let size = spot.bounds.size();
+            let round = size.min_element() / size.max_element();
+            let cells = spot.cells as f64;
+            let place = (spot.bounds.middle() - shapes.bounds.low) / shapes.bounds.size();
+            let is_eye = cells >= SMALLEST_EYE
+                && round >= 0.5
+                && (place.x <= END || place.x >= 1.0 - END)
+                && place.y <= HIGH;
+            let holds = |(other, host): &(usize, &Shape)| {
+                *other < index
+                    && host.mask.covers(spot.bounds.middle())
+                    && cells <= LARGEST_EYE * host.cells
+                    && cells * 6.0 <= host.seen
+                    && host.distance_of_colors(shape) >= 40.0
+            };
+            let Some((host, _)) = shapes.iter().filter(holds).last().filter(|_| is_eye) else {
+                continue;
+            };
+            let fills = shape.mask.fullness(spot.bounds).min(0.8);
+            let score = round + fills - shape.brightness() - 0.5 * place.y;
+            if best.is_none_or(|(most, ..)| score > most) {
+                best = Some((score, index, host));
+            }
+        }
+    }
+    best.map(|(_, eye, host)| (eye, host))
+}
+
+/// Shapes of several legs each: they stand on the ground and end below the body's back.
+fn name_legs(shapes: &Shapes, trunk: &Shape, guesses: &mut Guesses) {
+    let ground = shapes.bounds.high.y;
+    let height = shapes.height();
+    for (index, shape) in shapes.iter() {
+        let stand = shape
+            .islands
+            .iter()
+            .filter(|leg| leg.bounds.high.y >= ground - LOW * height);
+        let count = stand.count();
+        let reaches = shape.bounds.high.y - shape.bounds.low.y;
+        if count < 2
+            || count < shape.islands.len()
+            || reaches > REACH * height
+            || shape.cells >= trunk.cells
+        {
+            continue;
+        }
+        let are_long = shape.islands.iter().all(|leg| {
+            let size = leg.bounds.size();
+            size.y >= 0.9 * size.x
+        });
+        if reaches <= LOW * height && count > 1 {
+            let why = "its pieces lie on the ground";
+            guesses.add(index, Noun::Feet, Certainty::Likely, why);
+            continue;
+        }
+        if !are_long {
+            continue;
+        }
+        let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
+        let is_behind = body.is_some_and(|body| index < body.shape);
+        let noun = if is_behind {
+            Noun::FarLegs
+        } else {
+            Noun::NearLegs
+        };
+        let why = "its pieces stand on the ground below the body";
+        guesses.add(index, noun, Certainty::Likely, why);
+    }
+}

@@ -1,0 +1,319 @@
+//! Names what is around a head that is drawn from the front: hair, ears, neck, trunk, and limbs of which two are one shape.
+
+use super::faces::Face;
+use super::mask::Box2;
+use super::shapes::{Shape, Shapes};
+use super::{Certainty, Guesses};
+use crate::anatomy::Noun;
+use crate::labels::Side;
+
+/// What lies on the head by this share is a feature of it.
+const ON: f64 = 0.75;
+/// Skin of one figure differs by at most this distance of colours.
+const SKIN: f64 = 110.0;
+/// Hair and hats differ from the skin by at least this.
+const OTHER: f64 = 45.0;
+
+/// A bust is at least this share of its width wide where it ends.
+pub(crate) const BUST: f64 = 0.6;
+/// Shoes are at most this share of the figure high.
+const SHOE: f64 = 0.16;
+/// A hand is at most this share of the head, and at least.
+const HANDS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
+/// Hands have the colour of the head, within this distance.
+const ALIKE: f64 = 40.0;
+
+/// A head with what is around it.
+struct Around<'a> {
+    shapes: &'a Shapes,
+    head: &'a Shape,
+    index: usize,
+    face: &'a Face,
+}
+
+/// Names a head, its eyes, and what belongs to them.
+pub(super) fn around(shapes: &Shapes, face: &Face, guesses: &mut Guesses) {
+    let Some(head) = shapes.get(face.head) else {
+        return;
+    };
+    let around = Around {
+        shapes,
+        head,
+        index: face.head,
+        face,
+    };
+    let why = "two dark spots of one size lie on it like eyes";
+    guesses.add(face.head, Noun::Head, Certainty::Certain, why);
+    around.eyes(guesses);
+    around.ears(guesses);
+    around.neck(guesses);
+    around.cover(guesses);
+    if around.body(guesses) {
+        around.limbs(guesses);
+        around.hands(guesses);
+    }
+}
+
+impl Around<'_> {
+    fn eyes(&self, guesses: &mut Guesses) {
+        let why = "they are two of one size at one height";
+        let apart = self
+            .face
+            .eyes
+            .iter()
+            .copied()
+            .filter(|eye| *eye != self.index);
+        let apart: Vec<usize> = apart.collect();
+        match apart.as_slice() {
+            [both] => guesses.add(*both, Noun::Eyes, Certainty::Likely, why),
+            [left, right] if left != right => {
+                // The figure's right is on the drawing's left.
+                let mut pair = [*left, *right];
+                let x = |eye: usize| self.shapes.get(eye).map_or(0.0, |shape| shape.middle().x);
+                pair.sort_by(|a, b| x(*a).total_cmp(&x(*b)));
+                for (eye, side) in pair.into_iter().zip([Side::Right, Side::Left]) {
+                    guesses.add_sided(eye, Noun::Eye, Some(side), Certainty::Likely, why);
+                }
+            }
+            _ => (),
+        }
+    }
+
+    /// Shapes that have no name yet, and are not on the face.
+    fn free<'b>(&'b self, guesses: &'b Guesses) -> impl Iterator<Item = (usize, &'b Shape)> {
+        self.shapes.iter().filter(|(index, shape)| {
+            let is_on_face = *index > self.index && shape.on(self.head) >= ON;
+            !guesses.has(*index) && !is_on_face && shape.name.is_empty()
+        })
+    }
+
+    /// Where a place is, from the head's middle, in halves of its size.
+    fn place(&self, bounds: Box2) -> glam::DVec2 {
+        (bounds.middle() - self.head.middle()) / (self.head.size() / 2.0)
+    }
+
+    fn ears(&self, guesses: &mut Guesses) {
+        let is_ear = |bounds: Box2| {
+            let place = self.place(bounds);
+            let size = bounds.size() / self.head.size();
+            (0.7..=1.35).contains(&place.x.abs())
+                && (-0.75..=0.75).contains(&place.y)
+                && (0.05..=0.4).contains(&size.x)
+                && (0.08..=0.6).contains(&size.y)
+        };
+        let why = "they are at both sides of the head, in its colour";
+        let mut single: Vec<(usize, Side)> = Vec::new();
+        let mut both = None;
+        for (index, shape) in self.free(guesses) {
+            if shape.distance_of_colors(self.head) > SKIN {
+                continue;
+            }
+            if let Some(twins) = shape.twins() {
+                let opposite = self.place(twins[0].bounds).x * self.place(twins[1].bounds).x < 0.0;
+                if opposite && twins.iter().all(|twin| is_ear(twin.bounds)) {
+                    both.get_or_insert(index);
+                }
+            } else if shape.islands.len() == 1 && is_ear(shape.bounds) {
+                let is_left = self.place(shape.bounds).x > 0.0;
+                single.push((index, if is_left { Side::Left } else { Side::Right }));
+            }
+        }
+        if let Some(both) = both {
+            guesses.add(both, Noun::Ears, Certainty::Certain, why);
+        } else if single.iter().any(|one| one.1 != single[0].1) {
+            for side in Side::BOTH {
+                if let Some((ear, _)) = single.iter().find(|one| one.1 == side) {
+                    guesses.add_sided(*ear, Noun::Ear, Some(side), Certainty::Likely, why);
+                }
+            }
+        }
+    }
+
+    fn neck(&self, guesses: &mut Guesses) {
+        let is_neck = |shape: &Shape| {
+            let size = shape.size() / self.head.size();
+            let off = (shape.middle().x - self.head.middle().x).abs() / self.head.size().x;
+            let bottom = self.head.bounds.high.y;
+            (0.12..=0.75).contains(&size.x)
+                && size.y <= 0.8
+                && off <= 0.2
+                && shape.bounds.low.y < bottom + 1.0
+                && shape.bounds.high.y > bottom + 1.0
+                && shape.middle().y > self.head.middle().y + 0.25 * self.head.size().y
+                && shape.distance_of_colors(self.head) <= SKIN
+                && shape.islands.len() == 1
+        };
+        let found = self.free(guesses).filter(|(_, shape)| is_neck(shape));
+        let found = found.max_by(|a, b| a.1.cells.total_cmp(&b.1.cells));
+        if let Some((neck, _)) = found {
+            let why = "it is below the head, narrower, and in its colour";
+            guesses.add(neck, Noun::Neck, Certainty::Certain, why);
+        }
+    }
+
+    /// Hair and hats.
+    fn cover(&self, guesses: &mut Guesses) {
+        let head = self.head;
+        let size = head.size();
+        let is_cover = |index: usize, shape: &Shape| {
+            let own = shape.size();
+            let off = (shape.middle().x - head.middle().x).abs();
+            let top = head.bounds.low.y;
+            let reaches_over = shape.bounds.low.y <= top + 0.12 * size.y;
+            let touches = shape.bounds.high.y >= top - 1.0;
+            let in_front = index > self.index;
+            let lower = if in_front { 0.6 } else { 2.2 };
+            reaches_over
+                && touches
+                && off <= 0.35 * size.x
+                && own.x >= 0.55 * size.x
+                && shape.bounds.high.y <= top + lower * size.y
+                && shape.distance_of_colors(head) >= OTHER
+                && shape.cells >= 0.03 * head.cells
+        };
+        let found: Vec<usize> = self
+            .free(guesses)
+            .filter(|(index, shape)| is_cover(*index, shape))
+            .map(|(index, _)| index)
+            .collect();
+        let shape = |index: usize| self.shapes.get(index);
+        let behind = found.iter().copied().find(|index| *index < self.index);
+        let front: Vec<usize> = found
+            .iter()
+            .copied()
+            .filter(|index| *index > self.index)
+            .collect();
+        // What has another colour than the hair behind, or stands out far, is a hat.
+        let is_hat = |index: &usize| {
+            let Some(cover) = shape(*index) else {
+                return false;
+            };
+            let rises = (head.bounds.low.y - cover.bounds.low.y) / size.y;
+            let hair = behind.and_then(shape);
+            let other = hair.is_some_and(|hair| cover.distance_of_colors(hair) > OTHER);
+            other || cover.size().x >= 1.35 * size.x && rises >= 0.15 || rises >= 0.45
+        };
+        let largest = |indices: &[usize]| {
+            let cells = |index: &usize| shape(*index).map_or(0.0, |shape| shape.cells);
+            indices
+                .iter()
+                .copied()
+                .max_by(|a, b| cells(a).total_cmp(&cells(b)))
+        };
+        let (hats, locks): (Vec<usize>, Vec<usize>) = front.iter().copied().partition(is_hat);
+        if let Some(hat) = largest(&hats) {
+            let why = "it is on top of the head, and no hair";
+            guesses.add(hat, Noun::Hat, Certainty::Likely, why);
+        }
+        let why = "it is around the top of the head";
+        if let Some(hair) = largest(&locks) {
+            guesses.add(hair, Noun::Hair, Certainty::Likely, why);
+        }
+        if let Some(hair) = behind {
+            guesses.add(hair, Noun::Hair, Certainty::Likely, why);
+        }
+    }
+
+    /// Names the trunk; says whether there is one.
+    fn body(&self, guesses: &mut Guesses) -> bool {
+        let head = self.head;
+        let worth = |shape: &Shape| {
+            let off = (shape.middle().x - head.middle().x).abs();
+            let below = shape.middle().y - head.middle().y;
+            let gap = (shape.bounds.low.y - head.bounds.high.y).max(0.0);
+            // What begins above the middle of the head is hair, or a cape.
+            let begins = shape.bounds.low.y > head.bounds.low.y + 0.35 * head.size().y;
+            let covers_middle = off <= 0.5 * shape.size().x;
+            let is_one = shape.islands.len() == 1;
+            (below > 0.3 * head.size().y && begins && covers_middle).then_some(
+                shape.seen * if is_one { 1.0 } else { 0.4 }
+                    / (1.0 + 20.0 * gap / self.shapes.height()),
+            )
+        };
+        let found = self
+            .free(guesses)
+            .filter_map(|(index, shape)| Some((worth(shape)?, index)));
+        let Some((_, body)) = found.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return false;
+        };
+        let why = "it is the largest shape below the head";
+        guesses.add(body, Noun::Body, Certainty::Certain, why);
+        true
+    }
+
+    /// Arms, legs and shoes of which two are one shape; what is single is found by the labels of motion.
+    fn limbs(&self, guesses: &mut Guesses) {
+        let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
+        let Some(body) = body.and_then(|guess| self.shapes.get(guess.shape)) else {
+            return;
+        };
+        let (ground, height) = (self.shapes.bounds.high.y, self.shapes.height());
+        let axis = self.head.middle().x;
+        let (mut found, mut arms) = (Vec::new(), Vec::new());
+        for (index, shape) in self.free(guesses) {
+            let Some([left, right]) = shape.twins() else {
+                continue;
+            };
+            let (a, b) = (left.bounds, right.bounds);
+            let mirrored = (a.middle().x + b.middle().x - 2.0 * axis).abs();
+            let is_pair =
+                mirrored <= 0.25 * body.size().x && a.middle().x < axis && b.middle().x > axis;
+            if !is_pair || a.low.y < self.head.middle().y {
+                continue;
+            }
+            let long = |one: Box2| one.size().y >= 0.9 * one.size().x;
+            let stands = a.high.y.max(b.high.y) >= ground - 0.06 * height;
+            let below = a.low.y.min(b.low.y) >= body.bounds.high.y - 0.15 * body.size().y;
+            let beside = (b.middle().x - a.middle().x) >= 0.5 * body.size().x;
+            let share = shape.cells / body.cells;
+            let is_low = shape.size().y <= SHOE * height;
+            if stands && below && !is_low && long(a) && long(b) {
+                let why = "they are two, and stand on the ground below the body";
+                found.push((index, Noun::Legs, Certainty::Likely, why));
+            } else if stands && below {
+                let why = "they are two, and lie on the ground";
+                found.push((index, Noun::Shoes, Certainty::Likely, why));
+            } else if beside && long(a) && long(b) && (0.08..=1.0).contains(&share) && !below {
+                let why = "they are two of one size, at both sides of the body";
+                let spread = b.middle().x - a.middle().x;
+                arms.push((spread * shape.cells, index, why));
+            }
+        }
+        // Sleeves, cuffs and collars are pairs, too.
+        if let Some((_, index, why)) = arms.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
+            found.push((index, Noun::Arms, Certainty::Likely, why));
+        }
+        for (index, noun, certainty, why) in found {
+            guesses.add(index, noun, certainty, why);
+        }
+    }
+
+    /// Of a bust, what has the colour of the head and lies apart from it.
+    fn hands(&self, guesses: &mut Guesses) {
+        let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
+        let body = body.and_then(|guess| self.shapes.get(guess.shape));
+        let ground = self.shapes.bounds.high.y - 0.05 * self.shapes.height();
+        if body.is_none_or(|body| body.bounds.high.y < ground || body.mask.foot() < BUST) {
+            return;
+        }
+        let middle = self.head.middle().x;
+        let is_hand = |shape: &Shape| {
+            shape.islands.len() == 1
+                && HANDS.contains(&(shape.cells / self.head.cells))
+                && shape.distance_of_colors(self.head) <= ALIKE
+                && shape.bounds.low.y > self.head.bounds.high.y - 0.2 * self.head.size().y
+                && (shape.middle().x - middle).abs() >= 0.4 * self.head.size().x
+        };
+        let hands = self.free(guesses).filter(|(_, shape)| is_hand(shape));
+        let hands: Vec<(usize, Side)> = hands
+            .map(|(index, shape)| {
+                let is_left = shape.middle().x > middle;
+                (index, if is_left { Side::Left } else { Side::Right })
+            })
+            .collect();
+        let why = "it has the colour of the head, and lies apart from it";
+        for (index, side) in hands {
+            guesses.add_sided(index, Noun::Hand, Some(side), Certainty::Uncertain, why);
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! Names for parts that nobody has named: examples without their strings get back what these said, and nothing that is there is lost.
+//!
+//! `OKOSHI_PRINT=1 cargo test --test annotate -- --nocapture` prints what differs. `tests/tools/annotate.mjs` scores figures by others.
+#![cfg(feature = "cli")]
+#![allow(
+    clippy::print_stderr,
+    reason = "the figures are for people who tune the rules"
+)]
+
+mod common;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use common::program::Room;
+use okoshi::FolderResolver;
+use okoshi::compile::{Compiled, Options, compile};
+use okoshi::diagnostic::Edit;
+use okoshi::internals::bind::PartKind;
+use okoshi::internals::ide::Analysis;
+use okoshi::internals::ide::changes::{Change, Step, check, edits};
+
+/// Figures of the examples whose strings name heads, bodies and limbs.
+const FIGURES: &[&str] = &[
+    "doll",
+    "human",
+    "motion/dog",
+    "motion/girl",
+    "motion/horse",
+    "motion/knight",
+    "motion/monkey",
+    "tutorial/5-face",
+];
+/// The least shares of names and of parents, in per cent.
+const NAMES: usize = 60;
+const PARENTS: usize = 60;
+
+fn example(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("examples/{name}.svg"));
+    fs::read_to_string(path).expect("an example")
+}
+
+fn compiled(text: &str) -> Compiled {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/motion");
+    compile(text, &Options::default(), &FolderResolver::new(folder))
+}
+
+/// The text without everything from `from` to `to`, as often as it is there.
+fn without(text: &str, from: &str, to: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(from) {
+        let after = start + from.len();
+        let Some(length) = rest[after..].find(to) else {
+            break;
+        };
+        out += &rest[..start];
+        rest = &rest[after + length + to.len()..];
+    }
+    out + rest
+}
+
+/// A drawing without its strings, labels and ids.
+fn bare(text: &str) -> String {
+    let mut text = without(&without(text, "<text", "</text>"), "<desc", "</desc>");
+    text = text.replace("inkscape:label=\"Layer 1\"", "");
+    text = without(&text, " inkscape:label=\"", "\"");
+    let ids: Vec<String> = text
+        .split(" id=\"")
+        .skip(1)
+        .filter_map(|rest| Some(rest.split_once('"')?.0.to_owned()))
+        .collect();
+    for id in ids {
+        if !text.contains(&format!("#{id}")) {
+            text = text.replace(&format!(" id=\"{id}\""), "");
+        }
+    }
+    text
+}
+
+/// The class of a part by its name, as far as it is compared.
+fn class(name: &str) -> Option<&'static str> {
+    let name = name.to_lowercase();
+    let has = |words: &[&str]| words.iter().any(|word| name.contains(word));
+    let classes: [(&str, &[&str]); 7] = [
+        (
+            "",
+            &[
+                "hair", "ear", "eye", "nose", "mouth", "sleeve", "cloak", "shield", "sword",
+            ],
+        ),
+        ("foot", &["foot", "feet", "shoe", "paw"]),
+        ("leg", &["leg", "thigh", "shin"]),
+        ("arm", &["arm", "hand"]),
+        ("head", &["head", "face"]),
+        ("tail", &["tail"]),
+        ("trunk", &["body", "dress", "hips"]),
+    ];
+    let found = classes.into_iter().find(|(_, words)| has(words))?.0;
+    (!found.is_empty()).then_some(found)
+}
+
+/// Per shape of a main part, by its number in the file, its name and the shape of what carries it.
+fn parts(compiled: &Compiled) -> BTreeMap<usize, (String, Option<usize>)> {
+    let parts = &compiled.bindings.parts;
+    let mains = parts.iter().filter(|part| part.kind == PartKind::Main);
+    mains
+        .map(|part| {
+            let parent = part
+                .parent
+                .map(|parent| compiled.drawing.shapes[parts[parent].shape].leaf);
+            let leaf = compiled.drawing.shapes[part.shape].leaf;
+            (leaf, (part.name.clone(), parent))
+        })
+        .collect()
+}
+
+fn annotated(text: &str) -> (String, Vec<Edit>) {
+    let before = Analysis::new(text, compiled(text));
+    let edits = edits(&before, &Change::NameParts).unwrap_or_else(|refusal| panic!("{refusal}"));
+    let step = Step::new(Change::NameParts, text, &edits);
+    let after = Analysis::new(step.after().clone(), compiled(step.after()));
+    check(&before, &after, &Change::NameParts).expect("nothing else changes");
+    assert_eq!(
+        step.undone(step.after()).map(|edits| edits.len()),
+        Some(edits.len())
+    );
+    (step.after().to_string(), edits)
+}
+
+#[test]
+fn figures_get_back_the_names_that_their_strings_gave() {
+    let (mut named, mut right, mut hung, mut hangs) = (0, 0, 0, 0);
+    for figure in FIGURES {
+        let original = example(figure);
+        let truth = parts(&compiled(&original));
+        let text = bare(&original);
+        let found = parts(&compiled(&annotated(&text).0));
+        for (shape, (name, parent)) in &truth {
+            let Some(expected) = class(name) else {
+                continue;
+            };
+            named += 1;
+            let got = found.get(shape);
+            let is_right = got.is_some_and(|(name, _)| class(name) == Some(expected));
+            right += usize::from(is_right);
+            hung += 1;
+            let hangs_so = got.is_some_and(|(_, got)| got == parent);
+            hangs += usize::from(hangs_so);
+            if std::env::var_os("OKOSHI_PRINT").is_some() && !(is_right && hangs_so) {
+                eprintln!("{figure}: {name} on {parent:?} is {got:?}");
+            }
+        }
+    }
+    eprintln!("{right} of {named} names, {hangs} of {hung} parents");
+    assert!(
+        right * 100 >= NAMES * named,
+        "{right} of {named} names are right"
+    );
+    assert!(
+        hangs * 100 >= PARENTS * hung,
+        "{hangs} of {hung} parents are right"
+    );
+}
+
+#[test]
+fn only_labels_are_added() {
+    let text = bare(&example("doll"));
+    let (after, edits) = annotated(&text);
+    assert!(edits.iter().all(|edit| edit.span.start == edit.span.end));
+    let mut back = after;
+    for edit in edits.iter().rev() {
+        let at = back.rfind(&edit.text).expect("the label");
+        back.replace_range(at..at + edit.text.len(), "");
+    }
+    assert_eq!(back, text);
+}
+
+const PEBBLES: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">
+  <rect x="10" y="10" width="20" height="30" fill="#a00"/>
+  <rect x="60" y="50" width="30" height="20" fill="#0a0"/>
+</svg>
+"##;
+
+#[test]
+fn a_drawing_without_a_figure_stays_as_it_is() {
+    let room = Room::with("pebbles.svg", PEBBLES);
+    let run = room.run(&["annotate", "pebbles.svg"]);
+    assert_eq!(run.status, 1, "{}", run.err);
+    assert!(
+        run.err.contains("stays as it is") && run.err.contains("name at least two parts"),
+        "{}",
+        run.err
+    );
+    assert_eq!(room.read("pebbles.svg"), PEBBLES.as_bytes());
+    assert_eq!(room.files(), ["pebbles.svg"]);
+}
+
+#[test]
+fn the_program_lists_the_names_and_loses_no_drawing() {
+    let text = bare(&example("doll"));
+    let room = Room::with("doll.svg", &text);
+    room.write("other.svg", PEBBLES);
+    let run = room.run(&["annotate", "doll.svg", "-o", "other.svg"]);
+    assert_eq!(run.status, 2, "a drawing would be lost: {}", run.err);
+    assert_eq!(room.read("other.svg"), PEBBLES.as_bytes());
+
+    let run = room.run(&["annotate", "doll.svg", "-o", "me.svg"]);
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.out.contains("Head@"), "{}", run.out);
+    assert_eq!(room.read("doll.svg"), text.as_bytes());
+
+    let run = room.run(&["annotate", "doll.svg", "--json"]);
+    let listed: serde_json::Value = serde_json::from_str(&run.out).expect("JSON");
+    let parts = listed["parts"].as_array().expect("parts");
+    let head = parts
+        .iter()
+        .find(|part| part["name"] == "Head")
+        .expect("a head");
+    assert!(head["certainty"].is_string() && head["why"].is_string() && head["line"].is_u64());
+    // Without -o the drawing itself gets the names.
+    assert_eq!(room.read("doll.svg"), room.read("me.svg"));
+}
