@@ -1,7 +1,9 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { AnimationClip, BoxGeometry, Group, InterpolateDiscrete, Mesh, NumberKeyframeTrack, Object3D, Vector3 } from "three";
+import { Exports } from "../src/exports";
 import { toBase64, toBuffer } from "../src/host/code";
+import type { Host } from "../src/host/host";
 import { figures, niceAbove } from "../src/panels/chart";
 import { cssColor, drivenBy } from "../src/panels/inspector";
 import { excerpt, sorted } from "../src/panels/findings";
@@ -17,6 +19,7 @@ import { neighbors } from "../src/viewport/onion-skin";
 import { pathOf } from "../src/viewport/path";
 import { describeFilming, describeTiming, PerformanceTimes, type Rows } from "../src/viewport/performance";
 import { directionOf } from "../src/viewport/view";
+import type { Viewer } from "../src/viewport/viewer";
 import { State } from "../src/state";
 
 test("unknown messages are dropped, and missing fields become empty", () => {
@@ -33,6 +36,39 @@ test("unknown messages are dropped, and missing fields become empty", () => {
 });
 
 const part = (name: string, parent: string | null, kind: Part["kind"] = "main"): Part => ({ name, parent, kind, element: `e-${name}`, namedBy: null, string: null, attributes: [], joint: null, depth: null, depthWhy: null, back: null, form: null, undo: { depth: null, back: null, form: null } });
+
+test("a moving picture is saved under the names of drawing and clip, and what goes wrong is said until another drawing is shown", async () => {
+  const state = new State();
+  const build = { revision: 1, model: "builds/7.glb" };
+  const drawings = [{ id: "a", name: "dog.svg", folder: "" }, { id: "b", name: "b.svg", folder: "" }];
+  for (const message of [{ type: "drawings", drawings }, { type: "build", drawing: "a", build }]) state.receive(read(message)!);
+  state.show("a");
+  const [run, walk] = ["run", "walk"].map((name) => new AnimationClip(name, 1, []));
+  const viewer = { playback: { player: { clip: walk, clips: [run, walk] } }, view: { angles: () => [30, 15] } } as unknown as Viewer;
+  const asked: unknown[] = [];
+  const saved: string[] = [];
+  let why = "";
+  const host = {
+    film: async (...request: unknown[]) => {
+      asked.push(request);
+      if (why !== "") throw new Error(why);
+      return new Blob();
+    },
+    save: async (name: string) => void saved.push(name),
+  } as unknown as Host;
+  const exports = new Exports(viewer, state, host);
+  const said: string[] = [];
+  exports.onWords(() => said.push(exports.words));
+  await Promise.all([exports.film(), exports.film()]);
+  assert.deepEqual(asked, [["builds/7.glb", 1, [30, 15]]], "one at a time");
+  assert.deepEqual(saved, ["dog-walk.gif"]);
+  assert.deepEqual(said, ["Making a moving picture of walk…", ""]);
+  why = "the clip lasts 90 seconds";
+  await exports.film();
+  assert.equal(exports.words, "There is no moving picture: the clip lasts 90 seconds");
+  state.show("b");
+  assert.equal(exports.words, "");
+});
 
 test("a build may refer to parts of the build before, and to no other", () => {
   const messages = new Messages();

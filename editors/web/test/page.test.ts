@@ -76,7 +76,7 @@ browse("a drawing without a build is reported, and appears with its first one", 
   host.built("human.svg", broken());
 }, async (page, host) => {
   await page.getByText("There is no model yet: the drawing has problems.").waitFor();
-  assert.equal(await page.getByRole("button", { name: "Download" }).isDisabled(), true);
+  assert.equal(await page.getByRole("button", { name: "Export" }).isDisabled(), true);
   host.built("human.svg", build(HUMAN));
   await shown(page, 2);
   await page.locator(".notes").waitFor({ state: "hidden" });
