@@ -27,6 +27,8 @@ export interface Host {
   model(address: string): Promise<ArrayBuffer>;
   /** The address of a thumbnail, for an `<img>`. */
   picture(address: string): Promise<string>;
+  /** Whether changes are saved at once; an editor makes them in its text, which a person saves. */
+  readonly saves: boolean;
   /** Asks for a change, or what can be changed, with the host's key; null where the page changes nothing. */
   readonly post: ((what: "changes" | "forms", key: string, request: unknown) => Promise<Answer>) | null;
   /** Asks for a model of what a change would make of the drawing; null if there is none to show. */
