@@ -150,6 +150,19 @@ impl Drawing {
                 parent: None,
             });
             all.push(Change::LeaveOut { part: part() });
+            for (clip, motion, limited) in [
+                (0, Some("-i dance 2.5 speed 0.5"), Some("3 7")),
+                (0, None, None),
+                (1, Some("wave"), None),
+            ] {
+                all.push(Change::Clip {
+                    part: part(),
+                    clip,
+                    motion: motion.map(str::to_owned),
+                    limited: limited.map(str::to_owned),
+                    place: if at % 2 == 0 { Place::Ask } else { Place::Own },
+                });
+            }
         }
         all
     }
@@ -216,6 +229,7 @@ fn kind(change: &Change) -> &'static str {
         Change::Hang { .. } => "hang",
         Change::LeaveOut { .. } => "leave out",
         Change::NameParts => "name-parts",
+        Change::Clip { .. } => "clip",
         Change::Variable { .. } => "variable",
     }
 }

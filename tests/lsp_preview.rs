@@ -139,6 +139,53 @@ fn panels_show_unsaved_texts() {
 }
 
 #[test]
+fn panels_get_forms_and_the_edits_of_changes() {
+    let mut editor = Editor::initialized(json!({
+        "capabilities": {},
+        "initializationOptions": {"preview": true},
+    }));
+    editor.opened(URI, DRAWING);
+    editor.ask("okoshi/preview/open", document());
+    assert_eq!(news(&mut editor, "editing")["key"], "");
+    let about = |rest: Value| {
+        let mut params = document();
+        let fields = params.as_object_mut().expect("fields");
+        fields.extend(rest.as_object().expect("fields").clone());
+        params
+    };
+    let form = editor.ask("okoshi/preview/form", about(json!({"part": "Rarm"})));
+    assert_eq!(form["form"]["parent"], "Ubody");
+    let set = |value: &str| {
+        let change =
+            json!({"change": "set", "part": "Ubody", "attribute": "Shape", "value": value});
+        about(json!({"change": change}))
+    };
+    let answer = editor.ask("okoshi/preview/change", set("default -5 9"));
+    let at = DRAWING.find("5<").expect("a depth");
+    assert_eq!(
+        answer,
+        json!({
+            "version": 1,
+            "edits": [{"range": {"start": position(DRAWING, at), "end": position(DRAWING, at + 1)}, "newText": "9"}],
+            "part": "Ubody",
+            "note": null,
+        })
+    );
+    // What is only tried has a model, and the text stays as it is.
+    let tried = editor.ask("okoshi/preview/try", set("default -5 9"));
+    let standard = base64::engine::general_purpose::STANDARD;
+    let bytes = standard.decode(tried["bytes"].as_str().expect("base64"));
+    assert!(common::nodes(&bytes.expect("base64")).is_ok());
+    let answer = editor.ask("okoshi/preview/change", set("nonsense"));
+    let why = answer["refused"]["why"].as_str().expect("a sentence");
+    assert!(why.contains("nonsense"), "{why}");
+    assert!(editor.ask("okoshi/preview/try", set("nonsense")).is_null());
+    let nobody = editor.ask("okoshi/preview/form", about(json!({"part": "Nobody"})));
+    assert_eq!(nobody["refused"]["why"], "there is no part `Nobody`");
+    assert!(editor.shut_down().success());
+}
+
+#[test]
 fn landscapes_are_listed_with_their_strings() {
     let mut editor = Editor::initialized(json!({
         "capabilities": {},

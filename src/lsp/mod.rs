@@ -15,6 +15,7 @@
 
 mod backend;
 mod capabilities;
+mod changes;
 mod convert;
 mod documents;
 mod edits;
@@ -131,6 +132,9 @@ fn service() -> Parts {
         .custom_method("okoshi/preview/close", Backend::preview_close)
         .custom_method("okoshi/preview/model", Backend::preview_model)
         .custom_method("okoshi/preview/place", Backend::preview_place)
+        .custom_method("okoshi/preview/form", Backend::preview_form)
+        .custom_method("okoshi/preview/change", Backend::preview_change)
+        .custom_method("okoshi/preview/try", Backend::preview_try)
         .custom_method("okoshi/preview/cursor", Backend::preview_cursor);
     #[cfg(test)]
     let builder = tests::plant(builder);

@@ -21,7 +21,7 @@ use crate::compile::Compiled;
 use crate::crash;
 use crate::export::{self, GLB};
 use crate::memo::Memo;
-use crate::preview::{Builds, Hub, Picked, Shown, bind, serve};
+use crate::preview::{Builds, Hub, Picked, Shown, bind, editing_in_client, serve};
 use crate::source::Span;
 use crate::watch::BuildTimes;
 
@@ -229,8 +229,12 @@ impl Previews {
             sent.retain(|uri, _| open.contains(uri));
             for uri in open.iter().filter(|uri| self.hub.shows(uri)) {
                 let since = sent.entry(uri.clone()).or_default();
-                let (messages, now) = self.hub.updates(*since, Some(uri), Builds::Whole);
+                let is_first = *since == 0;
+                let (mut messages, now) = self.hub.updates(*since, Some(uri), Builds::Whole);
                 *since = now;
+                if is_first {
+                    messages.insert(0, editing_in_client());
+                }
                 let Ok(uri) = uri.parse() else { continue };
                 let messages = messages.iter();
                 let raw = messages.map(|message| RawValue::from_string(message.to_string()));

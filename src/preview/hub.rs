@@ -530,3 +530,8 @@ fn changed<'a>(before: &[Box<RawValue>], after: &'a [Box<RawValue>]) -> Vec<Part
 pub(super) fn json(message: &ToPage<'_>) -> Arc<str> {
     serde_json::to_string(message).unwrap_or_default().into()
 }
+
+/// Tells a page that changes go by an editor, which needs no key.
+pub(crate) fn editing_in_client() -> Arc<str> {
+    json(&ToPage::Editing { key: "" })
+}

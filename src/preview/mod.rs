@@ -26,6 +26,6 @@ mod starters;
 mod texts;
 
 pub(crate) use changes::Editing;
-pub(crate) use hub::{Builds, Hub, Picked, Shown};
+pub(crate) use hub::{Builds, Hub, Picked, Shown, editing_in_client};
 pub(crate) use server::{bind, serve};
 pub(crate) use starters::{Starter, Starters};

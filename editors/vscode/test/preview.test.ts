@@ -14,6 +14,7 @@ const textDocument = { uri: DRAWING };
 const arm: Place = { uri: DRAWING, range: { start: { line: 3, character: 8 }, end: { line: 3, character: 20 } } };
 const drawings: Message = { type: "drawings", drawings: [{ id: DRAWING, name: "figure.svg", folder: "" }] };
 const build = (revision: number): Message => ({ type: "build", drawing: DRAWING, build: { revision, model: `builds/${revision}.glb`, originals: `builds/${revision}.originals.glb`, clips: [{ name: "kick" }] } });
+const edit = { range: arm.range, newText: "9" };
 const light = (part: string | null): Message => ({ type: "light", drawing: DRAWING, part });
 
 /** A server with one drawing with one part, Arm, the models 1 and 2, and the full clips of both. It records what it receives. */
@@ -22,6 +23,7 @@ function fakeServer(t: TestContext, knowsPreviews = true) {
   const server = createMessageConnection(new StreamMessageReader(there), new StreamMessageWriter(back));
   const client = createMessageConnection(new StreamMessageReader(back), new StreamMessageWriter(there));
   const told: unknown[] = [];
+  const versions: number[] = [];
   if (knowsPreviews) {
     server.onRequest("okoshi/preview/open", (params: unknown) => {
       told.push({ open: params });
@@ -31,6 +33,12 @@ function fakeServer(t: TestContext, knowsPreviews = true) {
       const found = /^builds\/([12](?:\.originals)?)\.glb$/.exec(address);
       return found ? { bytes: Buffer.from(`glTF ${found[1]}`).toString("base64") } : null;
     });
+    server.onRequest("okoshi/preview/form", ({ part }: { part: string }): unknown => (part === "Arm" ? { form: { part } } : { refused: { why: `there is no part ${part}`, choices: [] } }));
+    server.onRequest("okoshi/preview/change", ({ change }: { change: { value?: string } }): unknown => {
+      told.push({ change });
+      return change.value === "wrong" ? { refused: { why: "no", choices: [] } } : { version: versions.shift() ?? 7, edits: change.value === "same" ? [] : [edit], part: "Arm", note: null };
+    });
+    server.onRequest("okoshi/preview/try", ({ change }: { change: { value?: string } }): unknown => (change.value === "wrong" ? null : { bytes: Buffer.from("glTF tried").toString("base64") }));
     server.onRequest("okoshi/preview/place", ({ part }: { part: string }) => (part === "Arm" ? arm : null));
     server.onNotification("okoshi/preview/cursor", (params: unknown) => void told.push({ cursor: params }));
     server.onNotification("okoshi/preview/close", (params: unknown) => void told.push({ close: params }));
@@ -47,7 +55,7 @@ function fakeServer(t: TestContext, knowsPreviews = true) {
     await server.sendNotification(PREVIEW_NOTIFICATION, { textDocument, messages });
     await client.sendRequest("okoshi/preview/model", { address: "" });
   };
-  return { server, client, told, end, sends };
+  return { server, client, told, versions, end, sends };
 }
 
 /** A preview of the drawing with a simulated page and text. */
@@ -62,6 +70,11 @@ function preview() {
     show: async (place) => void done.push({ show: place }),
     goTo: async (line, column) => void done.push({ goTo: [line, column] }),
     save: async (name, bytes) => void done.push({ save: [name, Buffer.from(bytes).toString()] }),
+    edit: async (version, edits) => {
+      done.push({ edit: [version, edits] });
+      return version === 7;
+    },
+    step: async (back) => void done.push({ step: back }),
     log: (message) => void logged.push(message),
   });
   const connect = async (client: MessageConnection) => {
@@ -103,6 +116,54 @@ test("the page gets the server's messages unchanged, once it is ready", async (t
   // A page that is moved to its own window reloads.
   await session.receive({ type: "ready" });
   assert.deepEqual(fresh().filter(({ type }) => type === "build" || type === "light"), [build(2), light(null)]);
+});
+
+test("changes are made in the text, which undoes them", async (t) => {
+  const { client, told, versions } = fakeServer(t);
+  const { session, fresh, connect, done } = preview();
+  await session.receive({ type: "ready" });
+  await connect(client);
+  fresh();
+  const ask = async (id: number, what: string, request: unknown): Promise<Message[]> => {
+    await session.receive({ type: "ask", id, what, request });
+    return fresh();
+  };
+  const answer = (id: number, ok: boolean, body: unknown): Message => ({ type: "answer", id, ok, body });
+  assert.deepEqual(await ask(1, "forms", { drawing: DRAWING, part: "Arm" }), [answer(1, true, { part: "Arm" })]);
+  assert.deepEqual(await ask(2, "forms", { drawing: DRAWING, part: "Leg" }), [answer(2, false, { why: "there is no part Leg", choices: [] })]);
+  const change = (value: string) => ({ change: "set", part: "Arm", attribute: "Offset", value });
+  const steps: Message = { type: "steps", drawing: DRAWING, undo: "the last step in the text", redo: "the last step in the text" };
+  const made = { part: "Arm", note: null };
+  assert.deepEqual(await ask(3, "changes", { do: { make: change("9") } }), [steps, answer(3, true, made)]);
+  assert.deepEqual(told.at(-1), { change: change("9") });
+  assert.deepEqual(done.splice(0), [{ edit: [7, [edit]] }]);
+  // The edits of another version of the text are not made; they are asked for again.
+  versions.push(6);
+  assert.deepEqual(await ask(4, "changes", { do: { make: change("9") } }), [steps, answer(4, true, made)]);
+  assert.deepEqual(done.splice(0), [{ edit: [6, [edit]] }, { edit: [7, [edit]] }]);
+  versions.push(4, 5, 6);
+  const [late, ...more] = await ask(5, "changes", { do: { make: change("9") } });
+  assert.deepEqual([late?.["ok"], more], [false, []]);
+  done.splice(0);
+  assert.deepEqual(await ask(6, "changes", { do: { make: change("same") } }), [answer(6, true, made)]);
+  assert.deepEqual(await ask(7, "changes", { do: { make: change("wrong") } }), [answer(7, false, { why: "no", choices: [] })]);
+  assert.deepEqual(done, []);
+  await ask(8, "changes", { do: "undo" });
+  await ask(9, "changes", { do: "redo" });
+  assert.deepEqual(done, [{ step: true }, { step: false }]);
+  const [tried] = await ask(10, "tries", { change: change("9") });
+  assert.equal(Buffer.from(tried?.["body"] as Uint8Array).toString(), "glTF tried");
+  assert.deepEqual(await ask(11, "tries", { change: change("wrong") }), [answer(11, false, null)]);
+  // What is no question is not answered.
+  for (const [what, request] of [["forms", {}], ["changes", { do: "everything" }], ["nothing", { part: "Arm" }]] as const) assert.deepEqual(await ask(12, what, request), []);
+});
+
+test("without a server a change is refused with a sentence", async () => {
+  const { session, fresh } = preview();
+  await session.receive({ type: "ready" });
+  fresh();
+  await session.receive({ type: "ask", id: 1, what: "forms", request: { part: "Arm" } });
+  assert.deepEqual(fresh(), [{ type: "answer", id: 1, ok: false, body: { why: "okoshi is not running", choices: [] } }]);
 });
 
 test("models are copied to the page, and missing ones are reported", async (t) => {

@@ -8,6 +8,7 @@ import { h } from "./dom";
 import { EditBar } from "./editing/bar";
 import { Editing } from "./editing/editing";
 import { FormPanel } from "./editing/form";
+import { Handles } from "./editing/handles";
 import { HangingByDrag } from "./editing/hanging";
 import { Exports } from "./exports";
 import { findHost } from "./host/host";
@@ -20,6 +21,7 @@ import { Gallery } from "./panels/gallery";
 import { Help } from "./panels/help";
 import { Inspector } from "./panels/inspector";
 import { Layers } from "./panels/layers";
+import { PartMenu } from "./panels/part-menu";
 import { Notes } from "./panels/notes";
 import { PoseBar } from "./panels/posebar";
 import { Side } from "./panels/side";
@@ -85,13 +87,21 @@ function start(page: HTMLElement): void {
   const byDoubleClick = (): void => {
     if (editing.isOn) editing.rename();
   };
+  const toField = (attribute: string): void => {
+    side.showPart();
+    form.goTo(attribute);
+  };
+  const partMenu = new PartMenu(state, viewer, commands, editing, { rename: () => editing.rename(), hang: () => form.askParent(), field: toField }, tree.element);
   viewer.canvas.addEventListener("dblclick", byDoubleClick);
   tree.element.addEventListener("dblclick", byDoubleClick);
-  place.append(new EditBar(editing, state, viewer).element);
+  const handles = new Handles(viewer, editing, state);
+  form.shown = (form) => handles.show(form);
+  place.append(handles.element, new EditBar(editing, state, viewer).element);
   place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer, exports).element, findings.element, side.opener);
   const gallery = new Gallery(state, host);
   const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands, exports).element, place, new BendBar(viewer, commands).element, clips.panel, side.element);
   page.append(new Bar(state, viewer).element, studio, gallery.element, help.element);
+  studio.append(partMenu.element);
 
   const shows = (): boolean => state.current !== null;
   let before: string | null = null;

@@ -52,6 +52,11 @@ pub fn check(
             return Err(Refusal::new(format!("{what} of {name} would change, too")));
         }
     }
+    if let Change::Clip { motion, .. } = change
+        && !after.has_all_other_clips(before, motion.is_some())
+    {
+        return Err(Refusal::new("another clip would change, too"));
+    }
     Ok(match moved.as_slice() {
         [] => None,
         [one] => Some(format!(
@@ -208,6 +213,7 @@ fn changed_keyword(before: &Analysis, old: &Part, change: &Change) -> Option<Key
 fn depends(keyword: Keyword, change: &Change) -> bool {
     match change {
         Change::Variable { .. } => true,
+        Change::Clip { .. } => keyword == Keyword::Motion,
         Change::Set {
             attribute: Keyword::Shape,
             place: Place::Own,

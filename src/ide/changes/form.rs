@@ -2,8 +2,10 @@
 
 use serde::Serialize;
 
+use super::clips::MotionForm;
+use super::place::PlaceForm;
 use super::{Analysis, Refusal, can_set};
-use crate::bind::{PartId, PartKind, plate_depth};
+use crate::bind::{PartId, PartKind, StringId, plate_depth};
 use crate::lang::ast::{Argument, ArgumentKind, Attribute};
 use crate::lang::keyword::kinds::{self, KINDS};
 use crate::lang::keyword::signature::{Bounds, Form, Parameter, Restriction, Takes, Usual};
@@ -26,6 +28,10 @@ pub struct PartForm {
     pub parents: Vec<String>,
     /// Its attributes, in the order of the reference.
     pub fields: Vec<Field>,
+    /// The clips of its figure; `None` if it is in none.
+    pub motion: Option<MotionForm>,
+    /// Where it is in the model; `None` if it has no node there.
+    pub place: Option<PlaceForm>,
 }
 
 /// An attribute that can be set.
@@ -160,6 +166,8 @@ impl Analysis {
                 PartKind::Main | PartKind::Sub | PartKind::Legend => self.fields(index),
                 _ => vec![],
             },
+            motion: self.motion_form(index),
+            place: self.place_form(index),
         })
     }
 
@@ -168,9 +176,12 @@ impl Analysis {
         let resolved = bindings.resolved(self.drawing(), index);
         let keywords = Keyword::built().filter(|keyword| can_set(*keyword));
         let field = |keyword: Keyword| {
-            let row = keyword.row();
             let found = resolved.iter().find(|one| one.keyword == keyword);
-            let string = found.and_then(|one| one.string);
+            let said = found.map(|one| Said {
+                value: one.value.clone(),
+                from: one.from.name(),
+                string: one.string,
+            });
             let is_legend = found.is_some_and(|one| one.from == crate::bind::SetBy::Legend);
             let legend = bindings.parts[index].legend.filter(|_| is_legend);
             let alike = bindings.parts.iter_enumerated().filter(|(other, part)| {
@@ -179,52 +190,52 @@ impl Analysis {
                     && *other != index
                     && matches!(part.kind, PartKind::Main | PartKind::Sub)
             });
-            let attribute = found.and_then(|one| read(keyword, &one.value));
-            let has = |letter: char| {
-                let flags = attribute.iter().flat_map(|(attribute, _)| &attribute.flags);
-                flags
-                    .into_iter()
-                    .any(|(flag, _)| flag.eq_ignore_ascii_case(&letter))
-            };
-            let flags = row.flags.iter().map(|flag| Switch {
-                letter: flag.letter,
-                summary: flag.summary,
-                on: has(flag.letter),
-            });
-            let mut variants = variants(row);
-            let written: Vec<&str> = attribute
-                .iter()
-                .flat_map(|(one, text)| words(one, text))
-                .collect();
-            let chosen = attribute
-                .as_ref()
-                .and_then(|(one, _)| chosen(&variants, &one.arguments));
-            let fields = variants.iter_mut().enumerate().map(|(at, variant)| {
-                let is_chosen = chosen == Some(at);
-                let skipped = usize::from(variant.word.is_some());
-                self.filled(index, keyword, variant, |argument| {
-                    let value = written.get(skipped + argument).filter(|_| is_chosen);
-                    value.map(|value| (*value).to_owned())
-                })
-            });
+            let shared = alike.map(|(other, _)| bindings.describe(self.drawing(), other));
+            let shared = shared.collect();
             Field {
-                attribute: keyword.name(),
-                summary: row.summary,
-                manual: row.long,
-                value: found.map(|one| one.value.clone()),
-                from: found.map_or("builtin", |one| one.from.name()),
-                string: string
-                    .map(|string| bindings.strings[string].text.as_str().trim().to_owned()),
-                shared: alike
-                    .map(|(other, _)| bindings.describe(self.drawing(), other))
-                    .collect(),
-                default: row.default,
-                flags: flags.collect(),
-                variants: fields.collect(),
-                chosen,
+                shared,
+                ..self.field(index, keyword, said)
             }
         };
         keywords.map(field).collect()
+    }
+
+    /// An attribute of a part, or of the clips of its figure, with the value that is said.
+    pub(super) fn field(&self, index: PartId, keyword: Keyword, said: Option<Said>) -> Field {
+        let row = keyword.row();
+        let attribute = said.as_ref().and_then(|said| read(keyword, &said.value));
+        let mut variants = variants(row);
+        let written: Vec<&str> = attribute
+            .iter()
+            .flat_map(|(one, text)| words(one, text))
+            .collect();
+        let chosen = attribute
+            .as_ref()
+            .and_then(|(one, _)| chosen(&variants, &one.arguments));
+        let fields = variants.iter_mut().enumerate().map(|(at, variant)| {
+            let is_chosen = chosen == Some(at);
+            let skipped = usize::from(variant.word.is_some());
+            self.filled(index, keyword, variant, |argument| {
+                let value = written.get(skipped + argument).filter(|_| is_chosen);
+                value.map(|value| (*value).to_owned())
+            })
+        });
+        let variants = fields.collect();
+        let string = said.as_ref().and_then(|said| said.string);
+        let string = string.map(|string| &self.bindings().strings[string].text);
+        Field {
+            attribute: keyword.name(),
+            summary: row.summary,
+            manual: row.long,
+            from: said.as_ref().map_or("builtin", |said| said.from),
+            value: said.map(|said| said.value),
+            string: string.map(|text| text.as_str().trim().to_owned()),
+            shared: vec![],
+            default: row.default,
+            flags: switches(row, attribute.as_ref().map(|(attribute, _)| attribute)),
+            variants,
+            chosen,
+        }
     }
 
     /// The arguments of a variant with their values and bounds.
@@ -302,7 +313,7 @@ impl Analysis {
     }
 
     /// A number's bounds, and those of a slider in which the present value is, too.
-    fn slider(
+    pub(super) fn slider(
         &self,
         index: PartId,
         bounds: Bounds,
@@ -344,6 +355,32 @@ impl Analysis {
             start,
         }
     }
+}
+
+/// What is said of an attribute.
+pub(super) struct Said {
+    /// Its flags and arguments, variables resolved.
+    pub value: String,
+    /// As [`Field::from`].
+    pub from: &'static str,
+    /// The string that says it.
+    pub string: Option<StringId>,
+}
+
+/// The flags of a keyword, as an attribute has them.
+pub(super) fn switches(row: &'static Row, attribute: Option<&Attribute>) -> Vec<Switch> {
+    let has = |letter: char| {
+        let flags = attribute.iter().flat_map(|attribute| &attribute.flags);
+        flags
+            .into_iter()
+            .any(|(flag, _)| flag.eq_ignore_ascii_case(&letter))
+    };
+    let flags = row.flags.iter().map(|flag| Switch {
+        letter: flag.letter,
+        summary: flag.summary,
+        on: has(flag.letter),
+    });
+    flags.collect()
 }
 
 /// An argument list of the table.

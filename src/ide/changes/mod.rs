@@ -5,9 +5,11 @@
 //! after: a change must do what it says, and nothing else.
 
 mod check;
+mod clips;
 mod form;
 mod given;
 mod history;
+mod place;
 mod same;
 mod settings;
 mod strings;
@@ -78,6 +80,21 @@ pub enum Change {
     },
     /// Every part that nobody has named gets a name, as far as shapes tell what they are.
     NameParts,
+    /// A clip of a figure becomes another one, is added, or is taken away.
+    Clip {
+        /// A part of the figure.
+        part: String,
+        /// Its number among the figure's clips, in the order of the strings; the next number is that of a new one.
+        clip: usize,
+        /// The flags and arguments of its `Motion`; `None` takes it away, with all that is said of it.
+        motion: Option<String>,
+        /// The arguments of its own `Limited`, if it has one.
+        #[serde(default)]
+        limited: Option<String>,
+        /// [`Place::Own`] also changes it for the other figures that play it.
+        #[serde(default)]
+        place: Place,
+    },
     /// A variable of the drawing gets a number.
     Variable {
         /// Its name.
@@ -127,7 +144,8 @@ impl Change {
             | Self::Reset { part, .. }
             | Self::Name { part, .. }
             | Self::Hang { part, .. }
-            | Self::LeaveOut { part } => Some(part),
+            | Self::LeaveOut { part }
+            | Self::Clip { part, .. } => Some(part),
             Self::NameParts | Self::Variable { .. } => None,
         }
     }
@@ -153,6 +171,11 @@ impl Change {
             Self::Hang { part, .. } => format!("the parent of {part}"),
             Self::LeaveOut { part } => format!("leaving out {part}"),
             Self::NameParts => "the names of the parts".to_owned(),
+            Self::Clip { motion: None, .. } => "taking a clip away".to_owned(),
+            Self::Clip {
+                motion: Some(motion),
+                ..
+            } => format!("Motion {motion}").trim_end().to_owned(),
             Self::Variable { name, .. } => format!("the number {name}"),
         }
     }
@@ -200,6 +223,16 @@ pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal>
         Change::Hang { part, parent } => analysis.hang(part, parent.as_deref())?,
         Change::LeaveOut { part } => analysis.leave_out(part)?,
         Change::NameParts => analysis.named_parts()?.0,
+        Change::Clip {
+            part,
+            clip,
+            motion,
+            limited,
+            place,
+        } => {
+            let wanted = motion.as_deref().map(|motion| (motion, limited.as_deref()));
+            analysis.set_clip(part, *clip, wanted, *place)?
+        }
         Change::Variable { name, value } => analysis.set_variable(name, *value)?,
     };
     edits.sort_by_key(|edit| edit.span);

@@ -55,6 +55,10 @@ impl Analysis {
                     None => format!("`{part}` hangs on nothing now"),
                 })
             }
+            Change::Clip { .. } => {
+                let [old, new] = [shown.clips_said(old), self.clips_said(new)];
+                (old != new).then(|| format!("`{part}` has other clips now"))
+            }
             _ => None,
         };
         match differs {

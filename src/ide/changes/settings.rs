@@ -12,9 +12,9 @@ use crate::lang::{Container, Variables, parse, settings, solved};
 use crate::source::Text;
 
 /// An attribute as it is to be.
-struct Wanted {
+pub(super) struct Wanted {
     /// Its flags and arguments.
-    words: String,
+    pub words: String,
     /// The same as they are compared: with spaces in order, variables replaced.
     value: String,
     /// Its syntax tree; ranges are those of `$Keyword words`.
@@ -139,31 +139,12 @@ impl Analysis {
                 },
             ));
         }
-        let mut pieces: Vec<Piece> = vec![];
-        for (at, attribute) in attributes.iter().enumerate() {
-            if attribute.keyword != keyword {
-                continue;
-            }
-            let is_only = attributes.iter().all(|one| one.keyword == keyword);
-            let (start, end) = match (at.checked_sub(1), attributes.get(at + 1)) {
-                (Some(before), _) => (attributes[before].range.end, attribute.range.end),
-                (None, Some(next)) => (attribute.range.start, next.keyword_range.start),
-                (None, None) => (attribute.range.start, attribute.range.end),
-            };
-            let start = match &string.annotation {
-                Annotation::Part(part) if is_only && at == 0 => {
-                    let head = part.parent.as_ref().or(part.name.as_ref());
-                    head.map_or(start, |head| head.range.end)
-                }
-                _ => start,
-            };
-            pieces.push((start..end, String::new()));
-        }
-        self.rewritten(index, &joined(pieces), Means::Attribute(keyword))
+        let pieces = without(&string.annotation, |at| attributes[at].keyword == keyword);
+        self.rewritten(index, &pieces, Means::Attribute(keyword))
     }
 
     /// Reads the value that an attribute is to have.
-    fn wanted(&self, keyword: Keyword, value: &str) -> Result<Wanted, Refusal> {
+    pub(super) fn wanted(&self, keyword: Keyword, value: &str) -> Result<Wanted, Refusal> {
         writable(value)?;
         let words = value.split_whitespace().collect::<Vec<_>>().join(" ");
         let string = format!("${} {words}", keyword.name());
@@ -215,7 +196,7 @@ impl Analysis {
     }
 
     /// The pieces of an attribute that differ from what is wanted.
-    fn changed(
+    pub(super) fn changed(
         &self,
         text: &str,
         attribute: &Attribute,
@@ -320,7 +301,12 @@ impl Analysis {
     }
 
     /// Where a new attribute goes in a string, and how.
-    fn appended(&self, index: StringId, keyword: Keyword, words: &str) -> Result<Piece, Refusal> {
+    pub(super) fn appended(
+        &self,
+        index: StringId,
+        keyword: Keyword,
+        words: &str,
+    ) -> Result<Piece, Refusal> {
         let string = &self.bindings().strings[index];
         let text = string.text.as_str();
         let end = text.trim_end().len();
@@ -403,8 +389,37 @@ fn first_look() -> Refusal {
     )
 }
 
+/// The pieces of a string that take attributes away, each given by its number.
+pub(super) fn without(annotation: &Annotation, goes: impl Fn(usize) -> bool) -> Vec<Piece> {
+    let attributes = annotation.attributes();
+    let first = (0..attributes.len()).find(|at| !goes(*at));
+    let mut pieces: Vec<Piece> = vec![];
+    for (at, attribute) in attributes.iter().enumerate() {
+        if !goes(at) {
+            continue;
+        }
+        let (start, end) = match (at.checked_sub(1), first) {
+            (_, Some(first)) if at < first => (
+                attribute.range.start,
+                attributes[at + 1].keyword_range.start,
+            ),
+            (Some(before), _) => (attributes[before].range.end, attribute.range.end),
+            (None, _) => (attribute.range.start, attribute.range.end),
+        };
+        let start = match annotation {
+            Annotation::Part(part) if first.is_none() && at == 0 => {
+                let head = part.parent.as_ref().or(part.name.as_ref());
+                head.map_or(start, |head| head.range.end)
+            }
+            _ => start,
+        };
+        pieces.push((start..end, String::new()));
+    }
+    joined(pieces)
+}
+
 /// Pieces that touch each other as one.
-fn joined(pieces: Vec<Piece>) -> Vec<Piece> {
+pub(super) fn joined(pieces: Vec<Piece>) -> Vec<Piece> {
     let mut out: Vec<Piece> = vec![];
     for (range, text) in pieces {
         match out.last_mut() {

@@ -18,6 +18,8 @@ pub(super) type Piece = (Range<usize>, String);
 pub(super) enum Means {
     /// One attribute.
     Attribute(Keyword),
+    /// The clips.
+    Clips,
     /// The parent.
     Parent,
     /// All of it.
@@ -92,13 +94,14 @@ impl Analysis {
             return Err(Refusal::new(found.message.clone()));
         }
         let others = |annotation: &Annotation, settings: &[crate::lang::value::Setting]| {
-            let attribute = match means {
-                Means::Attribute(keyword) => Some(keyword),
-                Means::Parent | Means::Everything => None,
+            let is_meant = |keyword: Keyword| match means {
+                Means::Attribute(attribute) => keyword == attribute,
+                Means::Clips => keyword == Keyword::Motion,
+                Means::Parent | Means::Everything => false,
             };
             let kept: Vec<_> = settings
                 .iter()
-                .filter(|setting| Some(setting.keyword) != attribute)
+                .filter(|setting| !is_meant(setting.keyword))
                 .map(|setting| (setting.keyword, setting.text.clone()))
                 .collect();
             let head = match annotation {

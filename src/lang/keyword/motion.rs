@@ -20,11 +20,12 @@ static OWN_CLIP: [Parameter; 2] = [
 ];
 const SECONDS: Parameter = number(
     "seconds",
-    Bounds::POSITIVE,
+    Bounds::POSITIVE.usually(Usual::Between(0.5, 10.)),
     "how long it plays: as many whole cycles as come nearest to it; of a file that is no loop, so much of its beginning",
 );
 /// A motion is played at most so much faster, or slower.
-pub(crate) const SPEED: Bounds = Bounds::new(0.01, 100.0, Restriction::None);
+pub(crate) const SPEED: Bounds =
+    Bounds::new(0.01, 100.0, Restriction::None).usually(Usual::Between(0.25, 4.));
 const SPEED_WORD: Parameter = choice("speed", &vocabulary::SPEED, "how fast it plays");
 const FACTOR: Parameter = number("factor", SPEED, "2 is twice as fast, .5 half as fast");
 static OF_FILES: [Parameter; 7] = [
@@ -43,8 +44,16 @@ static OF_FILES: [Parameter; 7] = [
 static OF_OWN_CLIPS: [Parameter; 3] = [SECONDS, SPEED_WORD, FACTOR];
 static OF_FITTING_CLIPS: [Parameter; 4] = [SECONDS, SPEED_WORD, FACTOR, NAME];
 static FRAMES: [Parameter; 2] = [
-    number("omit", Bounds::COUNT, "drawings to leave out"),
-    number("hold", Bounds::COUNT, "frames to hold"),
+    number(
+        "omit",
+        Bounds::COUNT.usually(Usual::Between(0., 24.)),
+        "drawings to leave out",
+    ),
+    number(
+        "hold",
+        Bounds::COUNT.usually(Usual::Between(0., 60.)),
+        "frames to hold",
+    ),
 ];
 const TRACK: Parameter = parameter(
     "file",

@@ -30,13 +30,28 @@ export type PageMessage =
   | { readonly type: "ready" | "want" }
   | { readonly type: "model"; readonly address: string }
   | { readonly type: "pick"; readonly part: string }
+  /** What can be changed about a part, a change of the drawing, or what one would look like; answered by its number. */
+  | { readonly type: "ask"; readonly id: number; readonly question: Question }
   /** Line and column from 1, in characters. */
   | { readonly type: "open"; readonly line: number; readonly column: number }
   | { readonly type: "save"; readonly name: string; readonly bytes: Uint8Array };
 
+/** A question about changes. Changes themselves are passed on as they are. */
+export type Question = { readonly what: "form"; readonly part: string } | { readonly what: "change" | "try"; readonly change: object } | { readonly what: "undo" | "redo" };
+
+function readQuestion(what: unknown, request: unknown): Question | undefined {
+  const { part, change, do: action } = fields(request);
+  if (what === "forms") return typeof part === "string" ? { what: "form", part } : undefined;
+  if (what === "tries") return typeof change === "object" && change !== null ? { what: "try", change } : undefined;
+  if (what !== "changes") return undefined;
+  if (action === "undo" || action === "redo") return { what: action };
+  const { make } = fields(action);
+  return typeof make === "object" && make !== null ? { what: "change", change: make } : undefined;
+}
+
 /** Parses a request; undefined if its type is unknown or a field is invalid. */
 export function readPageMessage(data: unknown): PageMessage | undefined {
-  const { type, address, part, line, column, name, bytes } = fields(data);
+  const { type, address, part, line, column, name, bytes, id, what, request } = fields(data);
   switch (type) {
     case "ready":
     case "want":
@@ -45,6 +60,10 @@ export function readPageMessage(data: unknown): PageMessage | undefined {
       return typeof address === "string" ? { type, address } : undefined;
     case "pick":
       return typeof part === "string" ? { type, part } : undefined;
+    case "ask": {
+      const question = readQuestion(what, request);
+      return isCount(id) && question ? { type, id, question } : undefined;
+    }
     case "open":
       return isCount(line) && isCount(column) ? { type, line, column } : undefined;
     case "save":
@@ -64,6 +83,17 @@ export function readNotification(data: unknown): { uri: string; messages: Messag
   if (typeof uri !== "string" || !Array.isArray(messages)) return undefined;
   return { uri, messages: messages.filter((one): one is Message => typeof fields(one)["type"] === "string") };
 }
+
+/** An edit of a text in the protocol. */
+export interface TextEdit {
+  readonly range: Place["range"];
+  readonly newText: string;
+}
+
+/** The edits that make a change in a version of the text, or why it is not made. */
+export type Changed =
+  | { readonly version: number; readonly edits: readonly TextEdit[]; readonly part: string | null; readonly note: string | null }
+  | { readonly refused: object };
 
 /** The connection to a language server: a client of the library, or plain JSON-RPC. */
 export interface Connection {
@@ -93,6 +123,21 @@ export class Remote {
   /** The range of a part's string. */
   async place(part: string): Promise<Place | null> {
     return (await this.connection.sendRequest("okoshi/preview/place", { ...this.drawing(), part })) as Place | null;
+  }
+
+  /** What can be changed about a part, as the page reads it. */
+  async form(part: string): Promise<{ form: object } | { refused: object }> {
+    return (await this.connection.sendRequest("okoshi/preview/form", { ...this.drawing(), part })) as { form: object } | { refused: object };
+  }
+
+  async change(change: object): Promise<Changed> {
+    return (await this.connection.sendRequest("okoshi/preview/change", { ...this.drawing(), change })) as Changed;
+  }
+
+  /** The model that a change would make; null if it would be refused. */
+  async try(change: object): Promise<Uint8Array | null> {
+    const { bytes } = fields(await this.connection.sendRequest("okoshi/preview/try", { ...this.drawing(), change }));
+    return typeof bytes === "string" ? decoded(bytes) : null;
   }
 
   cursor(position: Position | null): Promise<void> {

@@ -6,7 +6,7 @@ import * as vscode from "vscode";
 import { isDrawingDocument, type Server } from "../server";
 import { html } from "./page";
 import { linkFor, Session, type Editor } from "./session";
-import { Remote, utf16Offset, type Place } from "./messages";
+import { Remote, utf16Offset, type Place, type TextEdit } from "./messages";
 
 const TYPE = "okoshi.preview";
 
@@ -166,6 +166,22 @@ class Preview implements Editor, vscode.Disposable {
     } catch (error) {
       void vscode.window.showErrorMessage(`${basename(target.path)} was not written: ${error instanceof Error ? error.message : String(error)}`);
     }
+  }
+
+  async edit(version: number, edits: readonly TextEdit[]): Promise<boolean> {
+    const document = await vscode.workspace.openTextDocument(this.uri);
+    if (document.version !== version) return false;
+    const change = new vscode.WorkspaceEdit();
+    for (const { range: { start, end }, newText } of edits) change.replace(this.uri, new vscode.Range(start.line, start.character, end.line, end.character), newText);
+    return vscode.workspace.applyEdit(change);
+  }
+
+  async step(back: boolean): Promise<void> {
+    // The editor undoes in the text that has the focus.
+    const document = await vscode.workspace.openTextDocument(this.uri);
+    await vscode.window.showTextDocument(document, { viewColumn: this.column(document), preview: false });
+    await vscode.commands.executeCommand(back ? "undo" : "redo");
+    this.panel.reveal(undefined, false);
   }
 
   log(message: string): void {

@@ -1,7 +1,7 @@
 // The preview of one drawing: connects the page, the language server and the text. Independent of the editor.
 
 import type { State } from "../status-text";
-import { readPageMessage, type Link, type Message, type Place, type Position, type Remote } from "./messages";
+import { readPageMessage, type Link, type Message, type Place, type Position, type Question, type Remote, type TextEdit } from "./messages";
 
 /** How long the cursor must rest before its position is sent to the server, in milliseconds. */
 export const CURSOR_PAUSE = 60;
@@ -18,11 +18,24 @@ export interface Editor {
   goTo(line: number, column: number): Promise<void>;
   /** Asks for a path and saves a file. */
   save(name: string, bytes: Uint8Array): Promise<void>;
+  /** Changes this version of the text, as one step of its own undo; false if the text is another one by now. */
+  edit(version: number, edits: readonly TextEdit[]): Promise<boolean>;
+  /** Undoes or redoes the last step of the text. */
+  step(back: boolean): Promise<void>;
   /** Logs a problem. */
   log(message: string): void;
 }
 
-type Server = Pick<Remote, "open" | "model" | "place" | "cursor" | "close">;
+type Server = Pick<Remote, "open" | "model" | "place" | "form" | "change" | "try" | "cursor" | "close">;
+
+/** How often a change is asked for again because somebody types meanwhile. */
+const TRIES = 3;
+
+/** What a page is told of a request that was not answered otherwise. */
+interface Answer {
+  readonly ok: boolean;
+  readonly body: unknown;
+}
 
 export class Session {
   private server: Server | undefined;
@@ -124,11 +137,54 @@ export class Session {
         if (place) await this.editor.show(place);
         return;
       }
+      case "ask": {
+        let answer: Answer = refused("okoshi did not answer: look at its output");
+        try {
+          answer = await this.about(message.question);
+        } finally {
+          if (this.ready) this.editor.post({ type: "answer", id: message.id, ...answer });
+        }
+        return;
+      }
       case "open":
         return this.editor.goTo(message.line, message.column);
       case "save":
         return this.editor.save(message.name, message.bytes);
     }
+  }
+
+  private async about(question: Question): Promise<Answer> {
+    const { server } = this;
+    if (!server) return refused("okoshi is not running");
+    switch (question.what) {
+      case "form": {
+        const answer = await server.form(question.part);
+        return "form" in answer ? { ok: true, body: answer.form } : { ok: false, body: answer.refused };
+      }
+      case "try": {
+        const bytes = await server.try(question.change);
+        return { ok: bytes !== null, body: bytes };
+      }
+      case "undo":
+      case "redo":
+        await this.editor.step(question.what === "undo");
+        return { ok: true, body: {} };
+      case "change":
+        return this.change(server, question.change);
+    }
+  }
+
+  private async change(server: Server, change: object): Promise<Answer> {
+    for (let attempt = 0; attempt < TRIES; attempt++) {
+      const answer = await server.change(change);
+      if ("refused" in answer) return { ok: false, body: answer.refused };
+      const { version, edits, part, note } = answer;
+      if (edits.length > 0 && !(await this.editor.edit(version, edits))) continue;
+      // The text's own undo takes it back, together with whatever was typed since.
+      if (edits.length > 0) this.forward({ type: "steps", drawing: this.drawing, undo: LAST_STEP, redo: LAST_STEP });
+      return { ok: true, body: { part, note } };
+    }
+    return refused("the text changes at the moment: try again");
   }
 
   private sendCursor(): void {
@@ -153,6 +209,11 @@ export class Session {
     if (this.ready) this.editor.post({ type: "link", ...link });
   }
 }
+
+/** What the page's buttons call the text's own undo. */
+const LAST_STEP = "the last step in the text";
+
+const refused = (why: string): Answer => ({ ok: false, body: { why, choices: [] } });
 
 /** The connection state to report to a page for a state of the server. */
 export function linkFor(state: State): Link {

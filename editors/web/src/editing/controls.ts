@@ -95,7 +95,7 @@ function control(field: Field, variant: Variant, argument: Argument, at: number,
   const { takes } = argument;
   const head = h("span", { class: "argument-name", title: argument.summary }, argument.name);
   const note = h("span", { class: "muted argument-note" }, ...inCode(argument.summary));
-  if (takes.type === "number") return h("div", { class: "argument" }, head, ...slider(takes, argument, label, key, set, (value) => attempt(all(value))), note);
+  if (takes.type === "number") return h("div", { class: "argument" }, head, ...numberControl(takes, argument, label, key, set, (value) => attempt(all(value))), note);
   if (takes.type === "choice") {
     const select = h("select", { class: "select", attributes: { "aria-label": label, "data-key": key } }, ...takes.words.map(([word, summary]) => h("option", { attributes: { value: word } }, plain(`${word} — ${summary}`))));
     select.value = argument.value ?? "";
@@ -113,8 +113,8 @@ function control(field: Field, variant: Variant, argument: Argument, at: number,
   return h("div", { class: "argument" }, head, input, note);
 }
 
-/** A slider with the number beside it, which can be typed and may be outside of the slider. */
-function slider(takes: NumberControl, argument: Argument, label: string, key: string, set: (value: string) => void, attempt: (value: string) => void): HTMLElement[] {
+/** A slider with the number beside it, which can be typed and may be outside of the slider. `clear` is called if the number is deleted. */
+export function numberControl(takes: NumberControl, argument: Argument, label: string, key: string, set: (value: string) => void, attempt: (value: string) => void, clear: () => void = () => {}): HTMLElement[] {
   const { low, high, step, min, max } = takes;
   const written = argument.value === null ? NaN : Number(argument.value);
   const known = Number.isFinite(written) ? written : takes.start;
@@ -171,6 +171,7 @@ function slider(takes: NumberControl, argument: Argument, label: string, key: st
   number.addEventListener("change", () => {
     flush();
     if (Number.isFinite(number.valueAsNumber)) commit(String(number.valueAsNumber));
+    else if (number.value === "" && number.validity.valid && sent !== "") clear();
   });
   range.addEventListener("blur", () => {
     if (timer === undefined) return;

@@ -47,6 +47,11 @@ export class Editing {
     return this.host.post !== null && this.state.key !== null && this.state.current !== null;
   }
 
+  /** Whether changes are saved at once. */
+  get saves(): boolean {
+    return this.host.saves;
+  }
+
   get isOn(): boolean {
     return this.on;
   }
@@ -174,7 +179,8 @@ export class Editing {
     this.busy = false;
     if (answer.ok) {
       const { part, note } = (answer.body ?? {}) as { part?: unknown; note?: unknown };
-      this.said = typeof note === "string" ? `Saved. ${note}` : "Saved";
+      const said = this.saves ? "Saved" : "Changed in the text";
+      this.said = typeof note === "string" ? `${said}. ${note}` : said;
       done(typeof part === "string" ? part : null);
       if (typeof part === "string" && current === this.state.current) this.state.select(part);
     } else {

@@ -3,6 +3,7 @@
 import { MousePointerClick, RotateCcw } from "lucide";
 import { button, fill, h, icon, inCode } from "../dom";
 import type { State } from "../state";
+import { clipFields } from "./clips";
 import { fieldControls, SETTLED, type Sending, type Trying } from "./controls";
 import type { Editing } from "./editing";
 import type { Change, Field, PartForm } from "./messages";
@@ -21,10 +22,17 @@ export class FormPanel {
   private held = false;
   /** Whether the name gets the focus as soon as it is there. */
   private names = false;
+  /** The attribute that gets it. */
+  private goal = "";
   private late = false;
+  /** The figure that gets one more clip, and how many it has. */
+  private adds = "";
   /** Fields that a person opened. */
   private readonly opened = new Set<string>();
   private readonly name = h("input", { class: "text-field", attributes: { type: "text", "aria-label": "Name", "data-key": "name", spellcheck: "false", autocomplete: "off" } });
+
+  /** Called with the form that is shown, or none; set by the page. */
+  shown: (form: PartForm | null) => void = () => {};
 
   constructor(private readonly editing: Editing, private readonly state: State) {
     this.element.addEventListener("submit", (event) => event.preventDefault());
@@ -53,6 +61,7 @@ export class FormPanel {
     editing.listen(["picking"], () => this.draw());
     state.on(["selection", "current"], () => {
       this.held = this.names = false;
+      this.goal = "";
       editing.giveUp();
       // Until its own form is there, nobody changes another part by mistake. Whoever is in the form has renamed the part.
       const isOther = this.form !== null && this.form.part !== state.selected;
@@ -70,6 +79,19 @@ export class FormPanel {
     this.draw();
   }
 
+  /** Goes to the first control of an attribute. */
+  goTo(attribute: string): void {
+    this.goal = attribute;
+    this.draw();
+  }
+
+  /** Asks for the part that this one hangs on. */
+  askParent(): void {
+    const { selected } = this.state;
+    if (selected === null) return;
+    this.editing.pick((parent) => void this.editing.choose({ change: "hang", part: selected, parent }));
+  }
+
   private release(): void {
     this.held = false;
     this.editing.giveUp();
@@ -81,11 +103,15 @@ export class FormPanel {
     const { selected } = this.state;
     if (!this.editing.isOn || selected === null) {
       this.form = null;
+      this.shown(null);
       return this.draw();
     }
+    this.element.setAttribute("aria-busy", "true");
     void this.editing.form(selected).then((form) => {
       if (asked !== this.asked) return;
+      this.element.setAttribute("aria-busy", "false");
       this.form = form;
+      this.shown(form);
       this.draw();
     });
   }
@@ -105,11 +131,14 @@ export class FormPanel {
     const isFirst = (field: Field): boolean => FIRST.includes(field.attribute);
     const rest = form.fields.filter((field) => !isFirst(field));
     const first = FIRST.flatMap((attribute) => form.fields.filter((field) => field.attribute === attribute));
+    const carries = form.motion?.figure === form.part;
     fill(
       this.element,
       ...(form.node ? [this.naming(form), this.parents(form)] : []),
       ...first.map((field) => this.field(form, field)),
+      ...(carries ? this.clips(form) : []),
       ...(rest.length > 0 ? [h("h3", { class: "form-more" }, "More")] : []),
+      !carries && this.foldedClips(form),
       ...rest.map((field) => this.folded(form, field)),
       form.node && this.leaving(form),
     );
@@ -117,6 +146,13 @@ export class FormPanel {
       this.names = false;
       this.name.focus();
       return this.name.select();
+    }
+    if (this.goal !== "" && form.part === this.state.selected) {
+      const field = this.element.querySelector<HTMLElement>(`[data-attribute="${this.goal}"]`);
+      this.goal = "";
+      if (field instanceof HTMLDetailsElement) field.open = true;
+      field?.scrollIntoView({ block: "nearest" });
+      return field?.querySelector<HTMLElement>("input, select, [role=radio][tabindex='0']")?.focus({ preventScroll: true });
     }
     if (key === undefined) return;
     const again = [...this.element.querySelectorAll<HTMLElement>("[data-key]")].find((one) => one.dataset["key"] === key);
@@ -164,14 +200,43 @@ export class FormPanel {
   private folded(form: PartForm, field: Field): HTMLElement {
     const open = field.from === "own" || this.opened.has(field.attribute);
     const value = field.value === null ? "" : field.value || "on";
-    const details = h("details", { class: "field", attributes: { "data-attribute": field.attribute, open } });
-    const summary = h("summary", { class: "field-head", attributes: { "data-key": field.attribute } }, h("span", { class: "field-name" }, field.attribute), h("span", { class: "field-value muted" }, value || field.summary.replaceAll("`", "")));
-    details.addEventListener("toggle", () => {
-      if (details.open) this.opened.add(field.attribute);
-      else this.opened.delete(field.attribute);
-    });
-    fill(details, summary, h("div", { class: "field-origin" }, ...this.origin(form, field)), ...this.inside(form, field));
+    const details = this.details(field.attribute, field.attribute, value || field.summary.replaceAll("`", ""), h("div", { class: "field-origin" }, ...this.origin(form, field)), ...this.inside(form, field));
+    details.open = open;
     return details;
+  }
+
+  private details(key: string, name: string, value: string, ...inside: HTMLElement[]): HTMLDetailsElement {
+    const details = h("details", { class: "field", attributes: { "data-attribute": key, open: this.opened.has(key) } });
+    const summary = h("summary", { class: "field-head", attributes: { "data-key": key } }, h("span", { class: "field-name" }, name), h("span", { class: "field-value muted" }, value));
+    details.addEventListener("toggle", () => {
+      if (details.open) this.opened.add(key);
+      else this.opened.delete(key);
+    });
+    fill(details, summary, ...inside);
+    return details;
+  }
+
+  /** The clips of the part's figure. */
+  private clips(form: PartForm): HTMLElement[] {
+    if (!form.motion) return [];
+    const key = `${form.motion.figure} ${form.motion.clips.length}`;
+    return clipFields(form.part, form.motion, {
+      make: (change) => void this.editing.make(form, change),
+      attempt: (change) => this.editing.attempt(form, change),
+      adds: this.adds === key,
+      add: () => {
+        this.adds = key;
+        this.draw();
+      },
+    });
+  }
+
+  /** The same in the form of a part that hangs on others. */
+  private foldedClips(form: PartForm): HTMLElement | null {
+    if (!form.motion) return null;
+    const { figure, clips } = form.motion;
+    const value = clips.map(({ words }) => words || "the one that fits").join(", ");
+    return this.details("Motion", `Motion of ${figure}`, value || "none", ...this.clips(form));
   }
 
   /** From where the value is, and what takes it back. */

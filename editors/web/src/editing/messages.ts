@@ -6,7 +6,9 @@ export type Change =
   | { readonly change: "reset"; readonly part: string; readonly attribute: string }
   | { readonly change: "name"; readonly part: string; readonly name: string }
   | { readonly change: "hang"; readonly part: string; readonly parent: string | null }
-  | { readonly change: "leave-out"; readonly part: string };
+  | { readonly change: "leave-out"; readonly part: string }
+  /** Without a motion the clip is taken away; the number after that of the last clip adds one. */
+  | { readonly change: "clip"; readonly part: string; readonly clip: number; readonly motion: string | null; readonly limited: string | null };
 
 /** A change that can be made instead of one that was refused. It goes back as it came. */
 export interface Choice {
@@ -67,6 +69,45 @@ export interface Field {
   readonly chosen: number | null;
 }
 
+/** What can be changed about a clip. */
+export interface ClipForm {
+  /** What the string says behind `Motion`; null for a clip that is not there yet. */
+  readonly words: string | null;
+  /** The same without its flags. */
+  readonly arguments: string;
+  /** The word of a clip that comes along, empty for the one that fits; null for all others. */
+  readonly word: string | null;
+  /** Its name, as it is written. */
+  readonly name: string | null;
+  readonly from: string;
+  readonly string: string | null;
+  readonly flags: Field["flags"];
+  readonly seconds: Argument;
+  readonly speed: Argument;
+  readonly limited: Field;
+}
+
+/** The clips of a figure. */
+export interface MotionForm {
+  /** The part that carries the figure. */
+  readonly figure: string;
+  readonly summary: string;
+  readonly choices: readonly (readonly [word: string, summary: string])[];
+  readonly clips: readonly ClipForm[];
+  readonly new: ClipForm;
+}
+
+/** Where a part is in the model. Directions are those in the frame of its node, points those of the drawing, y down. */
+export interface PlaceForm {
+  readonly meters: number;
+  readonly right: readonly [number, number, number];
+  readonly up: readonly [number, number, number];
+  readonly front: readonly [number, number, number];
+  readonly joint: readonly [number, number];
+  /** What `Origin` has words for. */
+  readonly points: readonly { readonly word: string; readonly at: readonly [number, number] }[];
+}
+
 /** What can be changed about a part. */
 export interface PartForm {
   /** Its name, which may become another one while the form is shown. */
@@ -78,6 +119,10 @@ export interface PartForm {
   readonly parent: string | null;
   readonly parents: readonly string[];
   readonly fields: readonly Field[];
+  /** The clips of its figure; null if it is in none. */
+  readonly motion: MotionForm | null;
+  /** Null for a part that has no node of its own. */
+  readonly place: PlaceForm | null;
 }
 
 type Raw = Readonly<Record<string, unknown>>;
@@ -108,8 +153,64 @@ export function readForm(value: unknown): PartForm {
     parent: textOrNull(raw["parent"]),
     parents: list(raw["parents"]).map(text),
     fields: list(raw["fields"]).map(readField),
+    motion: raw["motion"] === undefined || raw["motion"] === null ? null : readMotion(object(raw["motion"])),
+    place: raw["place"] === undefined || raw["place"] === null ? null : readPlace(object(raw["place"])),
   };
 }
+
+function readPlace(raw: Raw): PlaceForm {
+  const numbers = (value: unknown): readonly number[] => list(value).map((one) => number(one, 0));
+  const way = (value: unknown) => {
+    const [x = 0, y = 0, z = 0] = numbers(value);
+    return [x, y, z] as const;
+  };
+  const point = (value: unknown) => {
+    const [x = 0, y = 0] = numbers(value);
+    return [x, y] as const;
+  };
+  return {
+    meters: number(raw["meters"], 0.01),
+    right: way(raw["right"]),
+    up: way(raw["up"]),
+    front: way(raw["front"]),
+    joint: point(raw["joint"]),
+    points: list(raw["points"]).map((value) => ({ word: text(object(value)["word"]), at: point(object(value)["at"]) })),
+  };
+}
+
+function readMotion(raw: Raw): MotionForm {
+  return {
+    figure: text(raw["figure"]),
+    summary: text(raw["summary"]),
+    choices: list(raw["choices"]).map(readWord),
+    clips: list(raw["clips"]).map(readClip),
+    new: readClip(raw["new"]),
+  };
+}
+
+function readClip(value: unknown): ClipForm {
+  const raw = object(value);
+  return {
+    words: textOrNull(raw["words"]),
+    arguments: text(raw["arguments"]),
+    word: textOrNull(raw["word"]),
+    name: textOrNull(raw["name"]),
+    from: text(raw["from"]),
+    string: textOrNull(raw["string"]),
+    flags: readFlags(raw["flags"]),
+    seconds: readArgument(raw["seconds"]),
+    speed: readArgument(raw["speed"]),
+    limited: readField(raw["limited"]),
+  };
+}
+
+const readWord = (word: unknown): readonly [string, string] => [text(list(word)[0]), text(list(word)[1])];
+
+const readFlags = (value: unknown): Field["flags"] =>
+  list(value).map((value) => {
+    const flag = object(value);
+    return { letter: text(flag["letter"]), summary: text(flag["summary"]), on: flag["on"] === true };
+  });
 
 function readField(value: unknown): Field {
   const raw = object(value);
@@ -122,10 +223,7 @@ function readField(value: unknown): Field {
     string: textOrNull(raw["string"]),
     shared: list(raw["shared"]).map(text),
     default: text(raw["default"]),
-    flags: list(raw["flags"]).map((value) => {
-      const flag = object(value);
-      return { letter: text(flag["letter"]), summary: text(flag["summary"]), on: flag["on"] === true };
-    }),
+    flags: readFlags(raw["flags"]),
     variants: list(raw["variants"]).map((value) => {
       const variant = object(value);
       return {
@@ -150,7 +248,7 @@ function readControl(raw: Raw): Control {
     case "number":
       return { type, min: numberOrNull(raw["min"]), max: numberOrNull(raw["max"]), low: number(raw["low"], 0), high: number(raw["high"], 1), step: number(raw["step"], 0.01), start: numberOrNull(raw["start"]) };
     case "choice":
-      return { type, words: list(raw["words"]).map((word) => [text(list(word)[0]), text(list(word)[1])] as const) };
+      return { type, words: list(raw["words"]).map(readWord) };
     case "hex":
     case "color":
     case "file":

@@ -1,7 +1,7 @@
 // The host of a VS Code webview: everything goes by posted messages.
 
 import { read, type FromHost, type ToHost } from "../protocol";
-import type { Host, Link } from "./host";
+import type { Answer, Attempted, Host, Link } from "./host";
 
 export interface CodeApi {
   postMessage(message: unknown): void;
@@ -15,10 +15,12 @@ export class CodeHost implements Host {
   /** Webviews are not given cameras. */
   readonly openCamera = null;
   readonly film = null;
-  /** The editor holds the text. */
-  readonly post = null;
-  readonly attempt = null;
   readonly showsFindings = true;
+  readonly saves = false;
+  /** Requests about changes, by number. */
+  private readonly asked = new Map<number, (answer: Answer) => void>();
+  private questions = 0;
+  private tries = 0;
   /** Pending requests by address. */
   private readonly waiting = new Map<string, Waiting[]>();
 
@@ -29,6 +31,7 @@ export class CodeHost implements Host {
       const posted = typeof data === "object" && data !== null && "okoshi" in data ? data.okoshi : undefined;
       if (typeof posted !== "object" || posted === null) return;
       if ("type" in posted && posted.type === "modelBytes") return this.arrived(posted);
+      if ("type" in posted && posted.type === "answer") return this.answered(posted);
       // The extension is always there; the language server behind it may be away, or restart.
       if ("type" in posted && posted.type === "link") {
         const { state, note } = posted as { state?: unknown; note?: unknown };
@@ -55,6 +58,15 @@ export class CodeHost implements Host {
     });
   }
 
+  /** The editor holds the text: it makes the changes there, and undoes them. */
+  readonly post = (what: "changes" | "forms", _key: string, request: unknown): Promise<Answer> => this.ask(what, request);
+
+  readonly attempt = async (_key: string, request: unknown): Promise<Attempted | null> => {
+    const { ok, body } = await this.ask("tries", request);
+    const bytes = ok ? toBuffer(body) : null;
+    return bytes && { address: `tries/${++this.tries}.glb`, bytes };
+  };
+
   async picture(address: string): Promise<string> {
     return URL.createObjectURL(new Blob([await this.model(address)], { type: "image/png" }));
   }
@@ -62,6 +74,22 @@ export class CodeHost implements Host {
   async save(name: string, content: Blob): Promise<void> {
     // A webview cannot download files: the editor asks where to save.
     this.api.postMessage({ type: "save", name, bytes: toBase64(new Uint8Array(await content.arrayBuffer())) });
+  }
+
+  private ask(what: "changes" | "forms" | "tries", request: unknown): Promise<Answer> {
+    return new Promise((resolve) => {
+      const id = ++this.questions;
+      this.asked.set(id, resolve);
+      this.api.postMessage({ type: "ask", id, what, request });
+    });
+  }
+
+  private answered(posted: object): void {
+    const { id, ok, body } = posted as { id?: unknown; ok?: unknown; body?: unknown };
+    const resolve = typeof id === "number" ? this.asked.get(id) : undefined;
+    if (!resolve) return;
+    this.asked.delete(id as number);
+    resolve({ ok: ok === true, body });
   }
 
   private arrived(posted: object): void {

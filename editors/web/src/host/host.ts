@@ -30,6 +30,8 @@ export interface Host {
   /** A moving picture, as GIF: of the clip with this number, or of the model that turns, from a direction in degrees to its left and up. Null where the
    * host makes none. */
   readonly film: ((model: string, clip: number | null, view: readonly [number, number]) => Promise<Blob>) | null;
+  /** Whether changes are saved at once; an editor makes them in its text, which a person saves. */
+  readonly saves: boolean;
   /** Asks for a change, or what can be changed, with the host's key; null where the page changes nothing. */
   readonly post: ((what: "changes" | "forms", key: string, request: unknown) => Promise<Answer>) | null;
   /** Asks for a model of what a change would make of the drawing; null if there is none to show. */

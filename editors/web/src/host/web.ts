@@ -11,6 +11,7 @@ const PATIENCE = 10000;
 
 export class WebHost implements Host {
   readonly showsFindings = false;
+  readonly saves = true;
   private socket: WebSocket | undefined;
   private pause = FIRST_PAUSE;
   private timer: ReturnType<typeof setTimeout> | undefined;

@@ -49,6 +49,12 @@ export class Pointer {
     this.stop();
   }
 
+  /** The part at a point of the window; null if there is none. */
+  partAt(x: number, y: number): string | null {
+    const hit = this.hit(x, y);
+    return hit && this.viewer.parts.nameOf(hit.node);
+  }
+
   /** Cancels a drag; true if there was one. */
   cancel(): boolean {
     if (!this.posing.drags) return false;
@@ -88,8 +94,7 @@ export class Pointer {
     const clicked = Math.hypot(event.clientX - press.x, event.clientY - press.y) < STILL;
     this.stop();
     if (!clicked || event.target !== this.viewer.canvas) return;
-    const hit = this.hit(event.clientX, event.clientY);
-    const part = hit && this.viewer.parts.nameOf(hit.node);
+    const part = this.partAt(event.clientX, event.clientY);
     this.state.select(part);
     if (part) this.picked(part);
   }
@@ -113,8 +118,7 @@ export class Pointer {
     const { over } = this;
     this.over = null;
     if (!over) return false;
-    const hit = this.hit(over.x, over.y);
-    this.state.hover(hit && this.viewer.parts.nameOf(hit.node));
+    this.state.hover(this.partAt(over.x, over.y));
     return false;
   }
 

@@ -1,0 +1,121 @@
+// The clips of the selected part's figure: which ones it plays, for how long, how fast, and as limited animation.
+
+import { Plus, RotateCcw } from "lucide";
+import { fill, h, icon, inCode } from "../dom";
+import { fieldControls, numberControl, type Sending, type Trying } from "./controls";
+import type { Change, ClipForm, Field, MotionForm } from "./messages";
+
+/** What a clip is limited to when that is switched on: drawings to leave out, and frames to hold. */
+const LIMITS = "2 8";
+
+/** What the controls do. */
+export interface ClipActions {
+  make(change: Change): void;
+  attempt(change: Change): void;
+  /** Whether one more clip is being chosen. */
+  readonly adds: boolean;
+  /** Asks for one more clip. */
+  add(): void;
+}
+
+/** A section for each clip, and what adds one. */
+export function clipFields(part: string, { clips, new: fresh, choices, summary }: MotionForm, actions: ClipActions): HTMLElement[] {
+  const isFirst = clips.length === 0;
+  const sections = clips.map((clip, at) => section(part, clip, at, choices, summary, actions));
+  if (isFirst || actions.adds) return [...sections, section(part, fresh, clips.length, choices, summary, actions)];
+  const add = h("button", { class: "button framed", attributes: { type: "button", "data-key": "Motion add" }, on: { click: () => actions.add() } }, icon(Plus), "Add a clip");
+  return [...sections, h("p", { class: "form-add" }, add)];
+}
+
+function section(part: string, clip: ClipForm, at: number, choices: MotionForm["choices"], summary: string, actions: ClipActions): HTMLElement {
+  const title = at === 0 ? "Motion" : `Motion ${at + 1}`;
+  const change = (motion: string | null, limited: string | null): Change => ({ change: "clip", part, clip: at, motion, limited });
+  const limits = clip.limited.from === "own" ? clip.limited.value : null;
+  const set = (motion: string): void => actions.make(change(motion, limits));
+  const leave = (): void => actions.make(change(null, null));
+  const head = h("div", { class: "field-head" }, h("h3", {}, title), ...origin(clip, title, leave));
+  const place = h("section", { class: "field", attributes: { "data-attribute": "Motion", "aria-label": title } }, head);
+  fill(place, head, h("p", { class: "muted field-note" }, ...inCode(`${summary.charAt(0).toUpperCase()}${summary.slice(1)}.`)), choice(clip, title, choices, set, leave), ...(clip.words === null ? [] : [...details(clip, title, set, (motion) => actions.attempt(change(motion, limits))), ...limiting(clip, title, (limited) => change(clip.words, limited), actions)]));
+  return place;
+}
+
+/** Which clip it is. */
+function choice(clip: ClipForm, title: string, choices: MotionForm["choices"], set: (motion: string) => void, leave: () => void): HTMLElement {
+  const select = h("select", { class: "select", attributes: { "aria-label": `${title}: clip`, "data-key": `${title} clip` } });
+  const option = (value: string, text: string): HTMLElement => h("option", { attributes: { value } }, text);
+  const now = clip.words === null ? "none" : clip.word === null ? "other" : `=${clip.word}`;
+  fill(
+    select,
+    option("none", "none"),
+    clip.words !== null && clip.word === null && option("other", clip.arguments),
+    option("=", "the one that fits the figure"),
+    ...choices.map(([word, about]) => option(`=${word}`, `${word} — ${about.replaceAll("`", "")}`)),
+  );
+  select.value = now;
+  select.addEventListener("change", () => {
+    if (select.value === "none") leave();
+    else if (select.value !== "other") set(words(clip, { word: select.value.slice(1) }));
+  });
+  return select;
+}
+
+/** What is said of a clip. A file, or clips that play in turn, are written in the drawing. */
+function details(clip: ClipForm, title: string, set: (motion: string) => void, attempt: (motion: string) => void): HTMLElement[] {
+  const number = (which: "seconds" | "speed"): HTMLElement[] => {
+    const argument = clip[which];
+    const { takes } = argument;
+    if (takes.type !== "number" || clip.word === null) return [];
+    const name = which === "seconds" ? "seconds" : "speed";
+    const said = (value: string): string => words(clip, { [which]: value });
+    const controls = numberControl(takes, argument, `${title}: ${name}`, `${title} ${name}`, (value) => set(said(value)), (value) => attempt(said(value)), () => set(said("")));
+    return [h("div", { class: "argument" }, h("span", { class: "argument-name", title: argument.summary }, name), ...controls, h("span", { class: "muted argument-note" }, ...inCode(argument.summary)))];
+  };
+  const flags = clip.flags.map(({ letter, summary, on }) => {
+    const box = h("input", { attributes: { type: "checkbox", "data-key": `${title} -${letter}` } });
+    box.checked = on;
+    box.addEventListener("change", () => set(words(clip, { flag: { letter, on: box.checked } })));
+    return h("label", { class: "switch" }, box, h("span", {}, ...inCode(summary)));
+  });
+  return [...number("seconds"), ...number("speed"), ...flags];
+}
+
+/** Its limited animation. */
+function limiting(clip: ClipForm, title: string, change: (limited: string | null) => Change, actions: ClipActions): HTMLElement[] {
+  const { limited } = clip;
+  const own = limited.from === "own";
+  const box = h("input", { attributes: { type: "checkbox", "data-key": `${title} limited` } });
+  box.checked = own;
+  box.addEventListener("change", () => actions.make(change(box.checked ? (limited.value ?? LIMITS) : null)));
+  const about = own || limited.value === null ? limited.summary : `limited in its own way: \`Limited ${limited.value}\` is for all clips`;
+  const field: Field = { ...limited, attribute: title === "Motion" ? "Limited" : title.replace("Motion", "Limited") };
+  const send: Sending = (value) => actions.make(change(value));
+  const attempt: Trying = (value) => actions.attempt(change(value));
+  return [h("label", { class: "switch" }, box, h("span", {}, ...inCode(about))), ...(own ? fieldControls(field, send, attempt) : [])];
+}
+
+function origin(clip: ClipForm, title: string, leave: () => void): HTMLElement[] {
+  if (clip.words === null) return [];
+  const said = h("span", { class: "muted field-from", ...(clip.string === null ? {} : { title: clip.string }) }, clip.from === "own" ? "set here" : "for the whole drawing");
+  const reset = h("button", { class: "button reset", title: "Take this clip away", attributes: { type: "button", "aria-label": `Reset ${title}`, "data-key": `${title} reset` }, on: { click: leave } }, icon(RotateCcw), "Reset");
+  return [said, reset];
+}
+
+/** What differs from the words of a clip. Numbers are left out if they are empty. */
+interface Different {
+  readonly word?: string;
+  readonly seconds?: string;
+  readonly speed?: string;
+  readonly flag?: { readonly letter: string; readonly on: boolean };
+}
+
+/** The words behind `Motion`. */
+export function words(clip: ClipForm, { word, seconds, speed, flag }: Different): string {
+  const letters = clip.flags.filter(({ letter, on }) => (flag?.letter === letter ? flag.on : on)).map(({ letter }) => letter);
+  const flags = letters.length > 0 ? `-${letters.join("")}` : "";
+  // What comes from a file stays as it is written, unless another clip takes its place.
+  if (clip.words !== null && clip.word === null && word === undefined) return join(flags, clip.arguments);
+  const fast = speed ?? clip.speed.value ?? "";
+  return join(flags, word ?? clip.word ?? "", seconds ?? clip.seconds.value ?? "", fast === "" || Number(fast) === 1 ? "" : `speed ${fast}`, clip.name ?? "");
+}
+
+const join = (...words: readonly string[]): string => words.filter((word) => word !== "").join(" ");
