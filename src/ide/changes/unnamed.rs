@@ -22,7 +22,9 @@ use crate::svg::{Drawing, Element, GroupId, GroupKind, ShapeId};
 
 /// A group that reaches over this share of the drawing, both ways, is a figure; a smaller one is a part of it.
 const WHOLE: f64 = 0.6;
-/// How many shapes and groups are looked at, the largest ones: the others are details.
+/// How many shapes are looked at, the largest ones, …
+const MAX_SHAPES: usize = 2000;
+/// … and how many shapes and groups: the others are details.
 const MAX_UNITS: usize = 400;
 /// The second piece of a leg or an arm is a foot or a hand if it is at most this share of the first.
 const FOOT: f64 = 0.75;
@@ -240,9 +242,20 @@ impl Analysis {
         let mut places: FxHashMap<(Option<GroupId>, Option<ShapeId>), usize> = FxHashMap::default();
         let solid = |kind: PartKind| matches!(kind, PartKind::Main | PartKind::Sub);
         let parts = self.bindings().parts.iter();
-        let parts: Vec<_> = parts
+        let mut parts: Vec<(usize, &Part)> = parts
             .filter(|part| solid(part.kind) && part.host.is_none())
+            .enumerate()
             .collect();
+        if parts.len() > MAX_SHAPES {
+            let area = |part: &Part| {
+                let (low, high) = part.measure.bounds;
+                (high - low).element_product()
+            };
+            parts.sort_by(|(_, a), (_, b)| area(b).total_cmp(&area(a)));
+            parts.truncate(MAX_SHAPES);
+            parts.sort_unstable_by_key(|(place, _)| *place);
+        }
+        let parts: Vec<&Part> = parts.into_iter().map(|(_, part)| part).collect();
         let boxes = parts.iter().map(|part| (part.shape, part.measure.bounds));
         let open = OpenGroups::find(drawing, boxes);
         for part in &parts {
