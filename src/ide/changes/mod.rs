@@ -8,9 +8,11 @@ mod check;
 mod form;
 mod given;
 mod history;
+mod open_groups;
 mod same;
 mod settings;
 mod strings;
+mod taken;
 #[cfg(test)]
 mod tests;
 mod unnamed;
