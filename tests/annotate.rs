@@ -35,6 +35,8 @@ const FIGURES: &[&str] = &[
 /// The least shares of names and of parents, in per cent.
 const NAMES: usize = 60;
 const PARENTS: usize = 60;
+/// The least number of limbs, heads and trunks that are named beside others with names.
+const ADDED: usize = 40;
 
 fn example(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("examples/{name}.svg"));
@@ -93,9 +95,9 @@ fn class(name: &str) -> Option<&'static str> {
         ("foot", &["foot", "feet", "shoe", "paw"]),
         ("leg", &["leg", "thigh", "shin"]),
         ("arm", &["arm", "hand"]),
-        ("head", &["head", "face"]),
+        ("head", &["head", "skull", "face"]),
         ("tail", &["tail"]),
-        ("trunk", &["body", "dress", "hips"]),
+        ("trunk", &["body", "torso", "dress", "hips"]),
     ];
     let found = classes.into_iter().find(|(_, words)| has(words))?.0;
     (!found.is_empty()).then_some(found)
@@ -153,7 +155,9 @@ fn figures_get_back_the_names_that_their_strings_gave() {
             }
         }
     }
-    eprintln!("{right} of {named} names, {hangs} of {hung} parents");
+    if std::env::var_os("OKOSHI_PRINT").is_some() {
+        eprintln!("{right} of {named} names, {hangs} of {hung} parents");
+    }
     assert!(
         right * 100 >= NAMES * named,
         "{right} of {named} names are right"
@@ -162,6 +166,115 @@ fn figures_get_back_the_names_that_their_strings_gave() {
         hangs * 100 >= PARENTS * hung,
         "{hangs} of {hung} parents are right"
     );
+}
+
+/// A bare drawing with labels for some of its shapes, by their numbers in the file.
+fn labelled(bare: &str, names: &[(usize, &str)]) -> String {
+    let drawing = compiled(bare).drawing;
+    let element = |leaf: usize| {
+        let shape = drawing.shapes.iter().find(|shape| shape.leaf == leaf);
+        shape.expect("a shape").element.span.end
+    };
+    let mut labels: Vec<(usize, String)> = names
+        .iter()
+        .map(|(leaf, name)| (element(*leaf), format!(" data-name=\"{name}\"")))
+        .collect();
+    labels.sort();
+    labels.dedup_by_key(|(at, _)| *at);
+    let mut text = bare.to_owned();
+    for (at, label) in labels.into_iter().rev() {
+        text.insert_str(at, &label);
+    }
+    text
+}
+
+/// What only one part of a figure is: its head, its trunk, its left upper arm.
+fn role(name: &str) -> Option<String> {
+    let class = class(name)?;
+    let name = name.to_lowercase();
+    let has = |words: &[&str]| words.iter().any(|word| name.contains(word));
+    let first = |letter: char| {
+        name.strip_prefix(letter).is_some_and(|rest| {
+            [
+                "arm", "leg", "fore", "hind", "upper", "thigh", "shin", "hand", "foot",
+            ]
+            .iter()
+            .any(|word| rest.starts_with(word))
+        })
+    };
+    let side = match class {
+        "head" | "tail" => "",
+        "trunk" => {
+            return Some(
+                if has(&["hips", "lbody"]) {
+                    "hips"
+                } else {
+                    "trunk"
+                }
+                .to_owned(),
+            );
+        }
+        _ if has(&["left"]) || first('l') => "left",
+        _ if has(&["right"]) || first('r') => "right",
+        _ => return None,
+    };
+    let piece = ["forearm", "hand", "shin", "foot", "shoe"];
+    let piece = piece.into_iter().find(|piece| name.contains(piece));
+    let pair = ["fore leg", "foreleg", "hind"];
+    let pair = pair.into_iter().find(|pair| name.contains(pair));
+    Some(format!("{side} {class} {piece:?} {pair:?}"))
+}
+
+#[test]
+fn what_has_a_name_is_not_named_again_elsewhere() {
+    let mut added = 0;
+    for figure in FIGURES {
+        let original = example(figure);
+        let bare = bare(&original);
+        let truth = parts(&compiled(&original));
+        let mut names: Vec<(usize, &str)> = truth
+            .iter()
+            .filter(|(_, (name, _))| role(name).is_some())
+            .map(|(leaf, (name, _))| (*leaf, name.as_str()))
+            .collect();
+        // Other words mean the same.
+        for (_, name) in &mut names {
+            match *name {
+                "Body" => *name = "Torso",
+                "Head" => *name = "Skull",
+                _ => (),
+            }
+        }
+        for first in 0..2 {
+            let kept: Vec<(usize, &str)> = names.iter().copied().skip(first).step_by(2).collect();
+            let text = labelled(&bare, &kept);
+            let (new, edits) = annotated(&text);
+            assert!(
+                edits.iter().all(|edit| edit.span.start == edit.span.end),
+                "{figure}: {edits:?}"
+            );
+            for (_, name) in &kept {
+                let label = format!(" data-name=\"{name}\"");
+                assert!(new.contains(&label), "{figure}: {name} is lost");
+            }
+            let taken: Vec<String> = kept.iter().filter_map(|(_, name)| role(name)).collect();
+            let old = parts(&compiled(&text));
+            for (leaf, (name, _)) in &parts(&compiled(&new)) {
+                let is_new = old.get(leaf).is_none_or(|(old, _)| old != name);
+                if let Some(role) = role(name).filter(|_| is_new) {
+                    assert!(
+                        !taken.contains(&role),
+                        "{figure} with {kept:?}: {name} is a second {role}"
+                    );
+                    added += 1;
+                }
+            }
+        }
+    }
+    if std::env::var_os("OKOSHI_PRINT").is_some() {
+        eprintln!("{added} names beside others");
+    }
+    assert!(added > ADDED, "only {added} names were added");
 }
 
 #[test]

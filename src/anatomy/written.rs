@@ -1,6 +1,6 @@
 //! Names for parts that nobody has named, as a person would write them.
 
-use super::terms;
+use super::{Role, Term, is_several_limbs, terms};
 
 /// What a part is, for its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,6 +91,48 @@ impl Noun {
         }
     }
 
+    /// What a part with a name is, as far as others are found around it.
+    pub(crate) fn of(name: &str, terms: &[Term]) -> Option<Self> {
+        let several = is_several_limbs(name);
+        Some(match Role::of(terms)? {
+            Role::Body | Role::Chest | Role::Belly => Self::Body,
+            Role::Hips => Self::Hips,
+            Role::Neck => Self::Neck,
+            Role::Head => Self::Head,
+            Role::UpperArm if several => Self::Arms,
+            Role::UpperArm => Self::Arm,
+            Role::LowerArm => Self::Forearm,
+            Role::Hand => Self::Hand,
+            Role::Thigh if several => Self::Legs,
+            Role::Thigh => Self::Leg,
+            Role::Shin => Self::Shin,
+            Role::Foot => Self::Foot,
+            Role::Tail => Self::Tail,
+            Role::Shoulder | Role::Toe | Role::OfHead => return None,
+        })
+    }
+
+    /// The role that its name gives; `None` for what has none, and for what belongs to a head.
+    pub(crate) fn role(self) -> Option<Role> {
+        Some(match self {
+            Self::Head => Role::Head,
+            Self::Neck => Role::Neck,
+            Self::Body => Role::Body,
+            Self::Hips => Role::Hips,
+            Self::Arm | Self::Arms | Self::UpperArm => Role::UpperArm,
+            Self::Forearm => Role::LowerArm,
+            Self::Hand => Role::Hand,
+            Self::Leg | Self::Legs | Self::FarLegs | Self::NearLegs | Self::Thigh => Role::Thigh,
+            Self::Shin => Role::Shin,
+            Self::Foot | Self::Feet | Self::Shoes => Role::Foot,
+            Self::Tail => Role::Tail,
+            Self::Eye | Self::Eyes | Self::Ear | Self::Ears | Self::Hair | Self::Hat => {
+                return None;
+            }
+            Self::Wheel | Self::Wheels | Self::Hubs => return None,
+        })
+    }
+
     /// The name of a part: `Larm`, `Rforeleg`, `右腕`. `left` says which side it is on, `fore` whether it is a fore or a hind one.
     pub(crate) fn written(
         self,
@@ -141,7 +183,7 @@ impl Noun {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::anatomy::{Role, Term, sides};
+    use crate::anatomy::sides;
 
     #[test]
     fn names_are_read_as_what_they_were_written_for() {
@@ -164,6 +206,9 @@ mod tests {
             for (noun, role) in limbs {
                 let name = noun.written(None, None, language);
                 assert_eq!(Role::of(&terms(&name)), Some(role), "{name}");
+                assert_eq!(noun.role(), Some(role), "{name}");
+                let read = Noun::of(&name, &terms(&name));
+                assert_eq!(read.and_then(Noun::role), Some(role), "{name}");
             }
             for (noun, role) in &limbs[..8] {
                 for left in [true, false] {

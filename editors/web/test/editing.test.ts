@@ -453,8 +453,25 @@ edit("a drawing without names is named in one step, and undo takes all names bac
   await page.getByRole("button", { name: "Name the parts for me" }).click();
   await page.locator("[data-part=Head]").waitFor();
   await page.getByText("Nothing here has a name.").waitFor({ state: "hidden" });
+  await picture(page, "edit-named");
   assert.match(edited.text(), /="Body"/);
   await page.getByRole("button", { name: /^Undo/ }).click();
   await edited.has(before, "undo");
   await page.getByText("Nothing here has a name.").waitFor();
 }, { drawing: BARE });
+
+edit("the offer to name the parts fits on a phone", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  const offer = page.getByRole("button", { name: "Name the parts for me" });
+  await offer.waitFor();
+  assert.deepEqual(await overlaps(page), []);
+  const box = (await offer.boundingBox())!;
+  assert.ok(box.x >= 0 && box.x + box.width <= 390, JSON.stringify(box));
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "the page is no wider than the phone");
+  await picture(page, "edit-nameless-phone");
+  await offer.click();
+  await offer.waitFor({ state: "hidden" });
+  await picture(page, "edit-named-phone");
+  assert.match(edited.text(), /="Head"/);
+}, { drawing: BARE, viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });

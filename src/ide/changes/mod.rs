@@ -9,10 +9,12 @@ mod clips;
 mod form;
 mod given;
 mod history;
+mod open_groups;
 mod place;
 mod same;
 mod settings;
 mod strings;
+mod taken;
 #[cfg(test)]
 mod tests;
 mod unnamed;

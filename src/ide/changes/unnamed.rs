@@ -6,8 +6,10 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::TiSlice;
 
+use super::open_groups::OpenGroups;
+use super::taken::Taken;
 use super::{Analysis, Refusal};
-use crate::anatomy::{Language, Noun};
+use crate::anatomy::{Language, Noun, terms};
 use crate::bind::{Bindings, Numbers, Part, PartId, PartKind, written_by_a_person};
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Edit, applied};
@@ -18,10 +20,8 @@ use crate::labels::{
 use crate::resolver::MemoryResolver;
 use crate::rig::FigureFacing;
 use crate::source::Span;
-use crate::svg::{Drawing, Element, GroupId, GroupKind, ShapeId};
+use crate::svg::{Drawing, Element, GroupId, ShapeId};
 
-/// A group that reaches over this share of the drawing, both ways, is a figure; a smaller one is a part of it.
-const WHOLE: f64 = 0.6;
 /// How many shapes are looked at, the largest ones, …
 const MAX_SHAPES: usize = 2000;
 /// … and how many shapes and groups: the others are details.
@@ -67,6 +67,7 @@ impl Unit {
         shapes.map(move |(shape, (mask, color))| {
             let drawn = Drawn {
                 name: String::new(),
+                known: None,
                 mask: mask.clone(),
                 color: *color,
                 unit: index,
@@ -77,11 +78,13 @@ impl Unit {
 }
 
 /// A name before it is written.
-struct Found {
+#[derive(Clone)]
+pub(super) struct Found {
     unit: usize,
-    noun: Noun,
-    side: Option<Side>,
-    fore: Option<bool>,
+    pub(super) noun: Noun,
+    pub(super) side: Option<Side>,
+    /// Whether it is a fore leg or a hind one.
+    pub(super) fore: Option<bool>,
     certainty: Certainty,
     why: String,
 }
@@ -89,13 +92,28 @@ struct Found {
 impl From<Guess> for Found {
     fn from(guess: Guess) -> Self {
         Self {
-            unit: guess.shape,
-            noun: guess.noun,
-            side: guess.side,
-            fore: None,
             certainty: guess.certainty,
             why: guess.why.to_owned(),
+            ..Self::new(guess.shape, guess.noun, guess.side)
         }
+    }
+}
+
+impl Found {
+    pub(super) fn new(unit: usize, noun: Noun, side: Option<Side>) -> Self {
+        Self {
+            unit,
+            noun,
+            side,
+            fore: None,
+            certainty: Certainty::Certain,
+            why: String::new(),
+        }
+    }
+
+    /// What has a name already, as far as others are found around it.
+    fn named((index, unit): (usize, &Unit)) -> Option<Self> {
+        Some(Self::new(index, unit.drawn.known?, None))
     }
 }
 
@@ -127,7 +145,7 @@ impl Analysis {
         let names = parts.filter(|part| !part.is_automatic() && !part.name.is_empty());
         let names: Vec<&str> = names.map(|part| part.name.as_str()).collect();
         let language = Language::of(names.iter().copied());
-        let taken: FxHashSet<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        let taken = Taken::of(&names);
         let drawn: Vec<Drawn> = units.iter().map(|unit| unit.drawn.clone()).collect();
         let mut shapes: Vec<(ShapeId, Drawn)> = units
             .iter()
@@ -138,19 +156,26 @@ impl Analysis {
         let shapes: Vec<Drawn> = shapes.into_iter().map(|(_, drawn)| drawn).collect();
         let Guesses { all, has_head } = guess(&drawn, &shapes);
         let mut found: Vec<Found> = all.into_iter().map(Found::from).collect();
-        found.retain(|found| units[found.unit].is_free);
+        found.retain(|found| units[found.unit].is_free && !taken.takes(found));
+        let named: Vec<Found> = units.iter().enumerate().filter_map(Found::named).collect();
         // Each name says more about what hangs on what, and that says more about what it is.
         for _ in 0..ROUNDS {
             let so_far = self.written(&units, &found, language, &taken);
             let figure = self.named_so(&so_far, names.len());
-            let more = by_labels(&units, &found, has_head, &figure);
+            let known = [named.as_slice(), &found].concat();
+            let more = by_labels(&units, &known, has_head, &taken, &figure);
             if more.is_empty() {
                 break;
             }
             found.extend(more);
         }
         let all = self.written(&units, &found, language, &taken);
-        if names.is_empty() && !is_figure(&found) || all.is_empty() {
+        if !names.is_empty() && all.is_empty() {
+            return Err(Refusal::new(
+                "nothing without a name looks like another part of the figure",
+            ));
+        }
+        if names.is_empty() && !is_figure(&found) {
             return Err(Refusal::new(
                 "nothing looks like a head with two eyes, like wheels, or like limbs around a body: name at least two parts, and the rest \
                  can be found from these",
@@ -209,11 +234,11 @@ impl Analysis {
         units: &[Unit],
         found: &[Found],
         language: Language,
-        taken: &FxHashSet<String>,
+        taken: &Taken,
     ) -> Vec<Suggestion> {
         let mut sorted: Vec<&Found> = found.iter().collect();
         sorted.sort_by_key(|found| found.unit);
-        let mut taken = taken.clone();
+        let mut taken = taken.names.clone();
         let mut numbers = Numbers::default();
         let mut suggestions = Vec::new();
         for found in sorted {
@@ -299,6 +324,7 @@ impl Analysis {
                 group,
                 drawn: Drawn {
                     name: known.map_or_else(String::new, |name| (*name).to_owned()),
+                    known: known.and_then(|name| Noun::of(name, &terms(name))),
                     mask,
                     color,
                     unit: 0,
@@ -347,59 +373,6 @@ fn element<'a>(drawing: &'a Drawing, unit: &Unit) -> &'a Element {
     }
 }
 
-/// Which groups are no parts but hold several.
-struct OpenGroups {
-    open: FxHashSet<GroupId>,
-    low: glam::DVec2,
-    high: glam::DVec2,
-}
-
-impl OpenGroups {
-    fn find(
-        drawing: &Drawing,
-        boxes: impl Iterator<Item = (ShapeId, (glam::DVec2, glam::DVec2))>,
-    ) -> Self {
-        let none = (glam::DVec2::INFINITY, glam::DVec2::NEG_INFINITY);
-        let mut all = none;
-        let mut of_groups: FxHashMap<GroupId, (glam::DVec2, glam::DVec2)> = FxHashMap::default();
-        for (shape, (low, high)) in boxes {
-            all = (all.0.min(low), all.1.max(high));
-            for group in chain(drawing, drawing.shapes[shape].group) {
-                let found = of_groups.entry(group).or_insert(none);
-                *found = (found.0.min(low), found.1.max(high));
-            }
-        }
-        let whole = all.1 - all.0;
-        let open = of_groups
-            .into_iter()
-            .filter(|(group, (low, high))| {
-                drawing.groups[*group].kind != GroupKind::Group
-                    || (*high - *low).cmpge(WHOLE * whole).all()
-            })
-            .map(|(group, _)| group)
-            .collect();
-        Self {
-            open,
-            low: all.0,
-            high: all.1,
-        }
-    }
-
-    /// The outermost group around a place that is a part.
-    fn holder(&self, drawing: &Drawing, group: GroupId) -> Option<GroupId> {
-        let closed = chain(drawing, group).filter(|group| !self.open.contains(group));
-        closed.last()
-    }
-}
-
-/// A group and those that it is in.
-fn chain(drawing: &Drawing, group: GroupId) -> impl Iterator<Item = GroupId> {
-    std::iter::successors(Some(group), |group| {
-        let parent = drawing.groups[*group].parent;
-        (parent != *group).then_some(parent)
-    })
-}
-
 /// Whether what was found makes a figure or a vehicle: a lamp has a body and a foot, too.
 fn is_figure(found: &[Found]) -> bool {
     let has = |nouns: &[Noun]| found.iter().any(|found| nouns.contains(&found.noun));
@@ -420,7 +393,13 @@ fn is_figure(found: &[Found]) -> bool {
 }
 
 /// What the labels of the figures say about parts without names.
-fn by_labels(units: &[Unit], known: &[Found], has_head: bool, compiled: &Compiled) -> Vec<Found> {
+fn by_labels(
+    units: &[Unit],
+    known: &[Found],
+    has_head: bool,
+    taken: &Taken,
+    compiled: &Compiled,
+) -> Vec<Found> {
     let mut unit_of: FxHashMap<ShapeId, usize> = FxHashMap::default();
     for (index, unit) in units.iter().enumerate() {
         unit.shapes.iter().for_each(|shape| {
@@ -439,6 +418,16 @@ fn by_labels(units: &[Unit], known: &[Found], has_head: bool, compiled: &Compile
             .filter(|(_, label, _)| label.class == Class::Leg)
             .map(|(_, label, _)| label.pair + 1)
             .max();
+        let noun_of =
+            |index: PartId, label: &Label| noun(label, ends(&compiled.bindings, figure, index));
+        // Names need not say a side or a pair.
+        let named = figure
+            .labels
+            .iter()
+            .filter(|(index, ..)| taken.names.contains(&parts[*index].name));
+        let named: Vec<_> = named
+            .map(|(index, label, _)| (noun_of(*index, label).role(), label.side, label.pair))
+            .collect();
         for (index, label, _) in &figure.labels {
             let part = &parts[*index];
             let Some(unit) = unit_of.get(&part.shape).copied() else {
@@ -462,14 +451,18 @@ fn by_labels(units: &[Unit], known: &[Found], has_head: bool, compiled: &Compile
             }
             let fore =
                 (label.class == Class::Leg && leg_pairs == Some(2)).then_some(label.pair > 0);
-            found.push(Found {
+            let noun = noun_of(*index, label);
+            let new = Found {
                 unit,
-                noun: noun(label, ends(&compiled.bindings, figure, *index)),
+                noun,
                 side: label.side,
                 fore,
                 certainty: certainty(label, known.is_empty()),
                 why: without_names(&label.why, part, figure, parts),
-            });
+            };
+            if !taken.takes(&new) && !named.contains(&(noun.role(), label.side, label.pair)) {
+                found.push(new);
+            }
         }
     }
     found
@@ -503,7 +496,13 @@ fn stands_on_body(units: &[Unit], known: &[Found]) -> bool {
     let legs = known.iter().any(|found| {
         matches!(
             found.noun,
-            Noun::Legs | Noun::Shoes | Noun::FarLegs | Noun::NearLegs | Noun::Feet
+            Noun::Leg
+                | Noun::Legs
+                | Noun::Foot
+                | Noun::Shoes
+                | Noun::FarLegs
+                | Noun::NearLegs
+                | Noun::Feet
         )
     });
     !legs && matches!((ground, body), (Some(ground), Some(body)) if body + GRID_SIDE / 20 >= ground)

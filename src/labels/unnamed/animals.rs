@@ -22,16 +22,21 @@ const REACH: f64 = 0.62;
 
 /// Names eye, head, body and legs of an animal in profile, whose eye lies on `host`.
 pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Guesses) {
+    let named = guesses.find(Noun::Body);
+    let may_be = |index: usize| match named {
+        Some(body) => index == body,
+        None => index != eye || eye == host,
+    };
     let body = shapes
         .iter()
-        .filter(|(index, _)| *index != eye || eye == host)
+        .filter(|(index, _)| may_be(*index))
         .max_by(|a, b| a.1.seen.total_cmp(&b.1.seen));
     let Some((mut body, mut trunk)) = body else {
         return;
     };
     // Wool or a saddle may be what is seen most of a body.
     let below = shapes.iter().filter(|(index, other)| {
-        *index < body && other.cells > trunk.cells && trunk.on(other) >= ON
+        named.is_none() && *index < body && other.cells > trunk.cells && trunk.on(other) >= ON
     });
     if let Some((index, other)) = below.max_by(|a, b| a.1.cells.total_cmp(&b.1.cells)) {
         (body, trunk) = (index, other);

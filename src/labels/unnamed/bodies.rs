@@ -23,18 +23,20 @@ pub(super) fn find(shapes: &Shapes, known: Option<usize>, guesses: &mut Guesses)
             .filter(|(_, other)| shape.mask.touches(&other.mask))
             .count()
     };
+    let named = guesses.find(Noun::Body);
     let trunk = shapes
         .iter()
-        .filter(|(index, _)| Some(*index) != known)
+        .filter(|(index, _)| named.map_or(Some(*index) != known, |body| *index == body))
         .map(|(index, shape)| (index, shape, touching(index, shape)))
-        .filter(|(.., touched)| *touched >= FEWEST)
+        .filter(|(.., touched)| named.is_some() || *touched >= FEWEST)
         .max_by(|a, b| worth(a.1, a.2).total_cmp(&worth(b.1, b.2)));
     let Some((mut body, mut trunk, _)) = trunk else {
         return;
     };
     let mut head = above(shapes, [Some(body), known], trunk);
     // What carries the head and is as large as a body is the upper half of one.
-    if let Some((upper, chest)) = head
+    if named.is_none()
+        && let Some((upper, chest)) = head
         && chest.cells >= HALF * trunk.cells
         && touching(upper, chest) >= FEWEST
         && let top = known.or(above(shapes, [Some(upper), None], chest).map(|(top, _)| top))

@@ -69,6 +69,12 @@ impl Guesses {
         self.all.iter().any(|guess| guess.shape == shape)
     }
 
+    /// What a noun was found for, or given to by a name.
+    fn find(&self, noun: Noun) -> Option<usize> {
+        let guess = self.all.iter().find(|guess| guess.noun == noun)?;
+        Some(guess.shape)
+    }
+
     fn add(&mut self, shape: usize, noun: Noun, certainty: Certainty, why: &'static str) {
         self.add_sided(shape, noun, None, certainty, why);
     }
@@ -94,24 +100,33 @@ impl Guesses {
     }
 }
 
-/// Says what units are: shapes, or groups that are one part, in the order in which they are drawn. Those that have names keep them. Eyes
-/// are looked for among all shapes, also those in groups.
+/// Says what units are: shapes, or groups that are one part, in the order in which they are drawn. Those that have names keep them, and
+/// others are found around them. Eyes are looked for among all shapes, also those in groups.
 pub(crate) fn guess(units: &[Drawn], all: &[Drawn]) -> Guesses {
     let (Some(shapes), Some(details)) = (Shapes::measure(units), Shapes::measure(all)) else {
         return Guesses::default();
     };
     let unit = |shape: usize| all[shape].unit;
     let mut guesses = Guesses::default();
+    for (index, one) in units.iter().enumerate() {
+        if let Some(noun) = one.known {
+            guesses.add(index, noun, Certainty::Certain, "its name says so");
+        }
+    }
+    let head = guesses.find(Noun::Head);
     if let Some(face) = faces::find(&details) {
         let face = Face {
-            head: unit(face.head),
+            head: head.unwrap_or(unit(face.head)),
             eyes: face.eyes.into_iter().map(unit).collect(),
         };
         people::around(&shapes, &face, &mut guesses);
-    } else if !vehicles::find(&shapes, &mut guesses) {
+    } else if head.is_some() || !vehicles::find(&shapes, &mut guesses) {
         match animals::eye(&details) {
-            Some((eye, host)) => animals::around(&shapes, [unit(eye), unit(host)], &mut guesses),
-            None => bodies::find(&shapes, None, &mut guesses),
+            Some((eye, host)) => {
+                let host = head.unwrap_or(unit(host));
+                animals::around(&shapes, [unit(eye), host], &mut guesses);
+            }
+            None => bodies::find(&shapes, head, &mut guesses),
         }
     }
     guesses

@@ -216,6 +216,9 @@ impl Around<'_> {
 
     /// Names the trunk; says whether there is one.
     fn body(&self, guesses: &mut Guesses) -> bool {
+        if guesses.find(Noun::Body).is_some() {
+            return true;
+        }
         let head = self.head;
         let worth = |shape: &Shape| {
             let off = (shape.middle().x - head.middle().x).abs();

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::mask::{Box2, Island, Mask};
+use crate::anatomy::Noun;
 
 /// A piece of at least this share of the largest one is a piece of its own; smaller ones are specks.
 const PIECE: f64 = 0.25;
@@ -12,6 +13,8 @@ const PIECE: f64 = 0.25;
 pub(crate) struct Drawn {
     /// The name that it has; empty if it has none.
     pub(crate) name: String,
+    /// What that name says it is.
+    pub(crate) known: Option<Noun>,
     /// What it covers.
     pub(crate) mask: Mask,
     /// Its colour, or that of its largest shape.
