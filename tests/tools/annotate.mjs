@@ -3,7 +3,7 @@
 // The figures are the thirty emoji of sides/names.json and the sixteen drawings of ../motion/figures, to whose shapes people gave names.
 // Their names are taken away, and those found are compared: of heads, trunks, limbs, tails and wheels the kind must be right, and what
 // carries a shape must be what carries it with the names of people. The halves are decided by a hash of the figures' names; rules were
-// made on the first alone. With a folder, the annotated drawings are written there. Exit status 1 if a share is below its limit.
+// made on the first alone. With a folder, the annotated drawings are written there.
 import { execFileSync } from 'node:child_process'
 import crypto from 'node:crypto'
 import fs from 'node:fs'
