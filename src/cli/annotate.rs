@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::args::{Annotate, Common};
-use super::loading::{Loaded, compiled, load, resolver};
+use super::loading::{Loaded, check_unchanged, compiled, load, resolver};
 use super::progress::spinning;
 use super::{Failure, Outcome, counted, ending, print_out};
 use crate::diagnostic::applied;
-use crate::disk::{Inputs, Naming, is_packed, is_standard_stream, read_file, rewrite};
+use crate::disk::{Inputs, Naming, is_packed, is_standard_stream, rewrite};
 use crate::ide::Analysis;
 use crate::ide::changes::{self, Change, Suggestion};
 use crate::labels::Certainty;
@@ -110,13 +110,7 @@ fn write(
         )
         .into());
     }
-    if read_file(output)? != old.as_bytes() {
-        return Err(format!(
-            "`{}` was changed meanwhile; nothing was written",
-            output.display()
-        )
-        .into());
-    }
+    check_unchanged(output, old)?;
     rewrite(output, new.as_bytes())?;
     Ok(())
 }

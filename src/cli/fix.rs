@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::args::Check;
-use super::loading::{Loaded, compiled, tally};
+use super::loading::{Loaded, check_unchanged, compiled, tally};
 use super::{Outcome, counted, fail};
 use crate::diagnostic::{Code, Diagnostic, Severity, apply_safe_fixes};
-use crate::disk::{is_packed, is_standard_stream, read_file, rewrite};
+use crate::disk::{is_packed, is_standard_stream, rewrite};
 
 /// How often a drawing is read again for fixes that others made possible.
 const MAX_ROUNDS: usize = 8;
@@ -43,13 +43,7 @@ pub(super) fn fix(path: &Path, loaded: &mut Loaded, arguments: &Check) -> Result
         return Ok(0);
     }
     if !to_stdout {
-        let on_disk = read_file(path).map_err(fail)?;
-        if on_disk != original.as_bytes() {
-            return Err(fail(format!(
-                "`{}` was changed meanwhile; nothing was written",
-                path.display()
-            )));
-        }
+        check_unchanged(path, &original).map_err(fail)?;
         if is_packed(path) {
             return Err(fail(format!(
                 "`{}` is compressed: save it as plain SVG, then its {} can be fixed",

@@ -7,7 +7,7 @@ use super::digest::{Detail, describe};
 use super::{Outcome, counted, fail, style};
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::Diagnostic;
-use crate::disk::{FolderResolver, decode, is_standard_stream, read_drawing};
+use crate::disk::{FolderResolver, decode, is_standard_stream, read_drawing, read_file};
 use crate::look::Look;
 use crate::report::{Findings, Likeness};
 
@@ -152,4 +152,16 @@ pub(super) fn tally(diagnostics: &[Diagnostic]) -> [usize; 3] {
         counts[diagnostic.severity() as usize] += 1;
     }
     counts
+}
+
+/// Refuses to write over a drawing that was changed since it was read.
+pub(super) fn check_unchanged(path: &Path, text: &str) -> Result<(), String> {
+    let on_disk = read_file(path).map_err(|error| error.to_string())?;
+    if on_disk == text.as_bytes() {
+        return Ok(());
+    }
+    Err(format!(
+        "`{}` was changed meanwhile; nothing was written",
+        path.display()
+    ))
 }

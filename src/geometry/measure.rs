@@ -33,6 +33,18 @@ pub struct Measure {
     pub certain: bool,
 }
 
+impl Measure {
+    /// The ends of the axis: the one nearer to the parent's centre first; without a parent, the upper one first.
+    pub(crate) fn sorted_ends(&self, parent: Option<DVec2>) -> [DVec2; 2] {
+        let [a, b] = self.ends;
+        let swapped = match parent {
+            Some(parent) => b.distance_squared(parent) < a.distance_squared(parent),
+            None => b.y < a.y,
+        };
+        if swapped { [b, a] } else { [a, b] }
+    }
+}
+
 /// How far a solid reaches to the back and to the front.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Thickness {

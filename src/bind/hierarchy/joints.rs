@@ -54,7 +54,7 @@ impl Joints<'_> {
         let measure = self.measure(index);
         let center = |parent: PartId| self.measure(parent).center;
         let parent = self.parents[index];
-        let [start, end] = sorted_ends(measure, parent.map(center));
+        let [start, end] = measure.sorted_ends(parent.map(center));
         let held = self.holders.get(&index);
         let held = held.filter(|(holder, _)| parent == Some(*holder));
         match self.chosen(index) {
@@ -149,7 +149,7 @@ impl Joints<'_> {
         };
         let end = text.as_str().trim_end().len();
         let place = text.span(end..end);
-        let [start, far] = sorted_ends(measure, Some(beside.center));
+        let [start, far] = measure.sorted_ends(Some(beside.center));
         let way = far - start;
         let side = match (way.y.abs() >= way.x.abs(), way.x >= 0.0, way.y >= 0.0) {
             (true, _, true) => "upper",
@@ -223,14 +223,4 @@ pub(super) fn necks(
     // In order, so that of several necks the last one counts on every machine.
     let necks: Vec<(PartId, PartId)> = necks.collect();
     necks.into_iter().collect()
-}
-
-/// The ends of the axis: the one nearer to the parent's centre first; without a parent, the upper one first.
-fn sorted_ends(measure: &Measure, parent: Option<DVec2>) -> [DVec2; 2] {
-    let [a, b] = measure.ends;
-    let swapped = match parent {
-        Some(parent) => b.distance_squared(parent) < a.distance_squared(parent),
-        None => b.y < a.y,
-    };
-    if swapped { [b, a] } else { [a, b] }
 }

@@ -1,6 +1,6 @@
 //! Where a part is in the model, so that it can be taken hold of there.
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DQuat, DVec3};
 use serde::Serialize;
 
 use super::Analysis;
@@ -47,15 +47,7 @@ impl Analysis {
         let parent = part
             .parent
             .map(|parent| bindings.parts[parent].node_measure().center);
-        // As `Origin` reads its words: the start is the end nearer to the parent.
-        let [first, second] = measure.ends;
-        let far = |end: DVec2| parent.map_or(end.y, |parent| end.distance_squared(parent));
-        let is_swapped = far(second) < far(first);
-        let [start, end] = if is_swapped {
-            [second, first]
-        } else {
-            [first, second]
-        };
+        let [start, end] = measure.sorted_ends(parent);
         let points = [("center", measure.center), ("start", start), ("end", end)];
         Some(PlaceForm {
             meters: bindings.settings.meters(),

@@ -65,10 +65,9 @@ function details(clip: ClipForm, title: string, set: (motion: string) => void, a
     const argument = clip[which];
     const { takes } = argument;
     if (takes.type !== "number" || clip.word === null) return [];
-    const name = which === "seconds" ? "seconds" : "speed";
     const said = (value: string): string => words(clip, { [which]: value });
-    const controls = numberControl(takes, argument, `${title}: ${name}`, `${title} ${name}`, (value) => set(said(value)), (value) => attempt(said(value)), () => set(said("")));
-    return [h("div", { class: "argument" }, h("span", { class: "argument-name", title: argument.summary }, name), ...controls, h("span", { class: "muted argument-note" }, ...inCode(argument.summary)))];
+    const controls = numberControl(takes, argument, `${title}: ${which}`, `${title} ${which}`, (value) => set(said(value)), (value) => attempt(said(value)), () => set(said("")));
+    return [h("div", { class: "argument" }, h("span", { class: "argument-name", title: argument.summary }, which), ...controls, h("span", { class: "muted argument-note" }, ...inCode(argument.summary)))];
   };
   const flags = clip.flags.map(({ letter, summary, on }) => {
     const box = h("input", { attributes: { type: "checkbox", "data-key": `${title} -${letter}` } });

@@ -11,24 +11,25 @@ export interface Choice {
   readonly press: () => void;
 }
 
+/** An item of a menu, which closes before the choice is made. */
+export function menuItem({ label, note, key, press }: Choice, close: () => void): HTMLButtonElement {
+  const click = (): void => {
+    close();
+    press();
+  };
+  return h("button", { class: "menu-item", attributes: { type: "button", role: "menuitem", tabindex: -1 }, on: { click } }, h("span", {}, label, note !== undefined && h("span", { class: "menu-note" }, note)), key !== undefined && h("kbd", {}, key));
+}
+
+/** Moves the focus among the items of a menu; false for keys that do not. */
+export function moveFocus(items: readonly HTMLElement[], key: string): boolean {
+  const at = items.findIndex((item) => item === document.activeElement);
+  const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: -1 }[key];
+  if (to !== undefined) items.at(to % items.length)?.focus();
+  return to !== undefined;
+}
+
 export function menu({ icon, label }: { readonly icon: IconNode; readonly label: string }, choices: readonly Choice[]): [HTMLElement, HTMLButtonElement] {
-  const items = choices.map(({ label, note, key, press }) =>
-    h(
-      "button",
-      {
-        class: "menu-item",
-        attributes: { type: "button", role: "menuitem", tabindex: -1 },
-        on: {
-          click: () => {
-            set(false, true);
-            press();
-          },
-        },
-      },
-      h("span", {}, label, note !== undefined && h("span", { class: "menu-note" }, note)),
-      key !== undefined && h("kbd", {}, key),
-    ),
-  );
+  const items = choices.map((choice) => menuItem(choice, () => set(false, true)));
   const list = h("div", { class: "menu", hidden: true, attributes: { role: "menu", "aria-label": label } }, ...items);
   const opener = button({ icon, label, press: () => set(list.hidden !== false, false) });
   opener.setAttribute("aria-haspopup", "menu");
@@ -44,11 +45,8 @@ export function menu({ icon, label }: { readonly icon: IconNode; readonly label:
     if (!(relatedTarget instanceof Node && element.contains(relatedTarget))) set(false, false);
   });
   list.addEventListener("keydown", (event) => {
-    const at = items.indexOf(document.activeElement as HTMLButtonElement);
-    const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: -1 }[event.key];
     if (event.key === "Escape") set(false, true);
-    else if (to !== undefined) items.at(to % items.length)?.focus();
-    else return;
+    else if (!moveFocus(items, event.key)) return;
     event.preventDefault();
     event.stopPropagation();
   });

@@ -6,6 +6,7 @@ import type { Editing } from "../editing/editing";
 import { isAside } from "../parts";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
+import { menuItem, moveFocus, type Choice } from "./menu";
 
 /** A press that moves less than this, in pixels, is a click or a long press. */
 const STILL = 6;
@@ -18,12 +19,6 @@ export interface Leads {
   hang(): void;
   /** Goes to a field of the form. */
   field(attribute: string): void;
-}
-
-interface Item {
-  readonly label: string;
-  readonly key?: string;
-  readonly press: () => void;
 }
 
 export class PartMenu {
@@ -126,14 +121,7 @@ export class PartMenu {
     this.before = document.activeElement;
     this.title.textContent = name;
     this.list.setAttribute("aria-label", name);
-    fill(this.list, ...items.map(({ label, key, press }) => {
-      const item = h("button", { class: "menu-item", attributes: { type: "button", role: "menuitem", tabindex: -1 } }, h("span", {}, label), key !== undefined && h("kbd", {}, key));
-      item.addEventListener("click", () => {
-        this.close(true);
-        press();
-      });
-      return item;
-    }));
+    fill(this.list, ...items.map((item) => menuItem(item, () => this.close(true))));
     this.element.hidden = false;
     const { offsetWidth: width, offsetHeight: height } = this.element;
     this.element.style.left = `${Math.max(Math.min(x, innerWidth - width - 6), 6)}px`;
@@ -141,10 +129,10 @@ export class PartMenu {
     (this.list.firstElementChild as HTMLElement).focus({ preventScroll: true });
   }
 
-  private items(name: string, isNode: boolean): Item[] {
+  private items(name: string, isNode: boolean): Choice[] {
     const { commands, editing, leads } = this;
     // What changes the drawing turns editing on: whoever chooses it from a menu means it.
-    const change = (label: string, go: () => void, key?: string): Item => ({
+    const change = (label: string, go: () => void, key?: string): Choice => ({
       label,
       ...(key === undefined ? {} : { key }),
       press: () => {
@@ -164,15 +152,12 @@ export class PartMenu {
 
   private key(event: KeyboardEvent): void {
     const items = [...this.list.querySelectorAll<HTMLElement>("[role=menuitem]")];
-    const at = items.findIndex((item) => item === document.activeElement);
-    const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: -1 }[event.key];
-    if (event.key === "Escape" || event.key === "Tab") this.close(true);
-    else if (to !== undefined) items.at(to % items.length)?.focus();
     // Enter and the space bar press the item; the page's own keys wait.
-    else if (event.key !== "Enter" && event.key !== " ") return event.stopPropagation();
-    else return;
-    event.preventDefault();
+    if (event.key === "Enter" || event.key === " ") return;
     event.stopPropagation();
+    if (event.key === "Escape" || event.key === "Tab") this.close(true);
+    else if (!moveFocus(items, event.key)) return;
+    event.preventDefault();
   }
 
   private close(back: boolean): void {
