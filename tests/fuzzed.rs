@@ -179,7 +179,7 @@ macro_rules! tests {
 tests! {
     string: 20000 inputs, 50 %;
     drawing: 1000 inputs, 40 %;
-    changes: 300 inputs, 40 %;
+    changes: 120 inputs, 40 %;
     motion: 1500 inputs, 60 %;
     model: 1000 inputs, 20 %;
     scene: 200 inputs, 20 %;

@@ -6,13 +6,18 @@ use i_overlay::mesh::float::style::{LineJoin, StrokeStyle};
 
 use super::tangled::pixels;
 use super::{
-    FillRule, Outline, bounds, pixel_borders, resolve_overlaps, squared_distances, subtract, union,
+    FillRule, Outline, bounds, edges, pixel_borders, resolve_overlaps, squared_distances, subtract,
+    union,
 };
 
 /// The angle between two points of a round corner, radians.
 const ROUND: f64 = 0.3;
 /// Outlines with more points are moved in a picture: the bands along their borders may lie over one another everywhere.
 const MANY: usize = 4096;
+/// The same goes for outlines with more points than this …
+const SEVERAL: usize = 512;
+/// … if the bands along their borders cover the box around them more often than this, on average: spirals, combs, tangles.
+const DENSE: f64 = 3.0;
 /// Pixels along the longer side of the picture.
 const SIDE: f64 = 1024.0;
 /// How many pixels the nearest pixel beyond a border is away from it.
@@ -20,9 +25,11 @@ const BEYOND: f64 = 0.25;
 
 /// The outline moved outwards by a distance, user units, or inwards if that is negative. Corners that move apart become round.
 ///
-/// The result is exact to within a pixel of a picture of 1,024 along the longer side if the outline has more than 4,096 points.
+/// The result is exact to within a pixel of a picture of 1,024 along the longer side if the outline has more than 4,096 points, or more than
+/// 512 whose bands lie over one another.
 pub(crate) fn offset(outline: &Outline, distance: f64) -> Outline {
-    if outline.point_count() > MANY {
+    let count = outline.point_count();
+    if count > MANY || count > SEVERAL && is_dense(outline, distance) {
         return offset_in_picture(outline, distance).unwrap_or_default();
     }
     let rings = outline.rings();
@@ -38,6 +45,15 @@ pub(crate) fn offset(outline: &Outline, distance: f64) -> Outline {
     } else {
         union(&[outline.clone(), band])
     }
+}
+
+/// Whether the bands of this half width along the borders lie over one another many times.
+fn is_dense(outline: &Outline, distance: f64) -> bool {
+    let half = distance.abs();
+    let lengths = edges(outline).map(|[from, to]| from.distance(to) + 2.0 * half);
+    let covered = lengths.sum::<f64>() * 2.0 * half;
+    bounds(outline)
+        .is_some_and(|(low, high)| covered > DENSE * (high - low + 2.0 * half).element_product())
 }
 
 /// The same, in a picture; `None` if nothing is there.

@@ -73,7 +73,10 @@ impl Task<'_> {
         let tall = |layout: &Layout| layout.scale * self.extent >= LEAST_HEIGHT;
         on_one
             .filter(tall)
-            .or_else(|| self.at(tallest, usize::MAX))
+            .or_else(|| {
+                self.may_fit(tallest, usize::MAX)
+                    .then(|| self.at(tallest, usize::MAX))?
+            })
             .or_else(|| self.largest(tallest, usize::MAX))
             .or_else(|| self.largest(whole, 1))
     }

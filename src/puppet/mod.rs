@@ -74,9 +74,9 @@ pub enum PuppetError {
     NoFigure,
     /// It has too many pieces.
     #[error(
-        "has {0} pieces, more than the {MAX_PIECES} that fit on a sheet; give only the parts that move a name"
+        "has more than {MAX_PIECES} pieces, too many for a sheet; give only the parts that move a name"
     )]
-    TooMany(usize),
+    TooMany,
     /// A piece is larger than the page at the scale that was asked for.
     #[error("is too large for the page at this scale; the largest is `--scale {0}`")]
     TooLarge(String),
@@ -122,11 +122,9 @@ impl<'a> Puppet<'a> {
         let Compiled {
             bindings, drawing, ..
         } = compiled;
-        let pieces = pieces(drawing, bindings);
-        match pieces.len() {
-            0 => return Err(PuppetError::NoFigure),
-            count if count > MAX_PIECES => return Err(PuppetError::TooMany(count)),
-            _ => {}
+        let pieces = pieces(drawing, bindings)?;
+        if pieces.is_empty() {
+            return Err(PuppetError::NoFigure);
         }
         let mut carried = vec![Vec::new(); pieces.len()];
         for (index, piece) in pieces.iter().enumerate() {

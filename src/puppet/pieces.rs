@@ -7,6 +7,7 @@ use rstar::RTree;
 use rstar::primitives::Line;
 use typed_index_collections::{TiVec, ti_vec};
 
+use super::{MAX_PIECES, PuppetError};
 use crate::anatomy::{self, Role};
 use crate::bind::{Bindings, PartId, PartKind};
 use crate::geometry::{
@@ -57,7 +58,10 @@ impl PaperPiece {
 }
 
 /// The pieces of all figures of a drawing, in paint order.
-pub fn pieces(drawing: &Drawing, bindings: &Bindings) -> Vec<PaperPiece> {
+///
+/// # Errors
+/// [`PuppetError::TooMany`] as soon as there are more than a sheet may have, since each is compared with what carries it.
+pub fn pieces(drawing: &Drawing, bindings: &Bindings) -> Result<Vec<PaperPiece>, PuppetError> {
     let mut cut = Cutter {
         drawing,
         bindings,
@@ -65,9 +69,9 @@ pub fn pieces(drawing: &Drawing, bindings: &Bindings) -> Vec<PaperPiece> {
         pieces: Vec::new(),
     };
     for figure in find_figures(bindings) {
-        cut.figure(&figure);
+        cut.figure(&figure)?;
     }
-    in_paint_order(cut.pieces)
+    Ok(in_paint_order(cut.pieces))
 }
 
 /// Per main part all parts in its node.
@@ -91,7 +95,7 @@ struct Cutter<'a> {
 
 impl Cutter<'_> {
     /// Adds the pieces of a figure.
-    fn figure(&mut self, figure: &FigureGroup) {
+    fn figure(&mut self, figure: &FigureGroup) -> Result<(), PuppetError> {
         // The piece that each part of the figure is on.
         let mut piece_of: TiVec<FigurePartId, Option<usize>> = ti_vec![None; figure.parts.len()];
         for index in carriers_first(figure) {
@@ -112,9 +116,13 @@ impl Cutter<'_> {
                 let at = self.pin(&piece, parent);
                 piece.joint = Some(Joint { parent, at });
             }
+            if self.pieces.len() == MAX_PIECES {
+                return Err(PuppetError::TooMany);
+            }
             piece_of[index] = Some(self.pieces.len());
             self.pieces.push(piece);
         }
+        Ok(())
     }
 
     /// The piece of a part by itself; `None` if nothing of it is built.

@@ -116,12 +116,21 @@ fn free_drawings() -> Vec<PathBuf> {
 
 #[test]
 fn models_look_like_their_drawings() {
+    drawings_are_right(2);
+}
+
+#[test]
+#[ignore = "takes minutes; run it after a change of how shapes become solids"]
+fn models_of_all_kinds_look_like_their_drawings() {
+    drawings_are_right(KINDS.len());
+}
+
+/// Measures our drawings, each of them with so many kinds in turn.
+fn drawings_are_right(kinds: usize) {
     let drawings = free_drawings();
     assert!(drawings.len() > 15, "only {} were found", drawings.len());
-    let samples = drawings
-        .iter()
-        .flat_map(|path| KINDS.map(|kind| (path, kind)));
-    let samples: Vec<(&PathBuf, &str)> = samples.collect();
+    let of_drawing = |(index, path)| kinds_in_turn(index, kinds).map(move |kind| (path, kind));
+    let samples: Vec<(&PathBuf, &str)> = drawings.iter().enumerate().flat_map(of_drawing).collect();
     let rows = each(&samples, |(path, kind)| {
         let name = name(path);
         let sample =

@@ -85,7 +85,7 @@ def main():
         for number in range(1, FADE + 1):
             frames.append(Image.blend(still, page, number / (FADE + 1)))
     step = round(1000 / RATE)
-    frames[0].save(out, save_all=True, append_images=frames[1:], duration=step, loop=0, quality=78, method=6)
+    frames[0].save(out, save_all=True, append_images=frames[1:], duration=step, loop=0, quality=78, method=4)
     print(f"{out}: {len(frames)} pictures, {out.stat().st_size // 1024} KiB")
 
 

@@ -5,8 +5,8 @@ import { copyFileSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import type { Browser, BrowserContextOptions, Locator, Page } from "playwright-core";
-import { CHROMIUM, launch, open, shown } from "./browser";
+import type { Browser, Locator, Page } from "playwright-core";
+import { CHROMIUM, launch, open, shown, type PageOptions } from "./browser";
 import { closeAll, closing, PATIENCE, preview, TEST_LIMIT } from "./closing";
 import { FIGURE } from "./setup";
 
@@ -24,7 +24,7 @@ export class Edited {
     return readFileSync(this.file, "utf8");
   }
 
-  /** Waits until the file has exactly these bytes, and the page shows what is built of them. */
+  /** Waits until the file has exactly these bytes; what the page shows may be older. */
   async has(expected: string, what: string): Promise<void> {
     const end = Date.now() + PATIENCE;
     while (this.text() !== expected && Date.now() < end) await new Promise((resolve) => setTimeout(resolve, 20));
@@ -48,7 +48,7 @@ export class Edited {
 }
 
 /** A test with a drawing that is edited. The page is the one that was bundled for the tests, and is served as the program serves its own. */
-export function edit(name: string, run: (edited: Edited) => Promise<void>, options: BrowserContextOptions & { drawing?: string; arguments?: readonly string[] } = {}): void {
+export function edit(name: string, run: (edited: Edited) => Promise<void>, options: PageOptions & { drawing?: string; arguments?: readonly string[] } = {}): void {
   test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
     const onClose = closing(t);
     const { drawing = FIGURE, arguments: more = [], ...context } = options;

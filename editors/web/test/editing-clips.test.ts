@@ -106,4 +106,4 @@ edit("a clip that the drawing's text gives to the figure is changed in that text
   await manual(page, join("without-strings", "4-clip.png"));
   await clip.selectOption("=run");
   await edited.has(before.replace("Motion walk", "Motion run Limited 2 8"), "another clip");
-}, { drawing: example("girl"), viewport: { width: 1060, height: 720 } });
+}, { drawing: example("girl"), viewport: { width: 1060, height: 720 }, smoothEdges: true });

@@ -410,7 +410,7 @@ edit("a drawing without a string becomes a figure, and nobody writes one", async
   await page.keyboard.press("Control+z");
   await edited.has(text, "undone");
   assert.equal(await page.locator(".finding .badge.error").count(), 0);
-}, { drawing: example(join("tutorial", "2-arms")), viewport: { width: 1060, height: 720 } });
+}, { drawing: example(join("tutorial", "2-arms")), viewport: { width: 1060, height: 720 }, smoothEdges: true });
 
 for (const colorScheme of ["light", "dark"] as const) {
   for (const [name, options] of [["desktop", { viewport: { width: 1400, height: 900 } }], ["phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]] as const) {

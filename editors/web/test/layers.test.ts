@@ -51,7 +51,7 @@ browse("a part under the pointer shows its depth and the reason", one(DOLL), asy
   await still(page);
   assert.match(await note(page), /^Body in the drawing plane/);
   assert.match(await page.locator(".inspector").innerText(), /Depth\s+in the drawing plane/);
-});
+}, { smoothEdges: true });
 
 browse("turning the view away, or Escape, ends it", one(DOLL), async (page) => {
   await shown(page);

@@ -412,4 +412,4 @@ browse("the picture of the manual", one(example("clockwork-dragon")), async (pag
   const colours = new Set<number>();
   for (let i = 0; i < data.length; i += 4) colours.add((data[i]! << 16) | (data[i + 1]! << 8) | data[i + 2]!);
   assert.ok(colours.size > 3000, `${colours.size} colours`);
-}, { viewport: { width: 1180, height: 720 } });
+}, { viewport: { width: 1180, height: 720 }, smoothEdges: true });

@@ -248,4 +248,4 @@ browse("the picture of the manual", (host) => {
   await still(page);
   await manual(page, "preview-performance.png");
   assert.deepEqual(await page.locator(".caption").allInnerTexts(), ["performed", "original"]);
-}, { viewport: { width: 1180, height: 760 } });
+}, { viewport: { width: 1180, height: 760 }, smoothEdges: true });

@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import type { Browser, BrowserContextOptions, Page } from "playwright-core";
-import { CHROMIUM, launch, open, type Colour } from "./browser";
+import type { Browser, Page } from "playwright-core";
+import { CHROMIUM, launch, open, type Colour, type PageOptions } from "./browser";
 import { closeAll, closing, TEST_LIMIT } from "./closing";
 import { make, type Made } from "./drawings";
 import { MockHost } from "./mock";
@@ -32,7 +32,7 @@ let browser: Promise<Browser> | undefined;
 after(() => closeAll([async () => (await browser)?.close()]));
 
 /** A test of the page with its own host. Any error of the page fails it, including violations of the policy. */
-export function browse(name: string, prepare: (host: MockHost) => void, run: (page: Page, host: MockHost) => Promise<void>, options: BrowserContextOptions & { hash?: string } = {}): void {
+export function browse(name: string, prepare: (host: MockHost) => void, run: (page: Page, host: MockHost) => Promise<void>, options: PageOptions & { hash?: string } = {}): void {
   test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
     const onClose = closing(t);
     browser ??= launch();

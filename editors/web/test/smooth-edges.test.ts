@@ -57,4 +57,4 @@ browse("edges are smooth when the picture is still, and drawn at once when it mo
   assert.equal(await page.getAttribute("canvas", "data-smooth"), "false");
   const rough = await colours(page, "rough-edges");
   assert.ok(smooth > 1.3 * rough, `${smooth} colours, ${rough} without smooth edges`);
-});
+}, { smoothEdges: true });
