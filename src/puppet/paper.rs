@@ -212,7 +212,7 @@ fn coarse(drawn: &Outline) -> Outline {
 const STRETCH: usize = 512;
 
 /// The ring with the points that matter if it may be off by `detail`: three at least, because paper is left around dots, too.
-fn simplified(ring: &Ring, detail: f64) -> Ring {
+pub(super) fn simplified(ring: &Ring, detail: f64) -> Ring {
     let farthest = |from: DVec2| {
         let far = |i: &usize| ring[*i].distance_squared(from);
         (0..ring.len()).max_by(|a, b| far(a).total_cmp(&far(b)))

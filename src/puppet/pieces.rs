@@ -7,6 +7,7 @@ use rstar::RTree;
 use rstar::primitives::Line;
 use typed_index_collections::{TiVec, ti_vec};
 
+use super::paper::simplified;
 use super::{MAX_PIECES, PuppetError};
 use crate::anatomy::{self, Role};
 use crate::bind::{Bindings, PartId, PartKind};
@@ -23,6 +24,8 @@ const LIES_ON: f64 = 0.9;
 const DETAIL: f64 = 0.25;
 /// How far apart things are that touch, as a share of a piece's size.
 const NEAR: f64 = 0.02;
+/// How exact the outlines are that grow until they touch, as a share of how far they grow.
+const COARSE: f64 = 0.05;
 
 /// A piece of paper: a part with its details. Points are in drawing units from the page's top left corner.
 #[derive(Debug, Clone, PartialEq)]
@@ -263,7 +266,12 @@ fn contact(one: &Outline, other: &Outline) -> DVec2 {
     let nearest = nearest.min_by(|a, b| gap(a).total_cmp(&gap(b)));
     let nearest = nearest.unwrap_or_default();
     let larger = NEAR * size + gap(&nearest).sqrt() / 2.0;
-    let shared = intersect(&offset(one, larger), &offset(other, larger));
+    // Of a finely drawn curve, the bands of many edges would lie over one another.
+    let grown = |outline: &Outline| {
+        let coarse = outline.map_rings(|ring| simplified(ring, COARSE * larger));
+        offset(&coarse, larger)
+    };
+    let shared = intersect(&grown(one), &grown(other));
     middle(shared).unwrap_or(nearest)
 }
 
