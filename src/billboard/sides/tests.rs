@@ -7,7 +7,7 @@ use super::*;
 use crate::billboard::region::{Region, View};
 use crate::billboard::tests::generated::random::Random;
 use crate::billboard::tests::generated::{Character, Drawn, FITTED, HELD_BACK, character};
-use crate::geometry::{FillRule, area, intersect, resolve_overlaps, union};
+use crate::geometry::{FillRule, area, intersect, resolve_overlaps, subtract, union};
 
 /// What decides whether a character is symmetric: it may hold a tool, or have its tail on one side.
 const LIMBS: [&str; 7] = ["arm", "hand", "leg", "foot", "ear", "hair tail", "trunk"];
@@ -335,6 +335,15 @@ fn with_addition(who: &Character, addition: &str, random: &mut Random) -> Option
             return Some(view);
         }
     };
+    // In pictures, what is seen in front cuts what is behind it.
+    if addition != "tail" && random.below(2) == 0 {
+        for behind in &mut view.regions {
+            let rest = subtract(&behind.outline, &region.outline);
+            if area(&rest) > 0.0 {
+                behind.outline = std::sync::Arc::new(rest);
+            }
+        }
+    }
     if addition == "tail" {
         // Behind all others.
         for region in &mut view.regions {
