@@ -614,6 +614,53 @@ fn a_badge_stays_on_its_side_in_mirrored_views() {
 }
 
 #[test]
+fn a_stick_in_one_hand_is_seen_from_both_sides_and_moves_nothing_else() {
+    let stick = |[x, y]: [f64; 2]| {
+        format!(
+            r##"<path inkscape:label="Stick" fill="#3fae49" d="M 195,300 199,300 {x},{y} {},{y} Z"/><text"##,
+            x - 4.0
+        )
+    };
+    let with_stick = edited("boy", |text| {
+        let views = text.split_inclusive("<text").collect::<Vec<_>>();
+        let [front, side, third, rest] = views[..] else {
+            panic!("{} pieces", views.len());
+        };
+        let side = side.replace(
+            "<text",
+            &stick([439.0, 140.0]).replace("195,300 199", "395,300 399"),
+        );
+        format!(
+            "{}{side}{third}{rest}",
+            front.replace("<text", &stick([254.0, 140.0]))
+        )
+    });
+    let plain = character("boy");
+    let [with_stick, plain] = [&with_stick, &plain].map(|who| &who.compiled.characters[0]);
+    assert_eq!(with_stick.sides.len(), 1);
+    let mirrored = ViewId::from(2);
+    let region = |who: &okoshi::internals::billboard::Character, name: &str| {
+        let mut regions = who.regions.iter();
+        let region = regions.find(|region| region.name == name);
+        region.expect("a region").positions.clone()
+    };
+    for name in ["Left arm", "Right arm", "Head", "Badge", "Right shoe"] {
+        let [own, other] = [with_stick, plain].map(|who| region(who, name));
+        for (own, other) in own.iter().zip(&other) {
+            assert!(own.distance(*other) < 0.01, "{name}: {own} is not {other}");
+        }
+    }
+    // In the left hand it is on the right of the picture, from the right, too.
+    let [right, _, _] = view_axes(with_stick.turn.views[mirrored]);
+    let stick = region(with_stick, "Stick")[mirrored].dot(right);
+    let hand = region(with_stick, "Left hand")[mirrored].dot(right);
+    assert!(stick > hand && hand > 0.0, "{stick}, {hand}");
+    let mut regions = with_stick.regions.iter();
+    let stick = regions.find(|region| region.name == "Stick");
+    assert!(stick.is_some_and(|stick| stick.is_shown[mirrored]));
+}
+
+#[test]
 fn from_behind_a_character_is_its_silhouette_without_a_face() {
     for name in ["bird", "boy", "robot"] {
         let backed = edited(name, |text| {

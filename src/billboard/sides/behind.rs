@@ -5,9 +5,9 @@
 
 use std::sync::Arc;
 
-use glam::DVec2;
 use typed_index_collections::{TiSlice, TiVec};
 
+use super::grid::{Grid, OPAQUE, is_alike};
 use super::{Side, Views, mirror, opposite, within_half_turn};
 use crate::billboard::matching::{Track, TrackId};
 use crate::billboard::place::{TrackPosition, angle};
@@ -16,19 +16,11 @@ use crate::billboard::turn;
 use crate::geometry::{Outline, union};
 use crate::scene::ViewId;
 
-/// Rows of the grid on which neighbours are found.
-const ROWS: usize = 256;
-/// Columns at most: drawings may be much wider than high.
-const MOST_COLUMNS: usize = 1024;
-/// Regions with a smaller alpha hide nothing.
-const OPAQUE: f64 = 0.98;
 /// What is within others and covers a smaller share of the silhouette is a detail.
 const DETAIL: f64 = 0.04;
 /// The share of a region's upper rows, and of its columns, in which what frames it is beside and above it, at least.
 const BESIDE: f64 = 0.5;
 const ABOVE: f64 = 0.5;
-/// Colours that differ by at most this in each channel are alike: a fringe and the hair behind a head.
-const ALIKE: f64 = 0.06;
 /// Views that show the character from behind have a smaller cosine of their angle around.
 const FROM_BEHIND: f64 = -0.1;
 /// Silhouettes of views with a smaller cosine are not those of a back: from the side, both sides look alike.
@@ -55,73 +47,6 @@ pub(super) enum Back<Id> {
 /// What becomes of the regions of a view from the front.
 pub(super) struct Backs(pub(super) TiVec<RegionId, Back<RegionId>>);
 
-/// Which region is seen at each place of a grid.
-struct Grid {
-    columns: usize,
-    seen: Vec<Option<RegionId>>,
-}
-
-impl Grid {
-    fn new(view: &View) -> Option<Self> {
-        let (low, high) = view.bounds()?;
-        let size = high - low;
-        let step = (size.y / ROWS as f64).max(size.x / MOST_COLUMNS as f64);
-        if !(step > 0.0 && step.is_finite()) {
-            return None;
-        }
-        let count = |length: f64| ((length / step).ceil() as usize).clamp(1, MOST_COLUMNS);
-        let (columns, rows) = (count(size.x), count(size.y));
-        let mut grid = Self {
-            columns,
-            seen: vec![None; columns * rows],
-        };
-        let regions = view.regions.iter_enumerated();
-        for (id, region) in regions.filter(|(_, r)| !r.is_line && r.color[3] >= OPAQUE) {
-            grid.fill(&region.outline, |p| (p - low) / step - 0.5, id);
-        }
-        Some(grid)
-    }
-
-    /// Fills an outline; `place` takes its points to cells, whose middles are whole numbers.
-    fn fill(&mut self, outline: &Outline, place: impl Fn(DVec2) -> DVec2, id: RegionId) {
-        let rows = self.seen.len() / self.columns;
-        let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); rows];
-        for ring in outline.rings() {
-            let next = ring.iter().cycle().skip(1);
-            for (a, b) in ring.iter().zip(next) {
-                let (a, b) = (place(*a), place(*b));
-                let (upper, lower) = if a.y < b.y { (a, b) } else { (b, a) };
-                let first = upper.y.ceil().max(0.0) as usize;
-                let end = (lower.y.ceil().max(0.0) as usize).min(rows);
-                for (row, crossings) in crossings.iter_mut().enumerate().take(end).skip(first) {
-                    let share = (row as f64 - upper.y) / (lower.y - upper.y);
-                    crossings.push(upper.x + share * (lower.x - upper.x));
-                }
-            }
-        }
-        for (row, mut crossings) in crossings.into_iter().enumerate() {
-            crossings.sort_by(f64::total_cmp);
-            for pair in crossings.chunks_exact(2) {
-                let [first, end] = [pair[0], pair[1]].map(|x| x.ceil().max(0.0) as usize);
-                let cells = row * self.columns + first.min(self.columns)
-                    ..row * self.columns + end.min(self.columns);
-                self.seen[cells].fill(Some(id));
-            }
-        }
-    }
-
-    fn rows(&self) -> usize {
-        self.seen.len() / self.columns
-    }
-
-    /// What is seen at a cell; nothing outside of the grid.
-    fn at(&self, column: isize, row: isize) -> Option<RegionId> {
-        let column = usize::try_from(column).ok().filter(|c| *c < self.columns)?;
-        let row = usize::try_from(row).ok().filter(|r| *r < self.rows())?;
-        self.seen[row * self.columns + column]
-    }
-}
-
 /// What is around the cells in which a region is seen.
 #[derive(Debug, Default, Clone)]
 struct Around {
@@ -141,7 +66,7 @@ impl Backs {
             return Self(vec![Back::Own; count].into());
         };
         let around = around(&grid, count);
-        let silhouette = grid.seen.iter().flatten().count() as f64;
+        let silhouette = grid.cells() as f64;
         let back = |id: RegionId| {
             let (region, around) = (&view.regions[id], &around[id]);
             if region.is_line || region.color[3] < OPAQUE {
@@ -211,7 +136,7 @@ fn around(grid: &Grid, count: usize) -> TiVec<RegionId, Around> {
     let mut is_topped: TiVec<RegionId, usize> = vec![usize::MAX; count].into();
     for row in 0..grid.rows() {
         let mut ends: Vec<(RegionId, [usize; 2])> = Vec::new();
-        for column in 0..grid.columns {
+        for column in 0..grid.columns() {
             let (x, y) = (column as isize, row as isize);
             let Some(id) = grid.at(x, y) else { continue };
             around[id].cells += 1;
@@ -235,7 +160,7 @@ fn around(grid: &Grid, count: usize) -> TiVec<RegionId, Around> {
             around[id].beside.push(beside);
         }
     }
-    for column in 0..grid.columns {
+    for column in 0..grid.columns() {
         for row in 0..grid.rows() {
             let (x, y) = (column as isize, row as isize);
             let Some(id) = grid.at(x, y) else { continue };
@@ -273,15 +198,11 @@ fn framed_by(view: &View, around: &Around) -> Option<RegionId> {
         .filter(|ends| both(ends) == Some(frame))
         .count();
     let color = view.regions[frame].color;
-    let is_alike = |id: RegionId| {
-        let other = view.regions[id].color;
-        (0..3).all(|channel| (color[channel] - other[channel]).abs() <= ALIKE)
-    };
     let above = around
         .above
         .iter()
         .flatten()
-        .filter(|id| is_alike(**id))
+        .filter(|id| is_alike(color, view.regions[**id].color))
         .count();
     let is_frame = beside as f64 >= BESIDE * upper.len() as f64
         && above as f64 >= ABOVE * around.above.len() as f64;

@@ -1,15 +1,16 @@
 //! Mirror images of views.
 //!
-//! A thing on one side only, such as a badge, stays on its side: it is not mirrored.
+//! A thing on one side only, such as a badge or a stick, stays on its side: it is not mirrored.
 
 use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Side, Views};
-use crate::billboard::drawn::{Drawn, DrawnLine, DrawnView, OpenLine};
+use super::{Drawings, Side, Views};
+use crate::billboard::drawn::{Drawn, DrawnView, OpenLine};
 use crate::billboard::matching::{Track, TrackId};
 use crate::billboard::paints::is_same_color;
+use crate::billboard::place::{nearest_to_rays, on_ray};
 use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::geometry::{Outline, bounds};
 use crate::scene::ViewId;
@@ -80,13 +81,10 @@ impl Views {
         self.keep_colors(of, &regions, &mut view);
         for track in self.drawings.tracks.keys() {
             if self.partners[track].is_none() {
-                let carried = self.carried(track, &regions, &view);
-                regions[usize::from(track)] = carried.map(|(region, mut drawn)| {
-                    drawn.line = drawn.line.map(|line| DrawnLine {
-                        width: line.width * self.drawings.frames[of].height
-                            / self.drawings.frames[self.front].height,
-                        ..line
-                    });
+                let carried = self
+                    .carried(track, of, &regions, &view)
+                    .or_else(|| self.beside(track, of, direction));
+                regions[usize::from(track)] = carried.map(|(region, drawn)| {
                     view.drawn.push(drawn);
                     view.view.regions.push_and_get_key(region)
                 });
@@ -132,30 +130,85 @@ impl Views {
     fn carried(
         &self,
         track: TrackId,
+        of: ViewId,
         regions: &[Option<RegionId>],
         view: &DrawnView,
     ) -> Option<(Region, Drawn)> {
-        let at_front = &self.drawings.views[self.front];
-        let id = self.drawings.tracks[track].regions[self.front]?;
-        let own = &at_front.view.regions[id];
-        let outer = own.container?;
+        let front = self.front;
+        let id = self.drawings.tracks[track].regions[front]?;
+        let at_front = &self.drawings.views[front].view;
+        let outer = at_front.regions[id].container?;
         let mut tracks = self.drawings.tracks.iter();
-        let outer_track = tracks.position(|track| track.regions[self.front] == Some(outer))?;
+        let outer_track = tracks.position(|track| track.regions[front] == Some(outer))?;
         let container = regions[outer_track]?;
-        let (low, high) = bounds(&at_front.view.regions[outer].outline)?;
+        let (low, high) = bounds(&at_front.regions[outer].outline)?;
         let (from, to) = bounds(&view.view.regions[container].outline)?;
         let scale = (to - from) / (high - low);
-        let place = |point: DVec2| from + (point - low) * scale;
-        let is_usable = scale.is_finite();
-        let region = Region {
-            outline: Arc::new(
-                own.outline
-                    .map_rings(|ring| ring.iter().map(|p| place(*p)).collect()),
-            ),
-            container: Some(container),
-            ..own.clone()
+        let (mut region, drawn) = self.moved([front, of], id, |point| from + (point - low) * scale);
+        region.container = Some(container);
+        scale.is_finite().then_some((region, drawn))
+    }
+
+    /// A region on one side only that lies on nothing, as seen from the other: it looks as in the view from which that follows, and is
+    /// where the views that show it say. Without that view it is at the depth of the character's middle. `None` if the front does not
+    /// show it, or if it lies on something.
+    fn beside(&self, track: TrackId, of: ViewId, direction: Direction) -> Option<(Region, Drawn)> {
+        let Drawings {
+            views,
+            frames,
+            tracks,
+            ..
+        } = &self.drawings;
+        let regions = &tracks[track].regions;
+        let front = regions[self.front]?;
+        if views[self.front].view.regions[front].container.is_some() {
+            return None;
+        }
+        let middle = |(view, id): (ViewId, RegionId)| {
+            let (low, high) = bounds(&views[view].view.regions[id].outline)?;
+            Some((low + high) / 2.0)
         };
-        let mut drawn = at_front.drawn[id].clone();
+        let ray = |(view, id): (ViewId, &Option<RegionId>)| {
+            let on_screen = frames[view].on_screen(middle((view, (*id)?))?);
+            Some((views[view].view.direction, on_screen))
+        };
+        let rays: Vec<_> = regions.iter_enumerated().filter_map(ray).collect();
+        let (from, id) = match regions[of] {
+            Some(id) => (of, id),
+            None => (self.front, front),
+        };
+        let own = middle((from, id))?;
+        let of_front = frames[self.front].on_screen(middle((self.front, front))?);
+        let place = nearest_to_rays(&rays)
+            .unwrap_or_else(|| on_ray(views[self.front].view.direction, of_front, 0.0));
+        let [right, up, _] = direction.axes();
+        let at = DVec2::new(place.dot(right), place.dot(up));
+        let (to, scale) = (
+            frames[of].in_drawing(at),
+            frames[of].height / frames[from].height,
+        );
+        let mut moved = self.moved([from, of], id, |point| to + (point - own) * scale);
+        moved.0.container = None;
+        to.is_finite().then_some(moved)
+    }
+
+    /// A region of the first view with its points moved into one that is as large as the second view.
+    fn moved(
+        &self,
+        [from, to]: [ViewId; 2],
+        id: RegionId,
+        place: impl Fn(DVec2) -> DVec2,
+    ) -> (Region, Drawn) {
+        let DrawnView { view, drawn, .. } = &self.drawings.views[from];
+        let own = &view.regions[id];
+        let outline = own
+            .outline
+            .map_rings(|ring| ring.iter().map(|point| place(*point)).collect());
+        let scale = self.drawings.frames[to].height / self.drawings.frames[from].height;
+        let mut drawn = drawn[id].clone();
+        if let Some(line) = &mut drawn.line {
+            line.width *= scale;
+        }
         if let Some(line) = &mut drawn.open_line {
             line.points
                 .iter_mut()
@@ -163,7 +216,11 @@ impl Views {
         }
         // Its texture would have to be moved as well.
         drawn.part = None;
-        is_usable.then_some((region, drawn))
+        let region = Region {
+            outline: Arc::new(outline),
+            ..own.clone()
+        };
+        (region, drawn)
     }
 
     /// The feature points of a track in the mirror image of a view: where its partner has those that are its mirror images from the

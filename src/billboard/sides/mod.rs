@@ -4,7 +4,9 @@
 //! a view from an angle serves the opposite angle as well, with left and right exchanged: what is seen there of a left arm is seen
 //! here of the right one. From behind, each silhouette is the mirror image of that from the front; [`behind`] tells what is in it.
 
+mod axis;
 mod behind;
+mod grid;
 mod mirror;
 mod symmetry;
 #[cfg(test)]
@@ -126,6 +128,7 @@ pub(super) fn with_sides(
         let symmetry = keys::symmetry(&views.drawings.views[front].view, memo);
         if said == Some(true) || symmetry.is_symmetric {
             views.partners = symmetry::of_tracks(&symmetry, front, &views.drawings.tracks);
+            views.center_on(symmetry.axis);
             for view in one_sided {
                 views.add_mirrored(view);
             }
@@ -156,6 +159,32 @@ impl Views {
             views
         } else {
             Vec::new()
+        }
+    }
+
+    /// Moves the centre of the front view to the axis of symmetry, and those of the other views to the middle of what has a mirror image:
+    /// a stick in one hand would move the axis about which the character turns.
+    fn center_on(&mut self, axis: f64) {
+        let Drawings {
+            views,
+            frames,
+            tracks,
+            ..
+        } = &mut self.drawings;
+        for (view, frame) in frames.iter_mut_enumerated() {
+            let pairs = tracks.iter().zip(&self.partners);
+            let symmetric = pairs.filter(|(_, partner)| partner.is_some());
+            let boxes = symmetric.filter_map(|(track, _)| {
+                let region = &views[view].view.regions[track.regions[view]?];
+                bounds(&region.outline)
+            });
+            let around = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+            let middle = around.map(|(low, high)| (low.x + high.x) / 2.0);
+            frame.center.x = match middle {
+                _ if view == self.front => axis,
+                Some(middle) => middle,
+                None => frame.center.x,
+            };
         }
     }
 

@@ -3,6 +3,8 @@
 use glam::DVec2;
 use typed_index_collections::{TiSlice, TiVec};
 
+use super::axis::axis;
+use super::grid::is_alike;
 use super::mirror;
 use crate::billboard::matching::{Track, TrackId, match_regions};
 use crate::billboard::place::frames;
@@ -24,20 +26,33 @@ const SAME: f64 = 0.7;
 /// The share of a region without a partner that its own mirror image covers, at least, if it counts as symmetric.
 const OWN: f64 = 0.3;
 
+/// An outermost region of at least this share of the largest one is elsewhere on the other side, as a hand that is raised, if its partner's
+/// mirror image covers less than this share of it.
+const LIMB: f64 = 0.025;
+const MOVED: f64 = 0.1;
+/// What is added on one side, such as a stick, covers at most this share of the areas of all regions; of these, it is at most this
+/// share.
+const ADDED: f64 = 0.15;
+const ADDED_COUNT: f64 = 0.3;
+/// Two regions are the left and the right one of a pair, though not mirror images, if the smaller one has this share of the area of the
+/// larger one, at least: an arm that is raised is no addition.
+const COUNTERPART: f64 = 0.5;
+
 /// The symmetry of a drawing from the front.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::billboard) struct Symmetry {
     /// Whether the drawing is its own mirror image, but for small things.
     pub(in crate::billboard) is_symmetric: bool,
+    /// The place across of the upright line about which it is, drawing units.
+    pub(in crate::billboard) axis: f64,
     /// Per region the one that is its mirror image, itself if it is symmetric; `None` without one.
     pub(in crate::billboard) partners: TiVec<RegionId, Option<RegionId>>,
 }
 
-/// The symmetry of a view about the upright line through the middle of what it shows.
+/// The symmetry of a view about an upright line.
 pub(in crate::billboard) fn symmetry(view: &View) -> Symmetry {
-    let middle = view
-        .bounds()
-        .map_or(0.0, |(low, high)| (low.x + high.x) / 2.0);
+    let areas: TiVec<RegionId, f64> = view.regions.iter().map(|r| area(&r.outline)).collect();
+    let axis = axis(view, &areas);
     // A left arm is no right one by name.
     let unnamed = |region: &Region| Region {
         name: None,
@@ -47,16 +62,19 @@ pub(in crate::billboard) fn symmetry(view: &View) -> Symmetry {
         regions: view.regions.iter().map(unnamed).collect(),
         ..*view
     };
-    let image = mirror::view(&own, middle, own.direction);
+    let image = mirror::view(&own, axis, own.direction);
     let pair: TiVec<ViewId, View> = vec![own, image].into();
-    let matched = match_regions(&pair, &frames(&pair));
+    let mut frames = frames(&pair);
+    for frame in &mut frames {
+        frame.center.x = axis;
+    }
+    let matched = match_regions(&pair, &frames);
     let mut found: TiVec<RegionId, Option<RegionId>> = vec![None; view.regions.len()].into();
     for track in &matched.tracks {
         if let [Some(region), partner] = track.regions.raw[..] {
             found[region] = partner;
         }
     }
-    let areas: TiVec<RegionId, f64> = view.regions.iter().map(|r| area(&r.outline)).collect();
     let common = |a: RegionId, b: RegionId| {
         let [a, b] = [
             &pair[ViewId::FIRST].regions[a],
@@ -92,23 +110,74 @@ pub(in crate::billboard) fn symmetry(view: &View) -> Symmetry {
             partners[region] = Some(region);
         }
     }
-    let total: f64 = areas.iter().sum();
     let largest = areas.iter().copied().fold(0.0, f64::max);
+    // A fringe with its parting at one side is on both, and not its own image.
+    for (id, region) in view.regions.iter_enumerated() {
+        let is_large = areas[id] >= LARGE * largest;
+        let is_own = partners[id] == Some(id) && region.container.is_some();
+        if is_own && is_large && common(id, id) < COVERED_LARGE * areas[id] {
+            partners[id] = None;
+        }
+    }
+    let added = added(view, &partners, &areas);
+    let is_added = |region: &RegionId| added.contains(region);
+    let all: f64 = areas.iter().sum();
+    let of_added: f64 = added.iter().map(|region| areas[*region]).sum();
+    let total = all - of_added;
+    let count = (view.regions.len() - added.len()) as f64;
     let (mut covered, mut paired) = (0.0, 0_u32);
-    let mut is_symmetric = true;
+    let mut is_symmetric = of_added <= ADDED * all;
     for (region, partner) in partners.iter_enumerated() {
+        if is_added(&region) {
+            continue;
+        }
         let of_region = partner.map_or(0.0, |other| common(region, other));
         covered += of_region;
         paired += u32::from(partner.is_some());
-        is_symmetric &=
-            areas[region] < LARGE * largest || of_region >= COVERED_LARGE * areas[region];
+        let Region {
+            container, is_line, ..
+        } = &view.regions[region];
+        let least = if areas[region] >= LARGE * largest {
+            COVERED_LARGE
+        } else if areas[region] >= LIMB * largest && container.is_none() && !is_line {
+            MOVED
+        } else {
+            0.0
+        };
+        is_symmetric &= of_region >= least * areas[region];
     }
-    let count = view.regions.len() as f64;
     Symmetry {
         is_symmetric: is_symmetric
             && covered >= COVERED * total
             && f64::from(paired) >= PAIRED * count,
+        axis,
         partners,
+    }
+}
+
+/// What is added on one side only.
+fn added(
+    view: &View,
+    partners: &TiSlice<RegionId, Option<RegionId>>,
+    areas: &TiSlice<RegionId, f64>,
+) -> Vec<RegionId> {
+    let single: Vec<RegionId> = partners
+        .keys()
+        .filter(|id| partners[*id].is_none())
+        .collect();
+    let is_counterpart = |a: RegionId, b: RegionId| {
+        let [first, second] = [a, b].map(|id| &view.regions[id]);
+        a != b
+            && is_alike(first.color, second.color)
+            && first.is_line == second.is_line
+            && areas[a].min(areas[b]) >= COUNTERPART * areas[a].max(areas[b])
+    };
+    let is_added = |id: &&RegionId| !single.iter().any(|other| is_counterpart(**id, *other));
+    let added: Vec<RegionId> = single.iter().filter(is_added).copied().collect();
+    if added.len() as f64 <= ADDED_COUNT * view.regions.len() as f64 {
+        added
+    } else {
+        Vec::new()
     }
 }
 

@@ -62,8 +62,8 @@ pub(super) static MIRROR: Row = Row {
     summary: "whether a character's other side is the mirror image of the drawn one",
     long: "A character that looks symmetric from the front turns both ways from two drawings: `View 45 \
            0` serves the angle −45 as well, with left and right exchanged. `Mirror` does so for one \
-           that okoshi does not find symmetric; what hangs beside it on one side only is not seen from the \
-           other side. `Mirror off` leaves the side that nobody drew as it is. One view's string is enough.",
+           that okoshi does not find symmetric; what hangs beside it on one side only stays on that side. \
+           `Mirror off` leaves the side that nobody drew as it is. One view's string is enough.",
     example: "Boy$View 45 0 Mirror off",
     ..Row::ROW
 };
