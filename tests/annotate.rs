@@ -33,8 +33,8 @@ const FIGURES: &[&str] = &[
     "tutorial/5-face",
 ];
 /// The least shares of names and of parents, in per cent.
-const NAMES: usize = 62;
-const PARENTS: usize = 85;
+const NAMES: usize = 72;
+const PARENTS: usize = 87;
 /// The least number of limbs, heads and trunks that are named beside others with names.
 const ADDED: usize = 40;
 

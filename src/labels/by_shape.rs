@@ -6,7 +6,7 @@ use typed_index_collections::TiSlice;
 use super::figure::{Drafts, PartDraft, is_trunk};
 use super::part_tree::PartTree;
 use super::placement::Front;
-use super::{Class, FigurePartId, facing, held};
+use super::{Class, FigurePartId, beside, facing, held};
 use crate::anatomy::Term;
 
 /// An unnamed arm is at least this share of the figure's height long.
@@ -15,6 +15,10 @@ const ARM_LENGTH: f64 = 0.1;
 const OUTWARD: f64 = 0.02;
 /// Two parts whose mirrored centres are within this share of the height are a pair, so neither is the head.
 const TWIN: f64 = 0.1;
+/// A part whose joint is at most this share of its length from the middle of its axis has none of its own: it turns about its middle.
+const MIDDLE: f64 = 0.1;
+/// A leg that does not stand on the ground is at least and at most this much as long and as wide as the one that does.
+const OTHER_LEG: std::ops::RangeInclusive<f64> = 0.6..=1.6;
 /// How many candidates for a head are tried.
 const MAX_HEADS: usize = 16;
 /// A trunk at least this much wider than high is that of an animal in profile.
@@ -224,6 +228,8 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
     let facing = Front::of(tree, drafts, facing::find(tree, drafts).facing);
     let with_hands = held::with_hands(tree, drafts);
     let trunk = tree.around(trunk_parts(tree, drafts));
+    let reaches = tree.reaches();
+    let mut has_tail = drafts.iter().any(|draft| draft.class == Some(Class::Tail));
     for part in tree.order.iter().copied() {
         let name = tree.name(part);
         if drafts[part].class.is_some() {
@@ -247,7 +253,10 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
                 class.name()
             );
             drafts[part].set(class, why);
-        } else if !is_open(tree, drafts, part) || is_over_trunk(tree, drafts, trunk, part) {
+        } else if !is_open(tree, drafts, part)
+            || is_over_trunk(tree, drafts, trunk, part)
+            || tree.is_below_all(part, trunk)
+        {
             continue;
         } else if tree.stands(part) {
             let legs = tree.children[part].iter().filter(|child| {
@@ -266,10 +275,19 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
                     format!("`{name}` stands on the ground, so it is a leg"),
                 );
             }
+        } else if is_other_leg(tree, drafts, &reaches, trunk, part) {
+            let why = format!(
+                "`{name}` is like the leg that stands on the ground, so it is the other one"
+            );
+            drafts[part].set(Class::Leg, why);
         } else if is_raised_leg(tree, trunk, part) {
             let why = format!("`{name}` points down below the trunk, so it is a leg");
             drafts[part].set(Class::Leg, why);
         } else if let Some(class) = outward(tree, &facing, drafts, trunk, part) {
+            // A figure has one tail: what else is behind it is a bag, or a cloak.
+            if class == Class::Tail && std::mem::replace(&mut has_tail, true) {
+                continue;
+            }
             let why = match class {
                 Class::Tail => format!("`{name}` points away from the head, so it is a tail"),
                 _ => format!("`{name}` points outward, so it is an arm"),
@@ -277,6 +295,7 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
             drafts[part].set(class, why);
         }
     }
+    beside::arms(tree, drafts, trunk);
     many_legs(tree, drafts, trunk);
 }
 
@@ -305,7 +324,54 @@ fn is_raised_leg(tree: &PartTree<'_>, [low, high]: [DVec2; 2], part: FigurePartI
         && tip.y < joint.y - ARM_LENGTH * tree.height
 }
 
-/// An arm points away from the middle of the trunk; in profile, what points away from the head is a tail.
+/// Whether a part hangs on the lower half of an upright trunk and is as long and as wide as the only leg that stands on the ground.
+fn is_other_leg(
+    tree: &PartTree<'_>,
+    drafts: &Drafts,
+    reaches: &TiSlice<FigurePartId, f64>,
+    trunk: [DVec2; 2],
+    part: FigurePartId,
+) -> bool {
+    let Some(above) = tree.parents[part].filter(|_| is_upright(trunk)) else {
+        return false;
+    };
+    let mut standing = tree.children[above].iter().copied().filter(|other| {
+        tree.stands(*other)
+            && !drafts[*other].detail
+            && matches!(drafts[*other].class, None | Some(Class::Leg))
+    });
+    let (Some(leg), None) = (standing.next(), standing.next()) else {
+        return false;
+    };
+    let alike = |own: f64, other: f64| OTHER_LEG.contains(&(own / other));
+    axis(tree, trunk, part)[0].y < f64::midpoint(trunk[0].y, trunk[1].y)
+        && alike(tree.parts[part].width, tree.parts[leg].width)
+        && alike(reaches[part], reaches[leg])
+}
+
+/// Whether a trunk is higher than wide.
+fn is_upright([low, high]: [DVec2; 2]) -> bool {
+    let size = high - low;
+    size.y > size.x
+}
+
+/// The ends of a part's axis, the nearer one to the middle of the trunk first if the part turns about its own middle, else its joint.
+fn axis(tree: &PartTree<'_>, trunk: [DVec2; 2], part: FigurePartId) -> [DVec2; 2] {
+    let [near, far] = tree.ends(part);
+    let joint = tree.joint(part);
+    if joint.distance(near.midpoint(far)) > MIDDLE * near.distance(far) {
+        return [joint, tree.tip(part)];
+    }
+    let middle = trunk[0].midpoint(trunk[1]);
+    if near.distance_squared(middle) <= far.distance_squared(middle) {
+        [near, far]
+    } else {
+        [far, near]
+    }
+}
+
+/// An arm points away from the middle of the trunk; in profile, what points away from the head is a tail, unless it hangs on the upper
+/// half of an upright trunk.
 fn outward(
     tree: &PartTree<'_>,
     facing: &Front,
@@ -315,16 +381,19 @@ fn outward(
 ) -> Option<Class> {
     let body = tree.parents[part].filter(|parent| is_trunk(drafts[*parent].class));
     let around = body.map_or(trunk, |body| tree.around(std::iter::once(body)));
-    let axis = around[0].midpoint(around[1]).x;
-    let (joint, tip) = (tree.joint(part), tree.tip(part));
-    let reach = (tip.x - axis).abs();
-    let points = reach > (joint.x - axis).abs() + OUTWARD * tree.height;
+    let middle = around[0].midpoint(around[1]);
+    let [joint, tip] = axis(tree, around, part);
+    let reach = (tip.x - middle.x).abs();
+    let points = reach > (joint.x - middle.x).abs() + OUTWARD * tree.height;
     let beside = !(around[0].x..=around[1].x).contains(&tree.middle(part).x);
     if joint.distance(tip) < ARM_LENGTH * tree.height || !points && !beside {
         return None;
     }
     match facing {
-        Front::Beside { toward, .. } if (tree.middle(part).x - axis) * toward < 0.0 => {
+        Front::Beside { toward, .. }
+            if (tree.middle(part).x - middle.x) * toward < 0.0
+                && !(is_upright(around) && joint.y > middle.y) =>
+        {
             Some(Class::Tail)
         }
         _ => Some(Class::Arm),

@@ -25,6 +25,8 @@ pub struct Figure {
 pub struct FigurePart {
     /// Its name.
     pub name: String,
+    /// Whether nobody gave it that name: it hangs on whatever is nearest.
+    pub is_automatic: bool,
     /// Its parent. Several parts may have none.
     pub parent: Option<FigurePartId>,
     /// Where it turns.

@@ -195,6 +195,8 @@ fn details(tree: &PartTree<'_>, drafts: &mut Drafts) {
         let Some(parent) = tree.parents[part] else {
             continue;
         };
+        // Legends and the like are near a figure, but no parts of its body.
+        drafts[part].detail |= tree.loose[part];
         let is_face = drafts[parent].class == Some(Class::Head) && drafts[part].says(&[Term::Face]);
         let is_worn =
             drafts[part].says(&[Term::Worn]) && drafts[parent].says(&[Term::Hand, Term::Foot]);

@@ -67,9 +67,6 @@ pub(super) fn by_arm(
     let name = tree.name(part);
     let holder = tree.name(above);
     let held = |why: &str| Some(format!("held by `{holder}`: `{name}` {why}"));
-    if crosses && (is_end || !drafts[above].named) {
-        return held("reaches beyond the hand at both sides");
-    }
     // What goes on where the arm ends, and is about as wide and as long as that, is its forearm, whatever it is called.
     let alike =
         |own: f64, arms: f64, range: [f64; 2]| (range[0]..=range[1]).contains(&(own / arms));
@@ -77,7 +74,13 @@ pub(super) fn by_arm(
         && near.distance(hand).min(far.distance(hand)) <= tree.parts[above].width
         && alike(tree.parts[part].width, tree.parts[above].width, FOREARM)
         && length <= FOREARM[1] * whole;
-    if !is_end || goes_on {
+    if goes_on {
+        return None;
+    }
+    if crosses && (is_end || !drafts[above].named) {
+        return held("reaches beyond the hand at both sides");
+    }
+    if !is_end {
         return None;
     }
     if length > LONG * whole {

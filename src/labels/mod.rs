@@ -3,6 +3,7 @@
 //! Both are labelled by name first, and by shape where names say nothing: [`label_clip`] and [`label_figure`]. A label
 //! keeps the reason for it. All tables of words are in `anatomy`.
 
+mod beside;
 mod by_shape;
 mod drawn_figure;
 mod facing;

@@ -1,6 +1,8 @@
 //! A figure as a tree of bounding boxes: parents, children, and what stands on the ground.
 
 use glam::DVec2;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 use rustc_hash::FxHashSet;
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -15,6 +17,14 @@ const MIRRORED: f64 = 0.06;
 const SYMMETRIC: f64 = 0.9;
 const FEWEST_MIRRORED: usize = 4;
 
+/// Parts whose bounding boxes are at most this share of the figure's height apart may touch.
+const GAP: f64 = 0.03;
+/// What meets more boxes than this is part of the figure, without a look at whether all of them hang on it.
+const MANY: usize = 64;
+/// A shadow is at least this much wider than high, and this share of the trunk's width wide.
+const FLAT: f64 = 3.0;
+const SHADOW: f64 = 0.8;
+
 /// The parts of a figure as a tree.
 #[derive(Debug)]
 pub(super) struct PartTree<'a> {
@@ -28,6 +38,8 @@ pub(super) struct PartTree<'a> {
     pub(super) descendants: TiVec<FigurePartId, usize>,
     /// Per part the lowest point of itself and its descendants.
     lowest: TiVec<FigurePartId, f64>,
+    /// Per part whether it has no name of a person's, and touches nothing that does not hang on it.
+    pub(super) loose: TiVec<FigurePartId, bool>,
     ground: f64,
     pub(super) height: f64,
     /// The direction that the figure faces, if a string says so.
@@ -59,14 +71,8 @@ impl<'a> PartTree<'a> {
                 lowest[parent] = lowest[parent].min(lowest[*part]);
             }
         }
-        let ground = parts
-            .iter()
-            .map(|part| corners(part)[0].y)
-            .fold(f64::INFINITY, f64::min);
-        let top = parts
-            .iter()
-            .map(|part| corners(part)[1].y)
-            .fold(f64::NEG_INFINITY, f64::max);
+        let loose = loose(parts, &parents, &order);
+        let [ground, top] = reach(parts.iter().zip(&loose).filter(|(_, loose)| !**loose));
         Self {
             parts,
             parents,
@@ -74,6 +80,7 @@ impl<'a> PartTree<'a> {
             order,
             descendants,
             lowest,
+            loose,
             ground,
             height: top - ground,
             facing: figure.facing,
@@ -161,6 +168,19 @@ impl<'a> PartTree<'a> {
         size.x > size.y && top <= self.above_ground(GROUND)
     }
 
+    /// Whether a part lies flat on the ground below the whole trunk, as a shadow, a rug or a board does.
+    pub(super) fn is_below_all(&self, part: FigurePartId, trunk: [DVec2; 2]) -> bool {
+        let [low, high] = corners(&self.parts[part]);
+        let size = high - low;
+        let middle = trunk[0].midpoint(trunk[1]).x;
+        self.is_foot_on_ground(part)
+            && size.x >= FLAT * size.y
+            && size.x >= SHADOW * (trunk[1].x - trunk[0].x)
+            && low.x < middle
+            && middle < high.x
+            && high.y <= trunk[0].y
+    }
+
     /// The bounding box of some parts; an empty box at the origin if there are none.
     pub(super) fn around(&self, parts: impl Iterator<Item = FigurePartId>) -> [DVec2; 2] {
         parts
@@ -208,6 +228,45 @@ fn finite(point: DVec2) -> DVec2 {
             number.clamp(-FAR, FAR)
         }
     }))
+}
+
+/// The lowest and the highest point of some parts.
+fn reach<'a>(parts: impl Iterator<Item = (&'a FigurePart, &'a bool)>) -> [f64; 2] {
+    parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| {
+        let [from, to] = corners(part.0);
+        [low.min(from.y), high.max(to.y)]
+    })
+}
+
+/// Per part whether it is a loose shape, such as a swatch of a legend: it has a parent, but no name of a person's, and its bounding box is
+/// apart from those of all others that do not hang on it.
+fn loose(
+    parts: &TiSlice<FigurePartId, FigurePart>,
+    parents: &TiSlice<FigurePartId, Option<FigurePartId>>,
+    order: &[FigurePartId],
+) -> TiVec<FigurePartId, bool> {
+    let mut loose = ti_vec![false; parts.len()];
+    let all = parts.keys().map(|part| {
+        let [low, high] = corners(&parts[part]);
+        let rectangle = Rectangle::from_corners(low.to_array(), high.to_array());
+        GeomWithData::new(rectangle, part)
+    });
+    let boxes = RTree::bulk_load(all.collect());
+    let [ground, top] = reach(parts.iter().zip(&loose));
+    let gap = DVec2::splat(GAP * (top - ground).max(0.0));
+    for part in order.iter().copied() {
+        if parents[part].is_none() || !parts[part].is_automatic {
+            continue;
+        }
+        let [low, high] = corners(&parts[part]);
+        let around = AABB::from_corners((low - gap).to_array(), (high + gap).to_array());
+        let near = boxes.locate_in_envelope_intersecting(around);
+        let hangs_here = |other: FigurePartId| parents[other] == Some(part);
+        let mut others = near.map(|found| found.data).enumerate();
+        loose[part] =
+            !others.any(|(met, other)| met >= MANY || other != part && !hangs_here(other));
+    }
+    loose
 }
 
 fn parents(parts: &TiSlice<FigurePartId, FigurePart>) -> TiVec<FigurePartId, Option<FigurePartId>> {

@@ -102,6 +102,7 @@ pub(super) fn figure(
         let bones = bones.map_or(Vec::new(), |bones| bones.value.to_vec());
         FigurePart {
             name: part.name.clone(),
+            is_automatic: part.is_automatic(),
             parent,
             joint,
             tip,

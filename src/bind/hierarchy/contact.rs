@@ -4,6 +4,7 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 
+use glam::DVec2;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use typed_index_collections::TiSlice;
@@ -21,6 +22,8 @@ use crate::threads::GRAIN;
 
 /// Parts of one figure may be this far apart, as a share of the height of all named parts.
 const GAP: f64 = 0.02;
+/// An arm that touches nothing may be this far beside the trunk, as a share of the same height.
+const BESIDE: f64 = 0.08;
 /// How many points the outlines may have whose overlaps are computed. After that, bounding boxes decide.
 const MAX_OVERLAP_POINTS: usize = 1 << 19;
 /// A part that shares less than this with another one, as a share of the most that it shares with a part of a body, only brushes it.
@@ -137,8 +140,11 @@ struct NamedBodies {
     parts: Vec<PartId>,
     /// Whether at most one of them has a name of its own, so that all count as named.
     nameless: bool,
-    /// Per part the longer side of its bounding box.
+    /// Per part its bounding box, and the longer side of that.
+    bounds: Vec<(DVec2, DVec2)>,
     lengths: Vec<f64>,
+    /// The height of all named parts.
+    height: f64,
     bodies: Vec<NamedBody>,
     /// Per part those that their strings attach to it.
     followers: Vec<Vec<usize>>,
@@ -191,7 +197,7 @@ impl NamedBodies {
         let slack = GAP * (bottom - top).max(0.0);
         let areas: Vec<Body<'_>> = outlines
             .iter()
-            .zip(bounds)
+            .zip(bounds.iter().copied())
             .map(|(outlines, bounds)| Body {
                 outlines: outlines.clone(),
                 bounds,
@@ -210,7 +216,9 @@ impl NamedBodies {
         let mut read = Self {
             parts,
             nameless,
+            bounds,
             lengths,
+            height: (bottom - top).max(0.0),
             bodies,
             followers,
             touching,
@@ -317,7 +325,28 @@ impl NamedBodies {
                 self.reach(way.to, way.steps, &carriers, &mut search);
             }
         }
+        self.hang_beside(&mut search.found);
         search.found
+    }
+
+    /// Hangs arms that touch nothing on the trunk beside which they lie, if there is only one.
+    fn hang_beside(&self, found: &mut [(usize, Option<usize>)]) {
+        let role = |place: usize| self.bodies[place].role;
+        let mut trunks = (0..self.parts.len()).filter(|place| role(*place) == Some(Role::Body));
+        let (Some(trunk), None) = (trunks.next(), trunks.next()) else {
+            return;
+        };
+        let body = self.bounds[trunk];
+        for (place, parent) in found {
+            let own = self.bounds[*place];
+            let gap = (own.0.x - body.1.x).max(body.0.x - own.1.x);
+            let is_level = own.0.y < body.1.y && body.0.y < own.1.y;
+            let is_arm = role(*place) == Some(Role::UpperArm);
+            let is_beside = is_level && (0.0..=BESIDE * self.height).contains(&gap);
+            if parent.is_none() && is_arm && is_beside && self.touching[*place].is_empty() {
+                *parent = Some(trunk);
+            }
+        }
     }
 
     /// Reaches a part, and with it the parts that strings attach to it: those lead on only from here, so that nothing hangs on itself.
@@ -426,7 +455,7 @@ fn shared(areas: &[Body<'_>], touching: &[Vec<usize>]) -> FxHashMap<(usize, usiz
         } else {
             let low = a.bounds.0.max(b.bounds.0);
             let high = a.bounds.1.min(b.bounds.1);
-            (high - low).max(glam::DVec2::ZERO).element_product()
+            (high - low).max(DVec2::ZERO).element_product()
         };
         ((one, other), both)
     });

@@ -19,6 +19,12 @@ const OFF: f64 = 0.3;
 /// A head is at least this share of the figure's box, and at most this much longer than wide or the other way round.
 const SMALLEST_HEAD: f64 = 0.004;
 const LONGEST_HEAD: f64 = 2.2;
+/// Hair behind a face holds this share of it, and brows on it are at most this share of the face's height from the eyes.
+const ON_HAIR: f64 = 0.6;
+const SAME_PLACE: f64 = 0.15;
+/// A helmet is at most this share of the trunk wide, and the slit in it between these shares of the helmet.
+const HELMET: f64 = 0.75;
+const SLIT_WIDTH: std::ops::RangeInclusive<f64> = 0.5..=0.9;
 /// The least score of a face: dark eyes in the middle of something high up.
 const LEAST: f64 = 1.7;
 
@@ -26,8 +32,10 @@ const LEAST: f64 = 1.7;
 #[derive(Debug)]
 pub(super) struct Face {
     pub(super) head: usize,
-    /// The shapes of its eyes: one with two pieces, or two.
+    /// The shapes of its eyes: one with two pieces, or two; none for a helmet.
     pub(super) eyes: Vec<usize>,
+    /// Why it is a head, a clause.
+    pub(super) why: &'static str,
 }
 
 /// A pair of spots that may be eyes.
@@ -43,13 +51,68 @@ pub(super) fn find(shapes: &Shapes) -> Option<Face> {
         let head = host(shapes, pair)?;
         Some((score(shapes, pair, head)?, pair, head))
     });
-    let (_, pair, head) = scored
-        .filter(|(score, ..)| *score >= LEAST)
-        .max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let faces: Vec<(f64, &Pair, usize)> = scored.filter(|(score, ..)| *score >= LEAST).collect();
+    let mut best = *faces.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    // Brows may lie on hair that is behind the face.
+    let inner = faces.iter().filter(|face| is_before(shapes, face, &best));
+    if let Some(inner) = inner.max_by(|a, b| a.0.total_cmp(&b.0)) {
+        best = *inner;
+    }
+    let (_, pair, head) = best;
+    if let Some(head) = helmet(shapes, head) {
+        return Some(Face {
+            head,
+            eyes: Vec::new(),
+            why: "it is above the body, with a slit like that of a helmet",
+        });
+    }
     Some(Face {
         head,
         eyes: pair.shapes.clone(),
+        why: "two dark spots of one size lie on it like eyes",
     })
+}
+
+/// Whether a face lies on the head of another one, with its eyes at the same place.
+fn is_before(
+    shapes: &Shapes,
+    (_, pair, head): &(f64, &Pair, usize),
+    (_, behind, other): &(f64, &Pair, usize),
+) -> bool {
+    let (Some(own), Some(other_head)) = (shapes.get(*head), shapes.get(*other)) else {
+        return false;
+    };
+    let apart = between(pair).distance(between(behind));
+    head > other && own.on(other_head) >= ON_HAIR && apart <= SAME_PLACE * own.size().y
+}
+
+/// The helmet above a trunk on which two spots lie: narrower than the trunk and about as high as wide, with a dark slit across it.
+fn helmet(shapes: &Shapes, trunk: usize) -> Option<usize> {
+    let trunk = shapes.get(trunk)?;
+    let size = trunk.size();
+    let is_above = |shape: &Shape| {
+        let own = shape.size();
+        shape.bounds.high.y <= trunk.bounds.low.y + 0.2 * size.y
+            && (shape.middle().x - trunk.middle().x).abs() <= 0.15 * size.x
+            && own.x <= HELMET * size.x
+            && own.max_element() <= 1.7 * own.min_element()
+    };
+    let is_slit = |slit: &Shape, helmet: &Shape| {
+        let (own, all) = (slit.size(), helmet.size());
+        slit.on(helmet) >= 0.9
+            && SLIT_WIDTH.contains(&(own.x / all.x))
+            && own.y <= 0.25 * all.y
+            && (slit.middle().x - helmet.middle().x).abs() <= 0.15 * all.x
+            && slit.distance_of_colors(helmet) >= CONTRAST
+            && slit.brightness() < helmet.brightness()
+    };
+    let has_slit = |index: usize, helmet: &Shape| {
+        let mut later = shapes.iter().filter(|(other, _)| *other > index);
+        later.any(|(_, slit)| is_slit(slit, helmet))
+    };
+    let mut helmets = shapes.iter().filter(|(_, shape)| is_above(shape));
+    let found = helmets.find(|(index, helmet)| has_slit(*index, helmet));
+    found.map(|(index, _)| index)
 }
 
 fn between(pair: &Pair) -> DVec2 {

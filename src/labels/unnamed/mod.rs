@@ -118,6 +118,7 @@ pub(crate) fn guess(units: &[Drawn], all: &[Drawn]) -> Guesses {
         let face = Face {
             head: head.unwrap_or(unit(face.head)),
             eyes: face.eyes.into_iter().map(unit).collect(),
+            why: face.why,
         };
         people::around(&shapes, &face, &mut guesses);
     } else if head.is_some() || !vehicles::find(&shapes, &mut guesses) {

@@ -42,8 +42,7 @@ pub(super) fn around(shapes: &Shapes, face: &Face, guesses: &mut Guesses) {
         index: face.head,
         face,
     };
-    let why = "two dark spots of one size lie on it like eyes";
-    guesses.add(face.head, Noun::Head, Certainty::Certain, why);
+    guesses.add(face.head, Noun::Head, Certainty::Certain, face.why);
     around.eyes(guesses);
     around.ears(guesses);
     around.neck(guesses);
