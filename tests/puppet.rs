@@ -143,7 +143,7 @@ const SVG: &str = "http://www.w3.org/2000/svg";
 /// What must hold for the sheet of every drawing.
 fn check_laws(compiled: &Compiled, sheet: &Sheet, page: DVec2) -> Result<(), String> {
     let fails = |what: String| -> Result<(), String> { Err(what) };
-    let made = pieces(&compiled.drawing, &compiled.bindings).unwrap();
+    let made = pieces(&compiled.drawing, &compiled.bindings).expect("few pieces");
     let seen = read(&sheet.svg);
     if seen.len() != made.len() || sheet.pieces != made.len() {
         return fails(format!("{} pieces of {}", seen.len(), made.len()));
@@ -260,7 +260,7 @@ fn compare(
 ) -> Vec<(f64, usize)> {
     let picture = picture(sheet);
     let seen = read(&sheet.svg);
-    let made = pieces(&compiled.drawing, &compiled.bindings).unwrap();
+    let made = pieces(&compiled.drawing, &compiled.bindings).expect("few pieces");
     let compared = made.iter().zip(seen.values()).map(|(piece, seen)| {
         let scale = sheet.scale * PIXELS;
         let size = (compiled.drawing.page.1 * scale)
@@ -359,7 +359,7 @@ fn pieces_show_what_is_drawn() {
 fn details_stay_on_their_piece() {
     let resolver = MemoryResolver::default();
     let compiled = common::compiled(GOOD, &resolver);
-    let made = pieces(&compiled.drawing, &compiled.bindings).unwrap();
+    let made = pieces(&compiled.drawing, &compiled.bindings).expect("few pieces");
     let names = |piece: &PaperPiece| {
         let parts = [&[piece.part][..], &piece.details].concat();
         let names = parts
@@ -396,7 +396,7 @@ fn joints_without_paper_are_passed_over() {
 </svg>"##;
     let resolver = MemoryResolver::default();
     let compiled = common::compiled(text, &resolver);
-    let made = pieces(&compiled.drawing, &compiled.bindings).unwrap();
+    let made = pieces(&compiled.drawing, &compiled.bindings).expect("few pieces");
     let names = made.iter().map(|piece| {
         let carrier = piece.joint.map(|joint| made[joint.parent].part);
         let name = |part: PartId| compiled.bindings.parts[part].name.as_str();
