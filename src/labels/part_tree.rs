@@ -72,7 +72,12 @@ impl<'a> PartTree<'a> {
             }
         }
         let loose = loose(parts, &parents, &order);
-        let [ground, top] = reach(parts.iter().zip(&loose).filter(|(_, loose)| !**loose));
+        let [ground, top] = reach(
+            parts
+                .iter_enumerated()
+                .filter(|(id, _)| !loose[*id])
+                .map(|(_, part)| part),
+        );
         Self {
             parts,
             parents,
@@ -231,9 +236,9 @@ fn finite(point: DVec2) -> DVec2 {
 }
 
 /// The lowest and the highest point of some parts.
-fn reach<'a>(parts: impl Iterator<Item = (&'a FigurePart, &'a bool)>) -> [f64; 2] {
+fn reach<'a>(parts: impl Iterator<Item = &'a FigurePart>) -> [f64; 2] {
     parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| {
-        let [from, to] = corners(part.0);
+        let [from, to] = corners(part);
         [low.min(from.y), high.max(to.y)]
     })
 }
@@ -252,7 +257,7 @@ fn loose(
         GeomWithData::new(rectangle, part)
     });
     let boxes = RTree::bulk_load(all.collect());
-    let [ground, top] = reach(parts.iter().zip(&loose));
+    let [ground, top] = reach(parts.iter());
     let gap = DVec2::splat(GAP * (top - ground).max(0.0));
     for part in order.iter().copied() {
         if parents[part].is_none() || !parts[part].is_automatic {
