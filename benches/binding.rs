@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 use okoshi::Memo;
 use okoshi::compile::{Options, compile};
 use okoshi::export::{GLB, to_memory};
-use okoshi::internals::bind::{bind, in_layers_of_pixels};
+use okoshi::internals::bind::{bind, in_layers_of_pixels, makes_pose_layer};
 use okoshi::internals::svg;
 use okoshi::resolver::MemoryResolver;
 
@@ -77,7 +77,16 @@ fn figures(shapes: usize) -> String {
 
 fn measure(kind: &str, text: &str) {
     let resolver = MemoryResolver::default();
-    let read = |text: &str| svg::read(text, 0.001, &resolver, &in_layers_of_pixels).0;
+    let read = |text: &str| {
+        svg::read(
+            text,
+            0.001,
+            &resolver,
+            &in_layers_of_pixels,
+            &makes_pose_layer,
+        )
+        .0
+    };
     let paper = text.replace("</svg>", "<text>%Bind center</text></svg>");
     let (meant, paper) = (read(text), read(&paper));
     let mut times: [Vec<Duration>; 3] = Default::default();

@@ -1,4 +1,5 @@
-// Measures the preview page: how long it takes to open, from a save to the new picture, and to turn the view.
+// Measures the preview page: how long it takes to open, from a save to the new picture, to turn the view, and from a press to what it
+// changes (press.mjs).
 //
 //   cargo build --release && npm ci --prefix editors/web && node benches/preview.mjs [PARTS…]
 //
@@ -15,6 +16,7 @@ import { closeSync, mkdtempSync, openSync, rmSync, writeFileSync, writeSync } fr
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { presses } from "./press.mjs";
 
 const root = new URL("..", import.meta.url).pathname;
 const { chromium } = createRequire(join(root, "editors/web/package.json"))("playwright-core");
@@ -170,6 +172,11 @@ async function measure(parts) {
     if (visit === "second") await measurePage(page, cdp, { parts, path, opening });
     await page.close();
   }
+  const page = await browser.newPage({ viewport: { width: 1000, height: 600 } });
+  page.setDefaultTimeout(300_000);
+  await page.goto(url);
+  await page.waitForSelector("canvas[data-frames]");
+  await presses(page, print);
   await browser.close();
   server.kill();
   rmSync(folder, { recursive: true });

@@ -8,7 +8,7 @@ pub mod billboard {
     pub use crate::billboard::{Character, RegionId, ViewId, stages};
 }
 pub mod bind {
-    pub use crate::bind::{PartId, PartKind, bind, in_layers_of_pixels};
+    pub use crate::bind::{PartId, PartKind, bind, in_layers_of_pixels, makes_pose_layer};
 }
 pub mod budget {
     pub use crate::budget::{STEPS, counted};
@@ -42,7 +42,7 @@ pub mod ide {
 
     pub mod changes {
         pub use crate::ide::changes::{
-            Change, History, Place, Refusal, Step, can_set, check, edits, rebased,
+            Change, History, PartTurn, Place, Refusal, Step, can_set, check, edits, rebased,
         };
     }
 }
@@ -110,6 +110,10 @@ pub mod performance {
 }
 pub mod prepare {
     pub use crate::prepare::{Options, PreparedClip, built_in, find_lead_in, prepare};
+}
+#[cfg(feature = "page")]
+pub mod page {
+    pub use crate::page::{Studio, Tried, film, trace};
 }
 pub mod puppet {
     pub use crate::puppet::{MarkOrigin, Options, PaperPiece, PuppetError, Sheet, pieces, sheet};

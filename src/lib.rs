@@ -74,6 +74,8 @@
     test,
     allow(clippy::unwrap_used, reason = "a test that fails to unwrap has failed")
 )]
+// Tests may compute what they draw in any way.
+#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 #![cfg_attr(
     not(feature = "cli"),
     allow(
@@ -119,14 +121,18 @@ mod look;
 #[cfg(feature = "lsp")]
 mod lsp;
 mod mark_tracks;
+mod math;
 mod memo;
 mod mocap;
 mod motion;
+#[cfg(feature = "page")]
+mod page;
 mod performance;
 mod prepare;
 #[cfg(feature = "preview")]
 mod preview;
 mod puppet;
+mod raster;
 mod regions;
 #[cfg(feature = "render")]
 pub mod render;
@@ -138,10 +144,13 @@ pub mod scene;
 mod smoothing;
 mod solid;
 mod source;
+#[cfg(feature = "page")]
+mod starters;
 mod svg;
 mod terrain;
 mod texture;
 mod threads;
+mod trace;
 #[cfg(feature = "tracking")]
 mod tracking;
 #[cfg(feature = "watch")]

@@ -247,13 +247,31 @@ impl MemoryResolver {
         self.files.insert(path.to_owned(), bytes.into());
         self
     }
+
+    /// Without the file of a relative path, if there is one.
+    #[must_use]
+    pub fn without(mut self, path: &str) -> Self {
+        self.files.remove(path);
+        self
+    }
+
+    /// The paths of all files, in alphabetical order.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &str> {
+        self.files.keys().map(String::as_str)
+    }
+
+    /// The file of exactly this path.
+    ///
+    /// # Errors
+    /// If it is not there.
+    pub(crate) fn file(&self, path: &str) -> LinkContent {
+        self.files.get(path).cloned().ok_or(LinkError::Missing)
+    }
 }
 
 impl Resolver for MemoryResolver {
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
-        first_spelling(link, inside, |path| {
-            self.files.get(path).cloned().ok_or(LinkError::Missing)
-        })
+        first_spelling(link, inside, |path| self.file(path))
     }
 
     fn siblings(&self, link: &str) -> Vec<String> {
@@ -267,9 +285,14 @@ impl Resolver for MemoryResolver {
     }
 }
 
+/// The folder of a path, with its slash, and the name in it; each may be empty.
+pub(crate) fn folder_and_name(path: &str) -> (&str, &str) {
+    path.split_at(path.rfind('/').map_or(0, |slash| slash + 1))
+}
+
 /// The folder of a path, with its slash, and the ending of its name, with its dot; each may be empty.
 pub(crate) fn folder_and_ending(path: &str) -> (&str, &str) {
-    let (folder, name) = path.split_at(path.rfind('/').map_or(0, |slash| slash + 1));
+    let (folder, name) = folder_and_name(path);
     (folder, name.rfind('.').map_or("", |dot| &name[dot..]))
 }
 

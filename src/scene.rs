@@ -20,6 +20,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DQuat, DVec3};
 
 use crate::index::index_type;
+use crate::math;
 
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use camera::{Camera, CameraProjection};
@@ -409,7 +410,7 @@ pub fn linear(channel: f64) -> f32 {
     let linear = if channel <= 0.040_45 {
         channel / 12.92
     } else {
-        ((channel + 0.055) / 1.055).powf(2.4)
+        math::powf((channel + 0.055) / 1.055, 2.4)
     };
     linear as f32
 }

@@ -1,5 +1,6 @@
 //! Smooth changes in time.
 
+use crate::math;
 use glam::DVec3;
 
 /// How far the filter reaches, in standard deviations.
@@ -19,7 +20,7 @@ pub(crate) fn smoothed(path: &[DVec3], deviation: f64) -> Vec<DVec3> {
     }
     let last = path.len() as i64 - 1;
     let reach = ((deviation * REACH).ceil() as i64).min(last);
-    let weight = |offset: i64| (-0.5 * (offset as f64 / deviation).powi(2)).exp();
+    let weight = |offset: i64| math::exp(-0.5 * (offset as f64 / deviation).powi(2));
     let weights: Vec<f64> = (0..=reach).map(weight).collect();
     let total = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
     let at = |index: i64| {
@@ -65,7 +66,7 @@ pub(crate) fn envelope(values: &[f64], reach: usize, is_cycle: bool) -> Vec<f64>
         } else {
             apart
         };
-        1.0 + (std::f64::consts::PI * apart as f64 / (reach + 1) as f64).cos()
+        1.0 + math::cos(std::f64::consts::PI * apart as f64 / (reach + 1) as f64)
     };
     let mean = |at: usize| {
         let weighed = around(at).map(|place| (greatest[place], bell(at, place)));

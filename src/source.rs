@@ -307,6 +307,15 @@ pub fn escape_xml(text: &str) -> String {
     out
 }
 
+/// What [`escape_xml`] wrote, as it was.
+pub(crate) fn unescape_xml(text: &str) -> String {
+    let signs = [("&lt;", "<"), ("&gt;", ">"), ("&amp;", "&")];
+    let signs = signs.into_iter();
+    signs.fold(text.to_owned(), |text, (entity, sign)| {
+        text.replace(entity, sign)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -37,6 +37,21 @@ fn pool() -> Option<&'static ThreadPool> {
     POOL.as_ref()
 }
 
+/// Whether the system gives no threads beside that of the caller.
+pub(crate) fn are_none() -> bool {
+    pool().is_none()
+}
+
+/// Does work on a thread that is given no others.
+#[cfg(test)]
+pub(crate) fn without_others<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    let alone = || {
+        tests::ALONE.set(true);
+        work()
+    };
+    std::thread::scope(|scope| scope.spawn(alone).join()).unwrap()
+}
+
 /// How deep elements of a drawing may be nested, so that reading them fits the stack.
 pub(crate) fn nesting_limit() -> usize {
     pool().map_or(DEEPEST_ALONE, |_| DEEPEST)

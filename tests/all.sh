@@ -164,7 +164,7 @@ features() {
   local feature packages
   OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --lib --profile test
   # `watch` is `disk` and one module, which comes with `preview`.
-  for feature in disk render tracking preview lsp; do
+  for feature in disk render tracking page preview lsp; do
     OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features "$feature"
   done
   # The versions of the libraries are those of the program.
@@ -175,20 +175,24 @@ features() {
   [ "$packages" -lt 130 ]
 }
 
-# The core for a browser. rustup's toolchain, if it has that target; otherwise Debian's, whose standard library is compiled first.
+# okoshi as a module for browsers.
 wasm() {
-  local target_triple=wasm32-unknown-unknown check
-  check=(check --locked --lib --no-default-features --target $target_triple)
-  if rustup target list --installed 2> /dev/null | grep -qx $target_triple; then
-    cargo "${check[@]}"
-    return
-  fi
-  if ! [ -d /usr/lib/rustlib/src/rust/library ]; then
+  if ! rustup target list --installed 2> /dev/null | grep -qx wasm32-unknown-unknown \
+    && { ! [ -d /usr/lib/rustlib/src/rust/library ] || ! command -v wasm-ld-22 > /dev/null; }; then
     [ $quick = no ] || skip "--quick, and there is no compiler for WebAssembly"
-    install "A compiler for WebAssembly" rustc-web cargo-web rust-web-src
+    install "A compiler for WebAssembly" rustc-web cargo-web rust-web-src lld-22
   fi
-  # Sources of the standard library are built by the compiler that they came with.
-  RUSTC=/usr/bin/rustc RUSTC_BOOTSTRAP=1 /usr/bin/cargo "${check[@]}" -Z build-std=std,panic_abort --target-dir "$target/wasm"
+  rm -rf "$target/module"
+  # Less optimised than a module that is handed on, which takes several times as long to build.
+  CARGO_TARGET_DIR=$target CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
+    bash editors/web/wasm/build.sh "$target/module"
+}
+
+# The page that has the module, in Chromium.
+app() {
+  need npm
+  [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
+  OKOSHI_MODULE=$(realpath "$target/module") with_web npm test --prefix editors/web -- app. worker. bytes.
 }
 
 # What a package holds is enough: installed from it without npm, the program serves the page.
@@ -419,6 +423,15 @@ extension() {
   OKOSHI=$(realpath "$okoshi") with_web npm test --prefix editors/vscode
 }
 
+# What is edited by mouse in the panel of a real workbench. To install that takes minutes, which is left to who works on the extension.
+workbench() {
+  [ $quick = no ] || skip "--quick"
+  need npm
+  [ -n "${CODE_SERVER:-}" ] || [ -e "$target/workbench/code-server/done" ] ||
+    skip "code-server is not installed; npm run workbench --prefix editors/vscode does that"
+  ONLY="edited by mouse,undo in the panel,save by another" OKOSHI=$(realpath "$okoshi") with_web npm run workbench --prefix editors/vscode
+}
+
 has_chromium() {
   local name
   [ -z "${CHROMIUM:-}" ] || return 0
@@ -466,7 +479,7 @@ step format formatting
 step clippy lints
 # Each of the two rows takes about one core: what needs cargo, and what needs the program.
 if program; then is_built=yes; fi
-begin_aside examples:examples validator:validator schemas:schemas extension:extension page:page editors:editors inkscape:inkscape_extension \
+begin_aside examples:examples validator:validator schemas:schemas extension:extension workbench:workbench page:page editors:editors inkscape:inkscape_extension \
   blender:blender_import blender-light:blender_light sides:sides gallery:gallery readme:readme
 step test tests
 step package package
@@ -478,6 +491,8 @@ step licences licences
 step site site
 step packages packages
 end_aside
+# Not beside the other tests of the page, which are bundled into the same folder.
+step app app
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"

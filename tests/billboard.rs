@@ -695,6 +695,29 @@ fn from_behind_a_character_is_its_silhouette_without_a_face() {
 }
 
 #[test]
+fn a_face_under_hair_keeps_its_colour_until_the_hair_covers_it() {
+    let boy = edited("boy", |text| {
+        text.replace("$View 0 0<", "$View 0 0 Backing<")
+    });
+    let (skin, hair) = ([247.0, 201.0, 160.0], [122.0, 74.0, 33.0]);
+    for theta in [-120.0, -90.0, -60.0, 60.0, 75.0, 90.0, 105.0, 120.0] {
+        let seen = seen_from(&boy, [theta, 0.0]);
+        let count = |mixed: f64| {
+            let color: [f64; 3] = [0, 1, 2].map(|i| skin[i] + mixed * (hair[i] - skin[i]));
+            let is_it =
+                |pixel: &&[u8; 4]| (0..3).all(|i| (f64::from(pixel[i]) - color[i]).abs() < 3.0);
+            seen.pixels.iter().filter(is_it).count()
+        };
+        let darker: usize = (1..20).map(|step| count(f64::from(step) / 20.0)).sum();
+        assert!(
+            count(0.0) > 100 && 5 * darker < count(0.0),
+            "from {theta}: {darker} of {}",
+            count(0.0)
+        );
+    }
+}
+
+#[test]
 fn feature_points_tie_places_of_outlines_together() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/view-feature-points");
     let text = fs::read_to_string(folder.join("drawing.svg")).expect("a drawing");

@@ -16,7 +16,7 @@ use okoshi::compile::Compiled;
 use okoshi::diagnostic::{Edit, Severity};
 use okoshi::internals::bind::{PartId, PartKind};
 use okoshi::internals::ide::Analysis;
-use okoshi::internals::ide::changes::{Change, Place, Step, can_set, check, edits};
+use okoshi::internals::ide::changes::{Change, PartTurn, Place, Step, can_set, check, edits};
 use okoshi::internals::lang::keyword::Keyword;
 
 /// How many changes are tried of each drawing.
@@ -103,6 +103,20 @@ impl Drawing {
         })
     }
 
+    /// A change that poses one of the parts.
+    fn posed(&self, at: usize) -> Change {
+        let parts = &self.before.compiled().bindings.parts;
+        let main = parts.iter().filter(|part| part.kind == PartKind::Main);
+        let names: Vec<&str> = main.map(|part| part.name.as_str()).collect();
+        let part = names.get(at % names.len().max(1)).copied();
+        Change::KeepPose {
+            turns: vec![PartTurn {
+                part: part.unwrap_or_default().to_owned(),
+                degrees: 25.0,
+            }],
+        }
+    }
+
     /// All changes that are tried.
     fn changes(&self) -> Vec<Change> {
         let bindings = &self.before.compiled().bindings;
@@ -150,16 +164,19 @@ impl Drawing {
                 parent: None,
             });
             all.push(Change::LeaveOut { part: part() });
-            for (clip, motion, limited) in [
-                (0, Some("-i dance 2.5 speed 0.5"), Some("3 7")),
-                (0, None, None),
-                (1, Some("wave"), None),
+            for (clip, motion, limited, held) in [
+                (0, Some("-i dance 2.5 speed 0.5"), Some("3 7"), None),
+                (0, Some("walk"), None, Some("3 2 7 0")),
+                (0, Some("walk"), Some("0 4"), Some("5 3")),
+                (0, None, None, None),
+                (1, Some("wave"), None, None),
             ] {
                 all.push(Change::Clip {
                     part: part(),
                     clip,
                     motion: motion.map(str::to_owned),
                     limited: limited.map(str::to_owned),
+                    held: held.map(str::to_owned),
                     place: if at % 2 == 0 { Place::Ask } else { Place::Own },
                 });
             }
@@ -230,8 +247,22 @@ fn kind(change: &Change) -> &'static str {
         Change::LeaveOut { .. } => "leave out",
         Change::NameParts => "name-parts",
         Change::Clip { .. } => "clip",
+        Change::KeepPose { .. } => "keep-pose",
         Change::Variable { .. } => "variable",
+        Change::Write { .. } => "write",
+        Change::Apply { .. } => "apply",
     }
+}
+
+/// Whether a clip of key poses turns a part.
+fn is_posed(compiled: &Compiled, part: &str) -> bool {
+    let clips = compiled.clips.iter();
+    let mut clips = clips.filter(|clip| clip.is_posed);
+    clips.any(|clip| {
+        let mut drives = clip.parts.iter();
+        drives
+            .any(|drive| drive.joint.is_some() && compiled.bindings.parts[drive.part].name == part)
+    })
 }
 
 /// A refusal without what it names.
@@ -284,6 +315,21 @@ fn made(drawing: &Drawing, change: &Change, counts: &mut Counts) -> Option<(Stri
     for error in errors(new) {
         counts.require(errors(old).contains(&error), || {
             format!("{place} makes an error: {error}")
+        });
+    }
+    if let Change::KeepPose { turns } = change {
+        counts.require(is_posed(new, &turns[0].part), || {
+            format!("{place} poses nothing")
+        });
+        // What is written is read without complaints.
+        let complaints = |compiled: &Compiled| {
+            let warnings = compiled.diagnostics.iter();
+            warnings
+                .filter(|found| found.severity() == Severity::Warning)
+                .count()
+        };
+        counts.require(complaints(new) <= complaints(old), || {
+            format!("{place} makes warnings")
         });
     }
     if let Some(but) = changed(old, change) {
@@ -381,12 +427,13 @@ fn goes_back(drawing: &Drawing, change: &Change, text: &str, counts: &mut Counts
     counts.restored += 1;
 }
 
-/// Two changes of different parts give the same text in either order.
+/// Two changes of different parts give the same text in either order, or are refused for the same reason.
 fn commute(drawing: &Drawing, pair: [(&Change, &str); 2], counts: &mut Counts) {
     let [(one, after_one), (other, after_other)] = pair;
     let then = |text: &str, change: &Change| {
         let analysis = analysis(&drawing.folder, text);
-        edits(&analysis, change).map(|edits| applied(text, &edits))
+        let edits = edits(&analysis, change).map_err(|refusal| refusal.why);
+        edits.map(|edits| applied(text, &edits))
     };
     let (first, second) = (then(after_one, other), then(after_other, one));
     counts.require(first == second, || {
@@ -407,6 +454,9 @@ fn hold(paths: &[PathBuf], shift: usize) -> Counts {
             continue;
         };
         let all = drawing.changes();
+        if at % 2 == shift % 2 {
+            made(&drawing, &drawing.posed(at), &mut counts);
+        }
         let count = tried().min(all.len());
         let stride = all.len() / count.max(1);
         let mut last: Option<(&Change, String)> = None;
@@ -481,6 +531,7 @@ fn changes_of_cases_do_what_they_say() {
         ("name", 40),
         ("hang", 15),
         ("leave out", 12),
+        ("keep-pose", 100),
         ("pairs", 80),
     ];
     assert_counts(&counts, &made, 200);

@@ -403,6 +403,39 @@ fn read_only_takes_all_of_it_away() {
 }
 
 #[test]
+fn of_a_drawing_that_is_open_elsewhere_the_copy_is_changed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let elsewhere = tempfile::tempdir().expect("a folder");
+    let copy = elsewhere.path().join("canvas.svg");
+    let canvas = DRAWING.replace("-5 5", "-7 7");
+    fs::write(folder.path().join("a.svg"), DRAWING).expect("written");
+    fs::write(&copy, &canvas).expect("written");
+    let copied = copy.to_str().expect("UTF-8");
+    let live = Live::start(folder.path(), &["preview", "a.svg", "--unsaved", copied]);
+    let port = common::pages::port_of(&live);
+    let mut shown = page(port);
+    let editing = heard(&mut shown, "editing");
+    assert_eq!(editing["copy"], true);
+    let key = editing["key"].as_str().expect("a key");
+    let build = heard(&mut shown, "build");
+    let does = |what: Value| {
+        let revision = &build["build"]["revision"];
+        let body = json!({"drawing": "a.svg", "revision": revision, "do": what});
+        sent(port, "/changes", key, &body.to_string())
+    };
+    assert_eq!(does(json!({"make": thickness("default -9 9")})).0, 200);
+    let text = |path: &Path| fs::read_to_string(path).expect("read");
+    assert_eq!(text(&copy), canvas.replace("-7 7", "-9 9"));
+    assert_eq!(does(json!("undo")).0, 200);
+    assert_eq!(text(&copy), canvas);
+    assert_eq!(text(&folder.path().join("a.svg")), DRAWING);
+
+    let edited = Edited::new(DRAWING);
+    let mut shown = page(edited.port);
+    assert_eq!(heard(&mut shown, "editing")["copy"], false);
+}
+
+#[test]
 fn a_folder_without_drawings_has_nothing_to_change() {
     let folder = tempfile::tempdir().expect("a folder");
     let (_live, port) = served(folder.path(), ".");

@@ -13,6 +13,7 @@ use common::{Node, examples};
 use okoshi::FolderResolver;
 use okoshi::diagnostic::{Code, Severity};
 use okoshi::internals::lang::keyword::kinds::KINDS;
+use okoshi::internals::look::compare;
 use serde_json::Value;
 
 /// The size limit of pictures in the gallery, bytes.
@@ -269,4 +270,17 @@ fn the_dragon_is_rich() {
     // Chest, five pieces of neck, head, jaw, under the root.
     assert!(depth >= 9, "{depth}");
     assert!(nodes.iter().any(|node| node.name == "Finger4.back"));
+}
+
+#[test]
+fn key_poses_are_not_compared_with_the_model() {
+    let text = fs::read_to_string(drawing("motion/lamp")).expect("a drawing");
+    let resolver = FolderResolver::new(root());
+    let look = |text: &str| {
+        let compiled = common::compiled(text, &resolver);
+        compare(&compiled, text, &resolver, 400).expect("a look")
+    };
+    let poses = text.find("<g\n     id=\"pose-1\"").expect("a pose layer");
+    let without = format!("{}</svg>", &text[..poses]);
+    assert_eq!(look(&text), look(&without));
 }

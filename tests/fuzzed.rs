@@ -184,6 +184,7 @@ tests! {
     model: 1000 inputs, 20 %;
     scene: 200 inputs, 20 %;
     picture: 2000 inputs, 10 %;
+    character: 40 inputs, 40 %;
     messages: 20000 inputs, 40 %;
     session: 400 inputs, 60 %;
     track: 20000 inputs, 45 %;

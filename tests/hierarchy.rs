@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use common::law::{self, Tally};
 use okoshi::Memo;
-use okoshi::internals::bind::{PartId, PartKind, bind, in_layers_of_pixels};
+use okoshi::internals::bind::{PartId, PartKind, bind, in_layers_of_pixels, makes_pose_layer};
 use okoshi::internals::svg;
 use okoshi::resolver::MemoryResolver;
 use proptest::prelude::*;
@@ -50,7 +50,13 @@ struct Hierarchy {
 impl Hierarchy {
     fn of(text: &str) -> Self {
         let resolver = MemoryResolver::default();
-        let (drawing, _) = svg::read(text, 0.001, &resolver, &in_layers_of_pixels);
+        let (drawing, _) = svg::read(
+            text,
+            0.001,
+            &resolver,
+            &in_layers_of_pixels,
+            &makes_pose_layer,
+        );
         let bindings = bind(&drawing, &Memo::none(), &mut Vec::new());
         let place = |part: PartId| {
             let part = &bindings.parts[part];

@@ -224,7 +224,7 @@ fn a_killed_fix_leaves_a_whole_drawing() {
 // ---- full disks
 
 /// The commands that write files, with what they write.
-const WRITERS: [(&[&str], &str); 11] = [
+const WRITERS: [(&[&str], &str); 12] = [
     (&["build", "../a.svg", "-o", "a.glb"], "a.glb"),
     (&["build", "../a.svg", "-o", "a.gltf"], "a.gltf"),
     (&["build", "../a.svg", "-o", "a.obj"], "a.obj"),
@@ -271,6 +271,14 @@ const WRITERS: [(&[&str], &str); 11] = [
         "b.json",
     ),
     (&["check", "--fix", "b.svg"], "b.svg"),
+    (
+        &[
+            "edit",
+            "b.svg",
+            r#"--change={"change": "name", "part": "Body", "name": "Trunk"}"#,
+        ],
+        "b.svg",
+    ),
 ];
 
 /// What stands in the place of the output before: of okoshi, so that it may be replaced.
@@ -291,7 +299,7 @@ fn room() -> Room {
 fn check_full(room: &Room, run: impl Fn(&[&str]) -> Run) {
     let folder = room.path("full");
     for (arguments, output) in WRITERS {
-        let edits = arguments[0] == "check";
+        let edits = matches!(arguments[0], "check" | "edit");
         let old = if edits { mistaken(0) } else { OLD.to_owned() };
         fs::write(folder.join(output), &old).expect("there is space for the old file");
         let ran = run(arguments);

@@ -5,6 +5,7 @@
 mod common;
 
 use std::fs;
+use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
 use std::path::Path;
 
@@ -125,6 +126,16 @@ fn only_what_changed_is_sent() {
     // The root, the body and the arm.
     assert_eq!(common::nodes(&whole).expect("a sound model").len(), 3);
     assert!(unknown == whole);
+    // Of a model that two newer ones replaced there is nothing; one that never was is asked for by mistake.
+    save(&drawing.replace("-5 5", "-7 7"));
+    heard(&mut page, "build");
+    let picture = before.replace("builds", "pictures").replace("glb", "png");
+    for old in [before, &format!("{before}?since={after}"), &picture] {
+        assert_eq!(got(port, &format!("/{old}")), (204, vec![]), "{old}");
+    }
+    for never in ["builds/99.glb", "builds/0.glb", "pictures/99.png"] {
+        assert_eq!(got(port, &format!("/{never}")).0, 404, "{never}");
+    }
 
     // A text that is not XML at the moment keeps the list of parts, also for pages that are opened now.
     save("<svg><rect");
@@ -175,6 +186,61 @@ fn a_moving_picture_is_made_when_it_is_asked_for() {
 }
 
 #[test]
+fn other_files_are_made_when_they_are_asked_for() {
+    let folder = folder();
+    let (_live, port) = served(folder.path(), "a.svg");
+    let mut page = socket(port, None).expect("let in");
+    let build = heard(&mut page, "build");
+    assert_eq!(build["build"]["exports"], "exports/1");
+    let room = Room::with("a.svg", DRAWING);
+    room.run(&["build", "a.svg", "-o", "a.obj"])
+        .ends(0, "", "wrote");
+    room.run(&["puppet", "a.svg"]).ends(0, "", "wrote");
+    let (status, obj) = got(port, "/exports/1.obj");
+    assert_eq!((status, obj), (200, room.read("a.obj")));
+    let (status, sheet) = got(port, "/exports/1.svg");
+    assert_eq!((status, sheet), (200, room.read("a-puppet.svg")));
+    for wrong in ["1", "1.glb", "x.obj", "2.obj", "1.svg.obj", ".svg"] {
+        assert_eq!(got(port, &format!("/exports/{wrong}")).0, 404, "{wrong}");
+    }
+    // Whoever opens the address instead of saving it gets no page of the server.
+    let request = "GET /exports/1.svg HTTP/1.1\nHost: 127.0.0.1:PORT\nConnection: close\n\n";
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("connected");
+    let request = request
+        .replace("PORT", &port.to_string())
+        .replace('\n', "\r\n");
+    stream.write_all(request.as_bytes()).expect("sent");
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).expect("text");
+    let head = answer.split("\r\n\r\n").next().expect("a head");
+    let head = head.to_lowercase();
+    assert!(
+        head.contains("content-type: application/octet-stream"),
+        "{head}"
+    );
+    assert!(head.contains("content-disposition: attachment"), "{head}");
+    // No figure, and what is not well-formed.
+    let save = |text: &str| fs::write(folder.path().join("a.svg"), text).expect("written");
+    save(&DRAWING.replace(
+        "Body$Shape default -5 5</text>",
+        "*</text><text x=\"5\" y=\"150\">%Scale 2</text>",
+    ));
+    while heard(&mut page, "build")["build"]["exports"] != "exports/2" {}
+    let (status, why) = got(port, "/exports/2.svg");
+    let why = String::from_utf8_lossy(&why).into_owned();
+    assert_eq!(status, 422, "{why}");
+    assert!(why.contains("no figure to cut out"), "{why}");
+    assert_eq!(got(port, "/exports/1.obj").0, 404);
+    save("<svg><rect");
+    heard(&mut page, "build");
+    for file in ["2.obj", "2.svg"] {
+        let (status, why) = got(port, &format!("/exports/{file}"));
+        let why = String::from_utf8_lossy(&why).into_owned();
+        assert_eq!((status, why.contains("has errors")), (422, true), "{why}");
+    }
+}
+
+#[test]
 fn a_folder_is_listed() {
     let folder = folder();
     fs::create_dir(folder.path().join("sub")).expect("a folder");
@@ -216,6 +282,8 @@ fn foreign_pages_and_paths_are_refused() {
             "/builds/1.glb",
             "/pictures/1.png",
             "/films/1.gif?view=0,0",
+            "/exports/1.obj",
+            "/exports/1.svg",
         ] {
             let request = format!("GET {path} HTTP/1.1\n{headers}\nConnection: close\n\n");
             let (status, body) = asked(port, &request);

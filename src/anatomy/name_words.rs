@@ -40,7 +40,12 @@ impl Kind {
 /// `LHipJoint` gives l, hip, joint; `左腕2` gives 左腕, 2. Katakana become hiragana, full-width and half-width letters the usual
 /// ones (NFKC).
 pub(crate) fn split(name: &str) -> Vec<String> {
-    let letters: Vec<char> = name.nfkc().take(MAX_LETTERS).map(hiragana).collect();
+    // Most names are ASCII, which normalizing leaves as it is: splitting names took a sixth of the time after a keystroke.
+    let letters: Vec<char> = if name.is_ascii() {
+        name.chars().take(MAX_LETTERS).collect()
+    } else {
+        name.nfkc().take(MAX_LETTERS).map(hiragana).collect()
+    };
     let mut words: Vec<String> = Vec::new();
     let mut before = Kind::Separator;
     for (index, letter) in letters.iter().enumerate() {

@@ -153,8 +153,13 @@ pub(crate) fn is_crawler(name: &str) -> bool {
 }
 
 /// Words for what is thin and limp; katakana words are written in hiragana here.
-const SHEETS: &str = "cape cloak wing leaf petal flag banner paper veil curtain sail kite page cloth towel blanket マント まんと 翼 つばさ \
-     羽 はね 羽根 旗 はた 葉 葉っぱ 花びら 紙 べーる かーてん 帆 布 ぬの";
+static SHEETS: Table<()> = LazyLock::new(|| {
+    table(&[(
+        (),
+        "cape cloak wing leaf petal flag banner paper veil curtain sail kite page cloth towel blanket マント まんと 翼 つばさ \
+     羽 はね 羽根 旗 はた 葉 葉っぱ 花びら 紙 べーる かーてん 帆 布 ぬの leaves",
+    )])
+});
 
 /// Whether a name is that of something thin: a cape, a wing, a leaf. It is what the last of its known words says.
 pub(crate) fn is_sheet(name: &str) -> bool {
@@ -167,8 +172,9 @@ pub(crate) fn is_sheet(name: &str) -> bool {
         return false;
     };
     let singular = last.strip_suffix('s').unwrap_or(last);
-    let mut known = SHEETS.split_whitespace();
-    known.any(|known| known == last || known == singular) || matches!(last.as_str(), "leaves")
+    [last.as_str(), singular]
+        .iter()
+        .any(|word| SHEETS.contains_key(word))
 }
 
 /// What is round about the body that wears it.

@@ -6,6 +6,7 @@ use glam::{DAffine2, DVec2};
 
 use super::grid::{Cells, Grid};
 use crate::geometry::{Outline, y_up};
+use crate::math;
 
 /// The distance of the line's points, in widths.
 const SPACING: f64 = 0.25;
@@ -309,7 +310,7 @@ impl Centerline {
         let inner = length(&line);
         let line = resampled(&line, 0.0, inner, count);
         // Without the ways into corners: the clip is a share of the width itself.
-        let width = (f64::hypot(inner, (8.0 * CLIP * area).sqrt()) - inner) / (4.0 * CLIP);
+        let width = (math::hypot(inner, (8.0 * CLIP * area).sqrt()) - inner) / (4.0 * CLIP);
         let clip = CLIP * width;
         let spacing = inner / count as f64;
         let beyond = beyond(width, spacing);
@@ -389,7 +390,7 @@ impl Centerline {
         let reach = self.length * 0.25;
         let bend = |at: f64| {
             let [before, here, after] = [at - reach, at, at + reach].map(|at| self.at(at));
-            (here - before).angle_to(after - here).abs()
+            math::angle_to(here - before, after - here).abs()
         };
         let count = ((to - from) / self.spacing).ceil().max(1.0) as usize;
         let places = (0..=count).map(|step| from + (to - from) * step as f64 / count as f64);
@@ -496,7 +497,7 @@ fn straighten(line: &mut [DVec2], near: f64) {
         spread += own.x * own.x - own.y * own.y;
         skew += 2.0 * own.x * own.y;
     }
-    let whole = f64::hypot(spread, skew);
+    let whole = math::hypot(spread, skew);
     if whole == 0.0 {
         return;
     }

@@ -11,6 +11,7 @@ mod skinned;
 #[cfg(test)]
 mod tests;
 
+use crate::math;
 use glam::DVec2;
 
 pub(crate) use centerline::Centerline;
@@ -97,7 +98,7 @@ impl Bend {
             .collect();
         let angle = |from: f64, to: f64| {
             let way = line.at(to) - line.at(from);
-            (-way.x).atan2(way.y)
+            math::atan2(-way.x, way.y)
         };
         // A turn that is shared by several nodes leaves the limb as wide as it is; a chain turns little at each joint.
         let shares = if joints.len() == 1 { SHARES } else { 1 };

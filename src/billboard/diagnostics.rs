@@ -4,11 +4,11 @@ use typed_index_collections::TiSlice;
 
 use super::drawn::{DrawnView, MOST_REGIONS};
 use super::matching::{Candidate, Matching, Reason, RegionInView, Unmatched, Warning};
-use super::raster::Shades;
 use crate::bind::{Bindings, DrawingString, LayerId, StringId};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::Keyword;
+use crate::raster::Shades;
 use crate::scene::ViewId;
 use crate::source::Span;
 use crate::svg::{Drawing, ShapeId};

@@ -13,7 +13,6 @@ use super::features::{self, FeaturePoint};
 use super::keys;
 use super::matching::RegionInView;
 use super::names;
-use super::raster::{self, RasterView, Shades};
 use super::region::{Direction, Region, RegionId, View};
 use crate::bind::{Bindings, LayerId, PartId, PartKind, StringId};
 use crate::diagnostic::{Code, Diagnostic};
@@ -21,6 +20,7 @@ use crate::geometry::{Outline, area, bounds, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
 use crate::memo::Memo;
+use crate::raster::{self, RasterView, Shades};
 use crate::scene::ViewId;
 use crate::svg::{Drawing, LARGE, ShapeId};
 

@@ -17,7 +17,6 @@ mod nodes;
 mod paints;
 mod pieces;
 mod place;
-mod raster;
 mod region;
 mod shape;
 mod shapes;

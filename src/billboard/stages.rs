@@ -7,7 +7,8 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::matching::{self, Matching};
 use super::place::{self, Frame};
 use super::region::{Direction, Region, RegionId, View};
-use super::{raster, shape};
+use super::shape;
+use crate::raster;
 use crate::scene::ViewId;
 
 /// The angle between the two pictures, degrees.

@@ -15,6 +15,7 @@ use crate::svg::{Drawing, Element, GroupId, Paint, ShapeId};
 
 use super::attributes::Legend;
 use super::matching::{DrawingSettings, LayerId, Layers, Leaders};
+use super::poses::KeyPose;
 use super::props::Prop;
 
 index_type!(
@@ -50,6 +51,8 @@ pub struct Bindings {
     pub layers: Layers,
     /// The props, in paint order.
     pub(crate) props: Vec<Prop>,
+    /// The key poses, in the order of their layers from bottom to top.
+    pub(crate) poses: Vec<KeyPose>,
     /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.
     pub hierarchy_by_contact: bool,
     /// Per layer the main part that is its parent; `None` for a child of the root.

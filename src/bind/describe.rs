@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::bindings::{Bindings, PartId};
 use super::names::written_by_a_person;
 use crate::geometry::{self, Measure, Outline, Ring, measure, remove_collinear};
+use crate::math;
 use crate::svg::{Drawing, Element, GroupId, GroupKind, PaintKey, Shape, ShapeId, oklab};
 
 /// The words for colours, each with colours that people call so.
@@ -216,7 +217,7 @@ fn is_ellipse(border: &Ring, measure: &Measure) -> bool {
         let from_center = *point - measure.center;
         let along = from_center.dot(measure.axis) / measure.half_along;
         let across = from_center.dot(measure.axis.perp()) / measure.half_across;
-        (along.hypot(across) - 1.0).abs() <= OFF_ELLIPSE
+        (math::hypot(along, across) - 1.0).abs() <= OFF_ELLIPSE
     })
 }
 

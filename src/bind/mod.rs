@@ -15,6 +15,7 @@ mod forms;
 mod hierarchy;
 mod matching;
 mod names;
+mod poses;
 mod props;
 mod reports;
 mod sheets;
@@ -26,9 +27,9 @@ mod words;
 pub(crate) use crate::anatomy::Garment;
 pub(crate) use attributes::plate_depth;
 pub(crate) use attributes::{
-    Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, MaterialFactors,
-    MotionSource, MotionTurn, PartMark, PerformanceRequest, Resolved, SetBy, Side, SignedAxis,
-    TurnRequest,
+    Attribute, Camerawork, Carry, ClipLimits, ClipRequest, FollowedName, HeldRequest,
+    MaterialFactors, MotionSource, MotionTurn, PartMark, PerformanceRequest, Resolved, SetBy, Side,
+    SignedAxis, TurnRequest,
 };
 pub(crate) use bindings::{
     Bindings, BoundBy, DrawingString, NamedBy, Part, Seen, StringHolder, StringId,
@@ -36,9 +37,11 @@ pub(crate) use bindings::{
 pub use bindings::{PartId, PartKind};
 pub(crate) use extents::FigureExtent;
 pub(crate) use forms::FormByName;
-pub use matching::in_layers_of_pixels;
+pub(crate) use matching::has_same_pose_layers;
 pub(crate) use matching::{BindRule, DistanceMode, LayerId, LayerKind};
+pub use matching::{in_layers_of_pixels, makes_pose_layer};
 pub(crate) use names::{Numbers, written_by_a_person};
+pub(crate) use poses::KeyPose;
 pub(crate) use props::Prop;
 pub(crate) use reports::locate;
 pub(crate) use vehicles::VehiclePart;
@@ -88,6 +91,7 @@ fn bind_as(
     props::find(drawing, &mut bindings, |part| groups[part]);
     fineness::limit(drawing, &mut bindings, diagnostics);
     reports::first_look(drawing, &bindings, diagnostics);
+    bindings.poses = poses::read(drawing, &bindings, diagnostics);
     bindings
 }
 
@@ -132,6 +136,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         settings: matched.settings,
         layers: matched.layers,
         props: vec![],
+        poses: vec![],
         hierarchy_by_contact: tree.by_contact,
         parent_of_layer: tree.parent_of_layer,
         leaders: matched.leaders,

@@ -275,10 +275,11 @@ fn group_strings_make_layers_of_tiles_and_regions() {
     assert_eq!(layers, expected);
     let tile_layers: Vec<LayerId> = bindings.tile_layers().map(|(index, _)| index).collect();
     assert_eq!(tile_layers, [LayerId::from(0)]);
-    // Squares by number: that of the map is a tile, that of the view a region, and no group string belongs to a part.
+    // Squares by number: that of the map is a tile, that of the view a region, that of the pose a copy, which is no shape of the
+    // drawing, and no group string belongs to a part.
     let kinds: Vec<PartKind> = bindings.parts.iter().map(|part| part.kind).collect();
     let main = PartKind::Main;
-    assert_eq!(kinds, [PartKind::Tile, PartKind::Region, main, main]);
+    assert_eq!(kinds, [PartKind::Tile, PartKind::Region, main]);
     assert!(bindings.layers.iter().all(|layer| {
         let string = &bindings.strings[layer.string];
         string.binding.is_none() && !matching::wants_part(&string.annotation)
@@ -286,6 +287,7 @@ fn group_strings_make_layers_of_tiles_and_regions() {
     let group_of = |shape: usize| compiled.drawing.shapes[ShapeId::from(shape)].group;
     let in_layers = in_layers_of_pixels(&compiled.drawing);
     assert!(in_layers[group_of(0)] && in_layers[group_of(1)] && !in_layers[group_of(2)]);
+    assert_eq!(compiled.drawing.poses.copies.len(), 1);
     assert_eq!(bindings.tile_layer_of_group(group_of(0)), Some(0.into()));
     assert_eq!(bindings.tile_layer_of_group(group_of(1)), None);
     assert_eq!(bindings.view_of_group(group_of(1)), Some(1.into()));

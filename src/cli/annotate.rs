@@ -1,15 +1,13 @@
 //! `okoshi annotate`: names for the parts of a drawing that nobody has named.
 
-use std::path::{Path, PathBuf};
-
 use serde::Serialize;
 
 use super::args::{Annotate, Common};
-use super::loading::{Loaded, check_unchanged, compiled, load, resolver};
+use super::loading::compiled;
 use super::progress::spinning;
-use super::{Failure, Outcome, counted, ending, print_out};
+use super::rewriting::{Original, Rewriting};
+use super::{Failure, Outcome, counted, print_out};
 use crate::diagnostic::applied;
-use crate::disk::{Inputs, Naming, is_packed, is_standard_stream, rewrite};
 use crate::ide::Analysis;
 use crate::ide::changes::{self, Change, Suggestion};
 use crate::labels::Certainty;
@@ -32,24 +30,14 @@ struct Written<'a> {
 
 /// Names the parts of a drawing, writes it, and lists the names.
 pub(super) fn run(arguments: &Annotate, common: Common) -> Result<Outcome, Failure> {
-    let output = arguments.output.as_deref().unwrap_or(&arguments.drawing);
-    let to_stdout = is_standard_stream(output);
-    if !to_stdout && ending(output) != "svg" && arguments.output.is_some() {
-        return Err(format!(
-            "the result is an SVG file, so the name of `{}` must end in .svg",
-            output.display()
-        )
-        .into());
-    }
-    let loaded = load(&arguments.drawing, &arguments.reading)?;
-    let linked = loaded.linked(&resolver(&arguments.drawing, &arguments.reading));
-    let Loaded {
+    let output = arguments.output.as_deref();
+    let (rewriting, original) = Rewriting::read(&arguments.drawing, output, &arguments.reading)?;
+    let to_stdout = rewriting.is_to_stdout();
+    let Original {
         path,
         text,
-        compiled: before,
-        ..
-    } = loaded;
-    let before = Analysis::new(text.as_str(), before);
+        analysis: before,
+    } = original;
     let found = spinning("looking for parts", || before.named_parts());
     let (edits, names) = match found {
         Ok(found) => found,
@@ -66,7 +54,7 @@ pub(super) fn run(arguments: &Annotate, common: Common) -> Result<Outcome, Failu
     let after = Analysis::new(new.as_str(), after);
     changes::check(&before, &after, &Change::NameParts)
         .map_err(|refusal| format!("`{path}` {refusal}"))?;
-    write([&text, &new], output, linked, arguments)?;
+    rewriting.write(&text, &new)?;
     let lines = LineIndex::new(text.as_str());
     let written: Vec<Written<'_>> = names
         .iter()
@@ -84,35 +72,6 @@ pub(super) fn run(arguments: &Annotate, common: Common) -> Result<Outcome, Failu
         return Ok(Outcome::Done);
     }
     Ok(print_out(&listed))
-}
-
-/// Writes the drawing, unless it was changed in the meantime.
-fn write(
-    [old, new]: [&str; 2],
-    output: &Path,
-    linked: Vec<PathBuf>,
-    arguments: &Annotate,
-) -> Result<(), Failure> {
-    if is_standard_stream(output) {
-        rewrite(output, new.as_bytes())?;
-        return Ok(());
-    }
-    if arguments.output.is_some() {
-        let inputs = Inputs::of(&arguments.drawing).linking(linked);
-        let target = inputs.target(output, Naming::Given)?;
-        target.write(|out| out.write_all(new.as_bytes()))?;
-        return Ok(());
-    }
-    if is_packed(output) {
-        return Err(format!(
-            "`{}` is compressed: name the result with -o",
-            output.display()
-        )
-        .into());
-    }
-    check_unchanged(output, old)?;
-    rewrite(output, new.as_bytes())?;
-    Ok(())
 }
 
 fn written<'a>(name: &'a Suggestion, after: &Analysis, lines: &LineIndex<&str>) -> Written<'a> {

@@ -2,25 +2,32 @@
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValue;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{EXPORTERS, extensions};
+use crate::starters::Template;
 
 mod annotate;
+mod edit;
 mod motion;
 mod puppet;
 mod render;
+mod trace;
 mod track;
 
 pub(super) use annotate::Annotate;
+pub(super) use edit::Edit;
 pub(super) use motion::{Filming, Motion, Performing};
 pub(super) use puppet::Puppet;
 pub(super) use render::{Background, Bend, Projection, Render, Shading};
+pub(super) use trace::Trace;
 pub(super) use track::Track;
 
 const EXAMPLES: &str = "\
 Examples:
   okoshi new robot                       writes robot.svg, a drawing to start from
+  okoshi trace photo.jpg                 makes a drawing of a photograph of one on paper, photo.svg
   okoshi annotate art.svg -o me.svg      gives the parts of a drawing names that nobody has named
   okoshi build human.svg                 writes human.glb beside the drawing
   okoshi build human.svg -o out/man.glb  writes it somewhere else
@@ -79,8 +86,12 @@ pub(super) enum Color {
 pub(super) enum Command {
     /// Write a starter drawing, ready to build
     New(New),
+    /// Make a drawing from a picture: a scan, a photograph of a drawing on paper
+    Trace(Trace),
     /// Give the parts of a drawing names that nobody has named
     Annotate(Annotate),
+    /// Change parts of a drawing: names, parents, attributes
+    Edit(Edit),
     /// Build a model from a drawing
     Build(Build),
     /// Draw a picture of a model
@@ -165,29 +176,20 @@ Examples:
   okoshi new rex --template dragon  writes rex.svg
   okoshi new --list                 lists the templates";
 
-/// The starter drawings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Template {
-    /// A girl who walks; also `human`
-    #[value(alias = "human")]
-    Girl,
-    /// A boy who walks and waves
-    Boy,
-    /// A dog who walks, drawn from the side
-    Dog,
-    /// A dragon who flies, drawn from the side
-    Dragon,
-    /// A robot who walks and dances
-    Robot,
-    /// A racing car whose wheels turn, drawn from the side; also `car`
-    #[value(alias = "car")]
-    RacingCar,
-    /// A landscape, drawn as a map of tiles: hills, houses and trees in the sea
-    Island,
-    /// A fox that turns, drawn from two sides
-    Turning,
-    /// A page with guides, and strings to copy
-    Empty,
+impl ValueEnum for Template {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let value = PossibleValue::new(self.name());
+        Some(match self.alias() {
+            Some(alias) => value
+                .alias(alias)
+                .help(format!("{}; also `{alias}`", self.about())),
+            None => value.help(self.about()),
+        })
+    }
 }
 
 /// The formats of models, with their descriptions.
@@ -279,7 +281,8 @@ pub(super) struct Preview {
     /// Open the browser
     #[arg(long)]
     pub(super) open: bool,
-    /// A copy of the drawing as it is in an editor: shown until the drawing is saved, and again whenever the copy is written
+    /// A copy of the drawing as it is in an editor: shown until the drawing is saved, and again whenever the copy is written; the page
+    /// changes the copy, not the drawing
     #[arg(long, value_name = "FILE")]
     pub(super) unsaved: Option<PathBuf>,
     /// Change no file: the page has no Edit button
@@ -339,6 +342,7 @@ const INSPECT_EXAMPLES: &str = "\
 Examples:
   okoshi inspect human.svg                     lists the parts, and why each has its string
   okoshi inspect --json human.svg              everything about them, for programs
+  okoshi inspect human.svg --form Rarm         what can be changed about a part; `okoshi edit` changes it
   okoshi inspect boy.svg --matches pairs.png   draws which regions of a character's views belong together
 
 In the picture of --matches, regions that okoshi takes for the same thing have the same colour and number in all views, and
@@ -354,6 +358,10 @@ pub(super) struct Inspect {
     /// Print JSON, for programs
     #[arg(long)]
     pub(super) json: bool,
+    /// Print what can be changed about a part, and what each attribute is and may be, as JSON; PART is its name, or the `id` of a
+    /// shape, a text or a group that belongs to it, as `#path12`
+    #[arg(long = "form", value_name = "PART", conflicts_with_all = ["json", "matches"])]
+    pub(super) forms: Vec<String>,
     /// Also draw the views of characters side by side, with one colour for what is the same in all of them: a .png file, or `-`
     /// for stdout, which then shows nothing else
     #[arg(long, value_name = "OUT.png")]

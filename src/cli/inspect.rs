@@ -9,17 +9,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use rustc_hash::FxHashMap;
+use serde::Serialize;
 
 use super::args::{Common, Inspect};
-use super::loading::{Loaded, load};
+use super::loading::{Loaded, folder_of_links, load};
 use super::progress::spinning;
-use super::{Failure, Outcome, counted, print_out};
+use super::{Failure, Outcome, counted, fail, print_out};
 use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{NamedBy, PartId, SetBy};
 use crate::compile::Compiled;
-use crate::disk::is_standard_stream;
+use crate::disk::{self, is_standard_stream};
 use crate::export;
-use crate::ide::{Subject, Which};
+use crate::ide::changes::PartForm;
+use crate::ide::{Analysis, Subject, Which};
 use crate::lang::keyword::Keyword;
 use crate::report::{Fit, MatchedBy, Reasons, Undo, describe_character, figures, inspection_json};
 use crate::terrain::{LandscapeId, Layer, Place};
@@ -31,6 +33,9 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Result<Outcome, Failur
     let loaded = spinning("inspecting", || {
         load(&arguments.drawing, &arguments.reading)
     })?;
+    if !arguments.forms.is_empty() {
+        return forms(loaded, arguments, common);
+    }
     eprint!("{}", loaded.findings_aside(common));
     let drawn = match picture {
         Some(path) => matches::draw(&loaded, path, arguments, common),
@@ -51,6 +56,52 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Result<Outcome, Failur
         tree(&loaded, numbers) + &size.unwrap_or_default()
     };
     Ok(loaded.outcome().max(drawn).max(print_out(&text)))
+}
+
+/// What can be changed about some parts.
+#[derive(Debug, Serialize)]
+struct Forms<'a> {
+    drawing: &'a str,
+    forms: Vec<PartForm>,
+}
+
+/// Prints what can be changed about parts, as JSON. A part is called by its name, or by the `id` of an element behind `#`.
+fn forms(loaded: Loaded, arguments: &Inspect, common: Common) -> Result<Outcome, Failure> {
+    let is_readable = !loaded.compiled.drawing.groups.is_empty();
+    if !is_readable {
+        eprint!("{}", loaded.findings_aside(common));
+        return Ok(loaded.outcome());
+    }
+    let Loaded {
+        path,
+        text,
+        compiled,
+        ..
+    } = loaded;
+    let analysis = Analysis::new(text, compiled);
+    let motions = disk::motions(&folder_of_links(&arguments.drawing, &arguments.reading));
+    let mut forms = vec![];
+    let mut outcome = Outcome::Done;
+    for part in &arguments.forms {
+        let name = match part.strip_prefix('#') {
+            Some(id) => analysis.part_of_element(id),
+            None => Ok(part.clone()),
+        };
+        match name.and_then(|name| analysis.form(&name)) {
+            Ok(form) => forms.push(form.with_motion_files(motions.clone())),
+            Err(refusal) => outcome = fail(format!("{path}: {refusal}")),
+        }
+    }
+    if forms.is_empty() {
+        eprintln!("`okoshi inspect {path}` lists the parts");
+        return Ok(outcome);
+    }
+    let forms = Forms {
+        drawing: &path,
+        forms,
+    };
+    let forms = serde_json::to_string_pretty(&forms)? + "\n";
+    Ok(outcome.max(print_out(&forms)))
 }
 
 /// The path of the picture, unless the command cannot write it whatever is in the drawing.

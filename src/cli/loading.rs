@@ -128,9 +128,13 @@ pub(super) fn compiled(text: &str, path: &Path, reading: &Reading) -> Compiled {
 
 /// Resolves the links of the drawing, or of the model, at `path`.
 pub(super) fn resolver(path: &Path, reading: &Reading) -> FolderResolver {
+    FolderResolver::new(folder_of_links(path, reading)).allowing(reading.root.as_deref())
+}
+
+/// The folder where the links of the drawing at `path` start.
+pub(super) fn folder_of_links(path: &Path, reading: &Reading) -> PathBuf {
     let beside = || path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
-    let base = reading.base.clone().unwrap_or_else(beside);
-    FolderResolver::new(base).allowing(reading.root.as_deref())
+    reading.base.clone().unwrap_or_else(beside)
 }
 
 /// `2 errors, 1 warning`

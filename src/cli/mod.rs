@@ -13,6 +13,7 @@ mod args;
 mod build;
 mod check;
 mod digest;
+mod edit;
 mod explain;
 mod fix;
 mod inspect;
@@ -26,8 +27,10 @@ mod progress;
 mod puppet;
 mod render;
 pub(crate) mod report;
+mod rewriting;
 pub(crate) mod sarif;
 mod terminal;
+mod trace;
 mod track;
 mod watch;
 
@@ -101,7 +104,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let outcome = match &cli.command {
         Command::New(arguments) => new::run(arguments, cli.common),
+        Command::Trace(arguments) => trace::run(arguments, cli.common),
         Command::Annotate(arguments) => annotate::run(arguments, cli.common),
+        Command::Edit(arguments) => edit::run(arguments, cli.common),
         Command::Build(arguments) => build::run(arguments, cli.common),
         Command::Render(arguments) => render::run(arguments, cli.common),
         Command::Check(arguments) => Ok(check::run(arguments, cli.common)),

@@ -6,32 +6,17 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum as _;
 
-use super::args::{Common, New, Template};
+use super::args::{Common, New};
 use super::terminal::Protocol;
 use super::{Failure, Outcome, print_out};
 use crate::disk::{WriteError, is_standard_stream, write_new};
-use crate::preview::Starter;
+use crate::starters::Template;
 
 impl Template {
     /// The template of a drawing that is called like one, and else the girl.
     fn called(drawing: &Path) -> Self {
         let stem = drawing.file_stem().unwrap_or_default().to_string_lossy();
         Self::from_str(&stem, false).unwrap_or(Self::Girl)
-    }
-
-    /// The drawing, as Inkscape saves it.
-    fn drawing(self) -> &'static str {
-        match self {
-            Self::Girl => include_str!("../../examples/girl.svg"),
-            Self::Boy => include_str!("templates/boy.svg"),
-            Self::Dog => include_str!("templates/dog.svg"),
-            Self::Dragon => include_str!("templates/dragon.svg"),
-            Self::Robot => include_str!("templates/robot.svg"),
-            Self::RacingCar => include_str!("templates/racing-car.svg"),
-            Self::Island => include_str!("templates/island.svg"),
-            Self::Turning => include_str!("templates/turning.svg"),
-            Self::Empty => include_str!("templates/empty.svg"),
-        }
     }
 }
 
@@ -75,25 +60,6 @@ fn list() -> Outcome {
     print_out(&text)
 }
 
-/// All templates for the preview's page, in the order of the list.
-pub(super) fn starters() -> Vec<Starter> {
-    let starter = |template: &Template| {
-        let value = template.to_possible_value()?;
-        let help = value.get_help().map(ToString::to_string);
-        // Where one clicks, other names are of no use.
-        let about = help.unwrap_or_default();
-        let about = about.split("; also").next().unwrap_or_default();
-        Some(Starter {
-            name: value.get_name().to_owned(),
-            about: about.to_owned(),
-            drawing: template.drawing(),
-            has_model: *template != Template::Empty,
-        })
-    };
-    let all = Template::value_variants().iter();
-    all.filter_map(starter).collect()
-}
-
 /// The file of the drawing: the name, with `.svg` appended unless it has that extension.
 fn named(name: &Path) -> Result<PathBuf, String> {
     let bare = name.as_os_str().as_encoded_bytes();
@@ -122,8 +88,8 @@ fn named(name: &Path) -> Result<PathBuf, String> {
     Ok(name.with_file_name(file))
 }
 
-/// An error with what to do about it in this command.
-fn explained(error: &WriteError) -> String {
+/// Why a new drawing is not written, and what to do about it.
+pub(super) fn explained(error: &WriteError) -> String {
     match error {
         WriteError::Exists(path) => format!(
             "`{0}` exists, and drawings are never overwritten; choose another name, or build it: okoshi build {1}",
@@ -151,7 +117,7 @@ fn next_steps(path: &Path) -> String {
 }
 
 /// A path quoted for a shell.
-fn quoted(path: &Path) -> String {
+pub(super) fn quoted(path: &Path) -> String {
     let text = path.display().to_string();
     // A name that begins with `-` would be taken for an option.
     let text = match text.strip_prefix('-') {

@@ -2,13 +2,16 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use super::args::{Common, Preview};
-use super::new::starters;
 use super::watch::{describe_event, describe_shown, follow, options};
 use super::{Failure, Outcome};
+use crate::compile;
 use crate::disk::{ReadError, write_new};
-use crate::preview::{Editing, Hub, Shown, Starters, bind, serve};
+use crate::page::{Editing, Hub, Shown, Starters, Times, random_key};
+use crate::preview::{bind, serve};
+use crate::resolver::Resolver;
 use crate::watch::{Build, Editor, Event, Options};
 
 /// Shows drawings on a live page until it is interrupted.
@@ -30,19 +33,22 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
         unsaved: arguments.unsaved.clone(),
         ..options(&arguments.reading, &arguments.noticing)
     };
-    // Of a drawing that is open elsewhere, the program that has it open writes the file.
-    let is_read_only = arguments.read_only || arguments.unsaved.is_some();
-    let editing = (!is_read_only).then(|| Editing::new(Editor::new(options.clone())));
+    let editing = (!arguments.read_only).then(|| Editing::of_files(Editor::new(options.clone())));
     let folder = path.is_dir().then(|| path.clone());
     let folder = folder.filter(|_| !arguments.read_only);
     let offered = folder.map(|folder| {
-        Starters::new(starters(), move |starter| {
-            let drawing = folder.join(format!("{}.svg", starter.name));
-            let written = write_new(&drawing, starter.drawing.as_bytes());
+        Starters::new(random_key(), move |template| {
+            let drawing = folder.join(format!("{}.svg", template.name()));
+            let written = write_new(&drawing, template.drawing().as_bytes());
             written.map_err(|error| error.to_string())
         })
     });
-    let hub = Hub::new(|_, _| (), offered, editing);
+    let read = options.clone();
+    let reads = move |id: &str| -> (compile::Options, Box<dyn Resolver>) {
+        let (options, resolver) = read.reading(Path::new(id));
+        (options, Box::new(resolver))
+    };
+    let hub = Hub::new(|_, _| (), offered, editing, Some(Box::new(reads)));
     let server = hub.clone();
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(2)
@@ -88,7 +94,12 @@ fn publish(hub: &Arc<Hub>, target: &Path, drawing: &Path, build: &Build) {
         text: &build.text,
         compiled: &build.compiled,
         model,
-        times: build.times,
+        times: Times {
+            noticed: build.times.noticed,
+            started: build.times.started,
+            finished: build.times.finished,
+            pushed: SystemTime::now(),
+        },
     };
     hub.publish(&drawing.display().to_string(), names, &shown);
 }

@@ -7,6 +7,7 @@ use super::loading::{Loaded, load, resolver};
 use super::progress::spinning;
 use super::{Failure, Outcome, counted, ending};
 use crate::disk::{Inputs, Naming, is_standard_stream};
+use crate::math;
 use crate::puppet::{self, MarkOrigin, Options, Sheet};
 
 /// Writes the sheet of a drawing's figures.
@@ -123,6 +124,6 @@ fn summary(loaded: &Loaded, sheet: &Sheet) -> String {
 
 /// A scale with four digits.
 fn rounded(scale: f64) -> f64 {
-    let digits = 10_f64.powf(3.0 - scale.log10().floor());
+    let digits = math::powf(10_f64, 3.0 - math::log10(scale).floor());
     (scale * digits).round() / digits
 }

@@ -10,6 +10,7 @@ use super::curves::{bump, hermite, keyed};
 use super::gaits::lower;
 use super::pose::{Foot, Pose, lean, tip, turn};
 use crate::labels::Side;
+use crate::math;
 use crate::mocap::JointId;
 use crate::smoothing::ease;
 
@@ -60,11 +61,11 @@ fn standing(body: &Body, trunk: Trunk) -> Pose {
     let mut pose = Pose::rest(body);
     pose.turn_world(JointId::default(), trunk.hips);
     if let [spine, chest] = body.anatomy.spine[..] {
-        pose.turn_world(spine, trunk.hips.slerp(trunk.chest, 0.5));
+        pose.turn_world(spine, math::slerp(trunk.hips, trunk.chest, 0.5));
         pose.turn_world(chest, trunk.chest);
     }
     if let (Some(&neck), Some(head)) = (body.anatomy.neck.first(), body.anatomy.head) {
-        pose.turn_world(neck, trunk.chest.slerp(trunk.head, 0.5));
+        pose.turn_world(neck, math::slerp(trunk.chest, trunk.head, 0.5));
         pose.turn_world(head, trunk.head);
     }
     for arm in &body.arms {
@@ -94,8 +95,8 @@ fn on_ball(leg: &Leg, heel_up: f64) -> Foot {
 
 /// Breathes twice, shifts its weight, and looks aside.
 fn idle(body: &Body, frame: f64) -> Pose {
-    let breath = (1.0 - (frame / 36.0 * TAU).cos()) / 2.0;
-    let shift = (frame / 72.0 * TAU).sin();
+    let breath = (1.0 - math::cos(frame / 36.0 * TAU)) / 2.0;
+    let shift = math::sin(frame / 72.0 * TAU);
     let look = keyed(
         &[
             (10.0, 0.0),
@@ -121,7 +122,7 @@ fn idle(body: &Body, frame: f64) -> Pose {
     }
     for (index, joint) in body.anatomy.tail.iter().enumerate() {
         let late = 0.5 * index as f64;
-        pose.turn_inner(*joint, turn(8.0 * (frame / 36.0 * TAU - late).sin()));
+        pose.turn_inner(*joint, turn(8.0 * math::sin(frame / 36.0 * TAU - late)));
     }
     pose
 }
@@ -130,7 +131,7 @@ fn idle(body: &Body, frame: f64) -> Pose {
 fn wave(body: &Body, frame: f64) -> Pose {
     let raised = keyed(&[(3.0, 0.0), (15.0, 1.0), (44.0, 1.0), (57.0, 0.0)], frame);
     let waving = ease((frame - 11.0) / 5.0) * ease((47.0 - frame) / 5.0);
-    let to_and_fro = waving * ((frame - 13.0) / 10.0 * TAU).sin();
+    let to_and_fro = waving * math::sin((frame - 13.0) / 10.0 * TAU);
     let k = scale(body);
     let mut pose = standing(
         body,
@@ -168,9 +169,9 @@ fn wave(body: &Body, frame: f64) -> Pose {
 
 /// Four beats of half a second: a bounce on each, the weight from side to side, the arms up for the second half.
 fn dance(body: &Body, frame: f64) -> Pose {
-    let beat = (frame / 12.0 * TAU).cos();
-    let side = (frame / 24.0 * TAU).sin();
-    let late = ((frame - 2.0) / 24.0 * TAU).sin();
+    let beat = math::cos(frame / 12.0 * TAU);
+    let side = math::sin(frame / 24.0 * TAU);
+    let late = math::sin((frame - 2.0) / 24.0 * TAU);
     let high = keyed(&[(20.0, 0.0), (27.0, 1.0), (43.0, 1.0), (48.0, 0.0)], frame);
     let k = scale(body);
     let mut pose = standing(
@@ -391,7 +392,7 @@ fn jump(body: &Body, frame: f64) -> Pose {
             // In the air the feet keep their place below the trunk.
             let aloft = ease(since / 3.0) * ease((on - frame) / 3.0);
             let ahead = leg.ankle.z - pose.hips.z;
-            placed.ankle.y -= aloft * ahead * pitch.to_radians().sin();
+            placed.ankle.y -= aloft * ahead * math::sin(pitch.to_radians());
         }
         if flight > 0.0 {
             placed.toes = tip(heel * 0.6 * ease(since / 2.0) * ease((on - frame) / 2.0));

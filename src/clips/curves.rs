@@ -2,18 +2,19 @@
 
 use std::f64::consts::TAU;
 
+use crate::math;
 use crate::smoothing::ease;
 
 /// A wave with its crest, 1, at `crest` and its trough, −1, half a turn later.
 pub(super) fn wave(t: f64, crest: f64) -> f64 {
-    ((t - crest) * TAU).cos()
+    math::cos((t - crest) * TAU)
 }
 
 /// A bump from 0 up to 1 at `peak` and down to 0, while `t` goes from 0 to 1; it starts and ends without speed.
 pub(super) fn bump(t: f64, peak: f64) -> f64 {
     let t = t.clamp(0.0, 1.0);
     // Bends time so that `peak` is in the middle.
-    let bent = t.powf(0.5_f64.ln() / peak.ln());
+    let bent = math::powf(t, math::ln(0.5_f64) / math::ln(peak));
     (bent * (1.0 - bent) * 4.0).powi(2)
 }
 

@@ -6,6 +6,7 @@
 
 mod table;
 
+use crate::math;
 use glam::DVec3;
 
 use super::body::{Body, Leg, sign};
@@ -110,13 +111,13 @@ impl Gait {
         pose.turn_world(JointId::default(), hips);
         let joints = &body.anatomy;
         if let [spine, chest_joint] = joints.spine[..] {
-            pose.turn_world(spine, hips.slerp(chest, 0.5));
+            pose.turn_world(spine, math::slerp(hips, chest, 0.5));
             pose.turn_world(chest_joint, chest);
         }
         let nod = trunk.nod * wave(trunk.bobs * time, trunk.bobs * (trunk.lowest + 0.08));
         let head = tip(trunk.head + nod);
         if let (Some(&neck), Some(head_joint)) = (joints.neck.first(), joints.head) {
-            pose.turn_world(neck, chest.slerp(head, 0.6));
+            pose.turn_world(neck, math::slerp(chest, head, 0.6));
             pose.turn_world(head_joint, head);
         }
         for (index, joint) in joints.tail.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! A pose of a body: how its joints turn, and where its feet are. Legs reach their feet by two-bone inverse kinematics.
 
-use glam::{DMat3, DQuat, DVec3, EulerRot};
+use crate::math;
+use glam::{DMat3, DQuat, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::body::{Body, Leg};
@@ -11,17 +12,17 @@ pub(super) const MAX_REACH: f64 = 0.985;
 
 /// A rotation about the axis to the left, degrees; positive tips what points up to the front.
 pub(super) fn tip(degrees: f64) -> DQuat {
-    DQuat::from_rotation_x(degrees.to_radians())
+    math::rotation_x(degrees.to_radians())
 }
 
 /// A rotation about the vertical axis, degrees; positive turns the front to the left.
 pub(super) fn turn(degrees: f64) -> DQuat {
-    DQuat::from_rotation_y(degrees.to_radians())
+    math::rotation_y(degrees.to_radians())
 }
 
 /// A rotation about the axis to the front, degrees; positive tips what points up to the right.
 pub(super) fn lean(degrees: f64) -> DQuat {
-    DQuat::from_rotation_z(degrees.to_radians())
+    math::rotation_z(degrees.to_radians())
 }
 
 /// How a joint is turned.
@@ -179,8 +180,7 @@ pub(super) fn channel_values(body: &Body, poses: &[Pose]) -> Vec<f64> {
                 .parent
                 .map_or(DQuat::IDENTITY, |parent| placed[parent].rotation);
             let inner = above.inverse() * placed[id].rotation;
-            let (z, y, x) = inner.to_euler(EulerRot::ZYX);
-            let angles = [x, y, z].map(f64::to_degrees);
+            let angles = math::euler_zyx(inner).map(f64::to_degrees);
             for channel in &joint.channels {
                 let number = match channel {
                     Channel::Position(axis) => placed[id].position[axis.index()],

@@ -95,7 +95,7 @@ impl Version {
         let edit = TextEdit::find(&self.reading.drawing, &self.source, source, change)?;
         let drawing = Arc::make_mut(&mut self.reading.drawing);
         edit.apply(drawing);
-        if !reads_same_pixels(drawing) {
+        if !reads_same_pixels(drawing) || !bind::has_same_pose_layers(drawing) {
             return None;
         }
         for diagnostic in &mut self.reading.diagnostics {

@@ -172,6 +172,7 @@ impl Reading {
             options.tolerance,
             &recorder,
             &bind::in_layers_of_pixels,
+            &bind::makes_pose_layer,
         );
         Self {
             drawing: Arc::new(drawing),

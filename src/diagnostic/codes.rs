@@ -383,7 +383,7 @@ codes! {
     /// This version reads and checks the attribute, or the kind of shape, but does not build it yet.
     ///
     /// ```text
-    /// Boy$Pose 1.5
+    /// Boy$Walk 40
     /// ```
     ///
     /// Leave it in for a later version, or use something else for now.
@@ -454,7 +454,7 @@ codes! {
     /// Write the joint's name as in the motion file. Editors complete it, and `okoshi motion FILE` lists all joints.
     /// `Bone` takes one joint, or two: the first and the last of a chain.
     UnclearJoint = "W316", "unclear joint";
-    /// A motion moves nothing, or the drawing has `Limited`, `Bone` or `Perform` but no motion.
+    /// A motion moves nothing, or the drawing has `Limited`, `Held`, `Bone` or `Perform` but no motion.
     ///
     /// ```text
     /// %Limited 4 30, and no Motion
@@ -473,6 +473,9 @@ codes! {
     /// ```
     ///
     /// Ask for less: omit 4 to 6 drawings, and hold a third of the frames.
+    ///
+    /// Likewise for drawings that `Held` lists: frames that the motion does not have, drawings that others cover or that are left out anyway, and more
+    /// frames than are left until the end.
     TooLimited = "W318", "limited animation out of reach";
     /// All strings of the drawing are hidden, so none is read: what is hidden does not count. The drawing is built as if it
     /// had no strings.
@@ -669,6 +672,50 @@ codes! {
     ///
     /// Move the prop so that its lowest edge is on a top of the map, or write the point on which it stands into its string: `Tree$Stand 40 120`.
     NoFooting = "W338", "prop beside the ground";
+    /// A string with `Pose` makes no key pose: its layer holds no copies of parts, or the string is in no layer; or a part of the
+    /// figure that it names is missing, so that the copies alone say whose pose it is.
+    ///
+    /// ```text
+    /// Boy$Pose 1.5 in an empty layer
+    /// ```
+    ///
+    /// Clone the parts that move (in Inkscape, Alt+D), move the clones into the layer of the string (Shift+Page Up), and turn them there.
+    IdlePose = "W339", "key pose without effect";
+    /// Something in a pose layer is a copy of no part: neither a clone of one, nor has it the label, the string or the id of one.
+    /// It has no effect; nothing in a pose layer is built.
+    ///
+    /// ```text
+    /// a ball that is drawn in the layer of Boy$Pose 1.5
+    /// ```
+    ///
+    /// Clone the part itself, or give the copy the part's label. What is to be built belongs into another layer.
+    CopyOfNoPart = "W340", "copy of no part";
+    /// The key poses of a clip do not come one after the other: the layer above has a second that is not later. It is left out.
+    ///
+    /// ```text
+    /// $Pose 2 in a layer, and $Pose 1 in the layer above it
+    /// ```
+    ///
+    /// Order the layers as they play, from bottom to top, or correct the seconds.
+    PoseOrder = "W341", "key poses out of order";
+    /// A copy in a pose layer has another size or outline than its part, or is mirrored. Parts are turned and moved, but not scaled,
+    /// redrawn or flipped.
+    ///
+    /// ```text
+    /// a clone of an arm that was scaled to 120 %
+    /// ```
+    ///
+    /// Clone the part again, and turn the clone without scaling it.
+    CopyDiffers = "W342", "copy that is not like its part";
+    /// A copy in a pose layer lies beside the joint about which its part turns, by more than 5 % of the part's length. Only its turn
+    /// counts, so that in the model the part stays where it hangs.
+    ///
+    /// ```text
+    /// a clone of an arm that was moved away from the shoulder
+    /// ```
+    ///
+    /// Put the copy back onto its joint. In Inkscape, drag the cross of a selected object onto the joint and turn the object: it turns about the cross.
+    OffJoint = "W343", "copy off its joint";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

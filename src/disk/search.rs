@@ -69,8 +69,23 @@ pub(super) fn drawings(folder: &Path) -> Vec<PathBuf> {
     files(folder, is_drawing)
 }
 
-/// The plain and other files in a folder that are wanted, sorted by name.
+/// The names of the motion files in a folder, sorted, as far as a drawing can name them.
+pub(crate) fn motions(folder: &Path) -> Vec<String> {
+    let is_motion = |file: &Path| {
+        let ending = file.extension().map(|ending| ending.to_ascii_lowercase());
+        ending.is_some_and(|ending| ending == "bvh")
+    };
+    let files = files(folder, is_motion).into_iter();
+    let names = files.filter_map(|file| Some(file.file_name()?.to_str()?.to_owned()));
+    names.filter(|name| !name.contains('"')).collect()
+}
+
+/// The plain and other files in a folder that are wanted, sorted by name. The folder of a bare file name is the current one.
 pub(crate) fn files(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
+    let folder = match folder {
+        bare if bare == Path::new("") => Path::new("."),
+        folder => folder,
+    };
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let files = entries.take(MAX_FILES).map(|entry| entry.path());
     let mut files: Vec<PathBuf> = files.filter(|file| wanted(file)).collect();
@@ -81,10 +96,7 @@ pub(crate) fn files(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Vec<PathBu
 /// The file in the folder of `path` that has the most similar name, if one has a similar name: a file of the same kind, or
 /// else a drawing.
 pub(super) fn similar(path: &Path) -> Option<PathBuf> {
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
+    let folder = path.parent().unwrap_or(Path::new(""));
     let ending = |path: &Path| path.extension().map(|ending| ending.to_ascii_lowercase());
     let stem = |path: &Path| Some(path.file_stem()?.to_string_lossy().into_owned());
     let asked = stem(path)?;

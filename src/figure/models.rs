@@ -1,5 +1,6 @@
 //! Parts that are linked models: the files of `Shape model`, fitted to their parts.
 
+use crate::math;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
@@ -171,7 +172,7 @@ impl Models {
         let size = [room.x, room.y].into_iter().filter(|room| room.is_finite());
         let size = size.fold(f64::INFINITY, f64::min);
         let size = if size.is_finite() { size } else { 1.0 };
-        let spin = DMat3::from_rotation_z(own.angle - node.angle);
+        let spin = DMat3::from_quat(math::rotation_z(own.angle - node.angle));
         let turn = spin * (size * scale);
         let middle =
             spin * low.midpoint(high).extend(0.0) + node.to_local(own.center).extend(depth);

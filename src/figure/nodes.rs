@@ -1,6 +1,6 @@
 //! The nodes of figures, with their meshes, in the world's axes.
 
-use glam::DQuat;
+use crate::math;
 use rayon::prelude::*;
 use typed_index_collections::{TiVec, ti_vec};
 
@@ -48,7 +48,7 @@ pub(super) fn add(
     }
     let bones: TiVec<NodeId, usize> = tree.iter().map(|node| node.bone).collect();
     let to_scene = |node: FigureNode| {
-        let rotation = DQuat::from_rotation_z(node.angle);
+        let rotation = math::rotation_z(node.angle);
         let (translation, rotation) = match node.parent {
             Some(_) => (node.position * world.scale, rotation),
             None => (world.point(node.position), world.rotate(rotation)),

@@ -18,6 +18,7 @@ use super::tangled::{Crossings, MAX_CROSSINGS, MAX_PICTURED, crossings, pictured
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
 use crate::budget::{self, Step};
+use crate::math;
 
 /// Grid steps per extent of an outline. The finest grid cannot always separate rings that touch from rings that nearly
 /// touch in the same place; then the next coarser one is tried.
@@ -379,7 +380,7 @@ impl Grid {
             return None;
         }
         // A power of two, so that round coordinates survive the rounding unchanged.
-        let step = (extent / steps).log2().ceil().exp2();
+        let step = math::exp2(math::log2(extent / steps).ceil());
         let origin = (low.midpoint(high) / step).round() * step;
         origin.is_finite().then_some(Grid {
             origin,

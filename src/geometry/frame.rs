@@ -1,5 +1,6 @@
 //! Local frames of parts (Arai & Horry, section 3.5).
 
+use crate::math;
 use glam::{DAffine2, DVec2};
 
 use super::Measure;
@@ -39,7 +40,7 @@ impl Frame {
         Self {
             origin,
             center,
-            angle: (-y.x).atan2(y.y),
+            angle: math::atan2(-y.x, y.y),
         }
     }
 
@@ -55,18 +56,20 @@ impl Frame {
 
     /// A point of the plane in this frame.
     pub(crate) fn to_local(self, point: DVec2) -> DVec2 {
-        DVec2::from_angle(-self.angle).rotate(point - self.origin)
+        math::direction(-self.angle).rotate(point - self.origin)
     }
 
     /// The map from the plane to this frame.
     pub(crate) fn plane_to_local(self) -> DAffine2 {
-        DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.origin)
+        DAffine2::from_mat2(math::rotation(-self.angle)) * DAffine2::from_translation(-self.origin)
     }
 
     /// The map from the drawing, y down, to axes turned like this frame's with the part's centre at the origin.
     pub(crate) fn drawing_about_center(self) -> DAffine2 {
         let flip = DAffine2::from_scale(DVec2::new(1.0, -1.0));
-        DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.center) * flip
+        DAffine2::from_mat2(math::rotation(-self.angle))
+            * DAffine2::from_translation(-self.center)
+            * flip
     }
 }
 

@@ -3,6 +3,7 @@
 //! Drawing units, y down. The paper fits a regression line to the vertices; here the axis is the principal axis of the
 //! area within the borders, so that it depends neither on how curves are flattened nor on the frame.
 
+use crate::math;
 use glam::DVec2;
 
 use super::{Outline, query};
@@ -84,11 +85,11 @@ pub(crate) fn measure(outline: &Outline) -> Option<Measure> {
     let square = second / area - mean * mean;
     let mixed = mixed / area - mean.x * mean.y;
     let difference = square.x - square.y;
-    let spread = difference.hypot(2.0 * mixed);
+    let spread = math::hypot(difference, 2.0 * mixed);
     let larger = (square.x + square.y + spread) / 2.0;
     let certain = spread > EQUAL_MOMENTS * larger;
     let axis = if certain {
-        DVec2::from_angle((2.0 * mixed).atan2(difference) / 2.0)
+        math::direction(math::atan2(2.0 * mixed, difference) / 2.0)
     } else {
         UP
     };

@@ -247,7 +247,7 @@ impl Cursor<'_> {
         for attribute in whole.unwrap_or(attributes(annotation)) {
             match attribute.keyword {
                 Keyword::Let => {}
-                // Each motion can have its own `Limited` and `Perform`.
+                // Each motion can have its own `Limited`, `Held` and `Perform`.
                 Keyword::Motion => given.retain(|keyword: &Keyword| !keyword.belongs_to_motion()),
                 keyword => drop(given.insert(keyword)),
             }

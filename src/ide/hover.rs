@@ -111,7 +111,12 @@ impl Analysis {
                 let card = self.argument_card(string, (index, argument), slot, offset)?;
                 let has_clips = matches!(
                     attribute.keyword,
-                    Keyword::Motion | Keyword::Limited | Keyword::Perform | Keyword::Mark
+                    Keyword::Motion
+                        | Keyword::Limited
+                        | Keyword::Held
+                        | Keyword::Perform
+                        | Keyword::Pose
+                        | Keyword::Mark
                 );
                 let motion = has_clips.then(|| self.motion_card(string, index)).flatten();
                 Some(below(motion, &card))

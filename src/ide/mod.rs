@@ -27,6 +27,7 @@ mod regions;
 mod rename;
 mod selection;
 mod signature;
+mod strings;
 mod subject;
 mod symbols;
 mod tiles;

@@ -6,6 +6,7 @@ use super::Analysis;
 use super::at::attributes;
 use super::hover::{escaped, some_of};
 use crate::bind::{PartId, PartKind, StringId};
+use crate::diagnostic::listed;
 use crate::lang::keyword::Keyword;
 use crate::limited::frame_ranges;
 use crate::rig::{FigureClip, JointId};
@@ -37,6 +38,7 @@ impl Analysis {
                 continue;
             };
             let line = match drive.joint {
+                Some(_) if clip.is_posed => drive.why.clone(),
                 Some(joint) => {
                     format!("driven by {}: {}", code(clip.joint_name(joint)), drive.why)
                 }
@@ -72,7 +74,8 @@ impl Analysis {
         let span = string_of.text.span(attribute.range.clone());
         match attribute.keyword {
             Keyword::Motion => Some(self.asked_card(span)),
-            Keyword::Limited => self.limited_card(span),
+            Keyword::Limited | Keyword::Held => self.limited_card(span),
+            Keyword::Pose => self.pose_card(span),
             Keyword::Perform => self.performance_card(span),
             Keyword::Mark => self.mark_card(string),
             Keyword::Bone => self.driven_card(self.part_of_string(string)?),
@@ -92,8 +95,16 @@ impl Analysis {
                 let turns: Vec<String> = turns.iter().map(|turn| code(turn)).collect();
                 format!("; in turn {}", turns.join(", "))
             };
+            let by = match clip.is_posed {
+                true => "posed".to_owned(),
+                false => format!(
+                    "driven by the {} of {}",
+                    counted(clip.skeleton().joints.len(), "joint"),
+                    code(&clip.file)
+                ),
+            };
             format!(
-                "clip {} of {}: {:.2} s, {}, {}{in_turn}; {} of {} are driven by the {} of {}",
+                "clip {} of {}: {:.2} s, {}, {}{in_turn}; {} of {} are {by}",
                 code(&clip.name),
                 self.figure_of(clip),
                 clip.seconds(),
@@ -101,16 +112,33 @@ impl Analysis {
                 counted(clip.drawings(), "drawing"),
                 driven.count(),
                 counted(clip.parts.len(), "part"),
-                counted(clip.skeleton().joints.len(), "joint"),
-                code(&clip.file),
             )
         });
         list(lines.collect()).unwrap_or_else(|| "No figure plays it.\n".to_owned())
     }
 
+    /// What a key pose holds, and the clips that it begins.
+    fn pose_card(&self, span: Span) -> Option<String> {
+        let bindings = self.bindings();
+        let pose = bindings.poses.iter().find(|pose| pose.span == span)?;
+        let names = pose.parts.iter();
+        let names = names.map(|posed| code(&bindings.parts[posed.part].name));
+        let plays = self.compiled.clips.iter();
+        let mut plays = plays.filter(|clip| clip.requested_at == span);
+        let mut card = match pose.parts.as_slice() {
+            [] => "It holds no copies of parts.\n".to_owned(),
+            _ => format!("A key pose of {}.\n", listed(names)),
+        };
+        if plays.next().is_some() {
+            card.push('\n');
+            card.push_str(&self.asked_card(span));
+        }
+        Some(card)
+    }
+
     fn limited_card(&self, span: Span) -> Option<String> {
         let clips = self.compiled.clips.iter();
-        let clips = clips.filter(|clip| clip.limited_at == Some(span));
+        let clips = clips.filter(|clip| [clip.limited_at, clip.held_at].contains(&Some(span)));
         let lines = clips.map(|clip| {
             let (omitted, held) = clip.cut_frames();
             let what = |frames: &[u32]| {
@@ -264,6 +292,32 @@ mod tests {
             "{card}"
         );
         assert!(!hover("Rar¦m@Body", "").contains("driven"));
+    }
+
+    #[test]
+    fn key_poses_show_what_they_hold() {
+        let card = |string: &str, right: &str| {
+            let layer = format!(
+                "<g><text x=\"1\" y=\"99\">{string}</text><use href=\"#right\" transform=\"rotate(30 80 45)\"/></g></svg>"
+            );
+            let source = figure(["Body", right, "Larm@Body", "", ""]).replace("</svg>", &layer);
+            let (analysis, at) = moving(&source);
+            analysis
+                .hover(at)
+                .map_or(String::new(), |hover| hover.markdown)
+        };
+        let pose = card("Body$Po¦se 1", "Rarm@Body");
+        assert!(pose.starts_with("A key pose of `Rarm`.\n"), "{pose}");
+        let clip = "clip `poses` of `Body`: 1.00 s, 25 frames, 25 drawings; 1 of 4 parts are posed";
+        assert!(pose.contains(clip), "{pose}");
+        assert!(pose.contains("a key pose: copies of parts"), "{pose}");
+        let seconds = card("Body$Pose 1¦ nod", "Rarm@Body");
+        assert!(seconds.contains("when the pose is reached"), "{seconds}");
+        let part = card("Body$Pose 1", "Rar¦m@Body");
+        assert!(
+            part.contains("In clip `poses`: its copies in the pose layers turn it."),
+            "{part}"
+        );
     }
 
     #[test]

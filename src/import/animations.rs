@@ -1,5 +1,6 @@
 //! Clips: glTF's animations, read completely and sampled one pose at a time.
 
+use crate::math;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -109,7 +110,7 @@ fn lerp<const N: usize>(a: [f64; N], b: [f64; N], share: f64) -> [f64; N] {
 /// Spherical interpolation along the shorter arc.
 fn slerp(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
     let [a, b] = [a, b].map(|row| unit_quaternion(DQuat::from_array(row)));
-    a.slerp(b, share).to_array()
+    math::slerp(a, b, share).to_array()
 }
 
 impl<const N: usize> Curve<N> {

@@ -8,6 +8,7 @@ use glam::{DMat4, DVec3};
 
 use super::pose::{Geometry, Pose};
 use super::{Clip, ImportError, NodeId, id, malformed};
+use crate::math;
 use crate::scene::CameraProjection;
 
 /// The sine of the least angle between a direction and the upright axis at which the direction is turned around that axis.
@@ -56,11 +57,11 @@ impl CameraPose {
     /// How far it is turned around the upright axis, degrees, as the yaw of a view. For a camera that looks straight up or down,
     /// what is up in its picture counts.
     pub(crate) fn yaw(&self) -> f64 {
-        let level = self.towards.x.hypot(self.towards.z);
+        let level = math::hypot(self.towards.x, self.towards.z);
         let yaw = if level > LEAST_LEVEL {
-            self.towards.x.atan2(self.towards.z)
+            math::atan2(self.towards.x, self.towards.z)
         } else {
-            (-self.right.z).atan2(self.right.x)
+            math::atan2(-self.right.z, self.right.x)
         };
         yaw.to_degrees()
     }

@@ -1,5 +1,6 @@
 //! Meshes: triangles and their vertex attributes.
 
+use crate::math;
 use ::gltf::mesh::Mode;
 use ::gltf::texture::TextureTransform;
 use ::gltf::{Accessor, Document, Material, Primitive as Source, Semantic};
@@ -221,7 +222,7 @@ fn triangles(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
 fn transform_matrix(transform: &TextureTransform<'_>) -> DMat3 {
     let [x, y] = transform.offset().map(f64::from);
     let [width, height] = transform.scale().map(f64::from);
-    let (sin, cos) = f64::from(transform.rotation()).sin_cos();
+    let (sin, cos) = math::sin_cos(f64::from(transform.rotation()));
     DMat3::from_cols(
         DVec3::new(cos * width, -sin * width, 0.0),
         DVec3::new(sin * height, cos * height, 0.0),

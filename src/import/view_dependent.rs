@@ -5,6 +5,7 @@ use glam::{DMat3, DMat4, DVec3};
 use serde::Deserialize;
 
 use super::{ImportError, malformed};
+use crate::math;
 use crate::scene::{Turn, ViewDependent, ViewId, direction, view_axes};
 
 const EXTENSION: &str = "OKOSHI_view_dependent";
@@ -119,7 +120,7 @@ fn bend_for(towards: DVec3) -> DMat3 {
         // From straight above R is 1.
         return DMat3::IDENTITY;
     };
-    let elevation = towards.y.clamp(-1.0, 1.0).asin().to_degrees().abs();
+    let elevation = math::asin(towards.y.clamp(-1.0, 1.0)).to_degrees().abs();
     let more = (std::f64::consts::SQRT_2 - 1.0) * (1.0 - (elevation - STEEPEST).abs() / STEEPEST);
     let along = (DVec3::Y - horizontal) * std::f64::consts::FRAC_1_SQRT_2;
     DMat3::IDENTITY

@@ -1,5 +1,6 @@
 //! What an arm holds: a broom, a pan, a banner. It is no piece of the arm, and turns with the hand only.
 
+use crate::math;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::figure::Drafts;
@@ -93,7 +94,7 @@ pub(super) fn by_arm(
         above
     };
     let axis = tree.tip(bone) - tree.joint(bone);
-    let angle = axis.angle_to(way).abs().to_degrees();
+    let angle = math::angle_to(axis, way).abs().to_degrees();
     let angle = angle.min(180.0 - angle);
     let is_slender = length > SLENDER * tree.parts[part].width;
     // A thumb that is called one points aside too.

@@ -24,6 +24,7 @@ mod vehicle;
 #[cfg(test)]
 pub(crate) mod tests;
 
+use crate::math;
 use glam::DVec3;
 use typed_index_collections::TiSlice;
 
@@ -161,9 +162,9 @@ impl Facing {
     pub fn turn(self) -> glam::DQuat {
         match self {
             Self::Viewer | Self::UpHeadDown => glam::DQuat::IDENTITY,
-            Self::Left => glam::DQuat::from_rotation_y(-std::f64::consts::FRAC_PI_2),
-            Self::Right => glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
-            Self::Away | Self::Up => glam::DQuat::from_rotation_y(std::f64::consts::PI),
+            Self::Left => math::rotation_y(-std::f64::consts::FRAC_PI_2),
+            Self::Right => math::rotation_y(std::f64::consts::FRAC_PI_2),
+            Self::Away | Self::Up => math::rotation_y(std::f64::consts::PI),
         }
     }
 }

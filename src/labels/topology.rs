@@ -1,5 +1,6 @@
 //! Finds the limbs of a skeleton by its shape: the two longest mirrored pairs of chains.
 
+use crate::math;
 use typed_index_collections::TiSlice;
 
 use super::joint_names::LimbJoints;
@@ -205,7 +206,7 @@ fn joined(tree: &JointTree, mut bones: Vec<Bone>, poses: &[Pose]) -> Vec<Bone> {
 /// The angle between the bones from one joint to the next and from there to the third, degrees; 0 without length.
 fn bend(pose: &TiSlice<JointId, Transform>, joints: [JointId; 3]) -> f64 {
     let [a, b, c] = joints.map(|joint| pose[joint].position);
-    let angle = (b - a).angle_between(c - b).to_degrees();
+    let angle = math::angle_between(b - a, c - b).to_degrees();
     if angle.is_finite() { angle } else { 0.0 }
 }
 

@@ -147,6 +147,7 @@ impl Checker<'_> {
             text,
             range: attribute.range.clone(),
             limited: None,
+            held: None,
             performance: None,
         })
     }
@@ -181,7 +182,7 @@ impl Checker<'_> {
     }
 }
 
-/// Moves each `Limited` and `Perform` into the `Motion` before it, which it belongs to. One behind a `Motion` with an error is dropped
+/// Moves each `Limited`, `Held` and `Perform` into the `Motion` before it, which it belongs to. One behind a `Motion` with an error is dropped
 /// like that.
 fn give_to_motions(attributes: &[Attribute], settings: &mut [Option<Setting>]) {
     let mut motion = None;
@@ -197,6 +198,7 @@ fn give_to_motions(attributes: &[Attribute], settings: &mut [Option<Setting>]) {
         if let Some(motion) = &mut settings[motion] {
             let slot = match keyword {
                 Keyword::Perform => &mut motion.performance,
+                Keyword::Held => &mut motion.held,
                 _ => &mut motion.limited,
             };
             *slot = given.or(slot.take());

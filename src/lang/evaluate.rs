@@ -1,5 +1,7 @@
 //! The value of an expression.
 
+use crate::math;
+
 use super::ast::{Expression, Function, Name};
 
 /// The result of looking up a variable.
@@ -98,7 +100,7 @@ fn sine(degrees: f64) -> f64 {
         0. => return 0.,
         30. => 0.5,
         90. => 1.,
-        quarter => quarter.to_radians().sin(),
+        quarter => math::sin(quarter.to_radians()),
     };
     sign * value
 }

@@ -84,6 +84,7 @@ keywords! {
     Strokes = drawing::STROKES;
     Motion = motion::MOTION;
     Limited = motion::LIMITED;
+    Held = motion::HELD;
     Size = motion::SIZE;
     Walk = motion::WALK;
     Pose = motion::POSE;
@@ -233,7 +234,7 @@ impl Keyword {
 
     /// Whether an attribute behind a `Motion` belongs to that clip, so that each motion can have its own.
     pub fn belongs_to_motion(self) -> bool {
-        matches!(self, Self::Limited | Self::Perform)
+        matches!(self, Self::Limited | Self::Held | Self::Perform)
     }
 
     /// The keyword with an effect that `word` is probably a misspelling of, and their edit distance.

@@ -46,7 +46,7 @@ pub(crate) fn parameter_at(
             owner: kind.name,
             kind: Some(kind),
             form: &kind.form,
-            index: parameter_index(&kind.form, index - 1)?,
+            index: kind.form.parameter_index(index - 1)?,
         });
     }
     if attribute.keyword == Keyword::Motion {
@@ -60,7 +60,7 @@ pub(crate) fn parameter_at(
         owner: attribute.keyword.name(),
         kind: None,
         form,
-        index: parameter_index(form, index)?,
+        index: form.parameter_index(index)?,
     })
 }
 
@@ -108,12 +108,6 @@ fn fits_second(form: &Form, attribute: &Attribute) -> bool {
     }
 }
 
-/// The index of the parameter that argument `index` is for: the last parameter of a list takes all further arguments.
-fn parameter_index(form: &Form, index: usize) -> Option<usize> {
-    let last = form.parameters.len().checked_sub(1)?;
-    (index < form.max_arguments()).then(|| index.min(last))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,6 +141,8 @@ mod tests {
             ("$Origin 1", 1, Some(("Origin", "y"))),
             ("$Origin center", 1, None),
             ("$Follow a b c", 7, Some(("Follow", "name"))),
+            ("$Held 1 2 3", 3, Some(("Held", "frames"))),
+            ("$Held 1 2 3 4", 4, Some(("Held", "frame"))),
             ("$Hidden", 0, None),
             ("$Motion \"a.bvh\"", 1, Some(("Motion", "up"))),
             ("$Motion \"a.bvh\" +z", 1, Some(("Motion", "up"))),

@@ -112,11 +112,19 @@ pub(crate) const TOPICS: [Topic; 15] = [
             "dance",
             "bvh",
             "mocap",
+            "poses",
+            "keyframe",
+            "keyframes",
         ],
         text: "Write `%Motion walk` somewhere on the page: a figure with legs walks, on two, four or six of them. `Motion` alone plays \
                what fits: wheels drive, wings fly, fins swim. `Motion \"kick.bvh\"` plays a file of motion capture. docs/motion.md begins with a \
-               figure that moves in a minute.",
-        keywords: &[Keyword::Motion, Keyword::Limited],
+               figure that moves in a minute. Key poses that you draw yourself are layers with `Pose`.",
+        keywords: &[
+            Keyword::Motion,
+            Keyword::Pose,
+            Keyword::Limited,
+            Keyword::Held,
+        ],
     },
     Topic {
         name: "paint",

@@ -17,6 +17,8 @@ pub struct Setting {
     pub range: Range<usize>,
     /// The `Limited` that belongs to a `Motion`: the one between it and the next.
     pub limited: Option<Box<Setting>>,
+    /// The `Held` that belongs to a `Motion`, likewise.
+    pub held: Option<Box<Setting>>,
     /// The `Perform` that belongs to a `Motion`, likewise.
     pub performance: Option<Box<Setting>>,
 }
@@ -51,10 +53,14 @@ pub enum Value {
     Ground(Ground),
     /// `Motion`
     Motion(Motion),
+    /// `Held`
+    Held(Vec<HeldDrawing>),
     /// `Mark`
     Mark(Mark),
     /// `Perform`
     Performance(Performance),
+    /// `Pose`
+    Pose(Pose),
     /// `Let`: name and value.
     Let(String, f64),
     /// No arguments, such as `Hidden`.
@@ -105,6 +111,15 @@ impl Shape {
     }
 }
 
+/// A drawing of `Held`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HeldDrawing {
+    /// Its frame of the motion, counted from 1.
+    pub frame: usize,
+    /// For how many frames it stands.
+    pub frames: usize,
+}
+
 /// `Motion [-il] "file" …`, `Motion [-il] walk …`, `Motion [-il]`
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
@@ -146,6 +161,17 @@ pub enum MotionSource {
     BuiltIn(String),
     /// The clip that comes along and fits the figure.
     Fitting,
+}
+
+/// `Pose [-l] seconds [clip]`
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pose {
+    /// When the pose is reached, seconds from the beginning of the clip.
+    pub seconds: f64,
+    /// The clip's name, if given.
+    pub clip: Option<String>,
+    /// `-l`: a loop.
+    pub is_loop: bool,
 }
 
 /// `Mark color`

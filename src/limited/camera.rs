@@ -1,5 +1,6 @@
 //! Motion as a camera sees it (Kitamura 5.4).
 
+use crate::math;
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
@@ -36,7 +37,8 @@ impl Camera {
             }
         });
         // The camera's rotation undone: about y first, then about the picture's x.
-        let turn = DMat3::from_rotation_x(pitch) * DMat3::from_rotation_y(-yaw);
+        let turn =
+            DMat3::from_quat(math::rotation_x(pitch)) * DMat3::from_quat(math::rotation_y(-yaw));
         let middle = middle(positions);
         let distance = self
             .distance

@@ -4,6 +4,7 @@
 //! each shown frame.
 //! Knows no skeletons and no figures. A frame's identity is its source frame.
 
+mod by_hand;
 mod camera;
 mod drawings;
 mod error;
@@ -22,6 +23,7 @@ mod segments;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use by_hand::{Chosen, Conflict, by_hand};
 pub use camera::Camera;
 pub use drawings::drawings;
 pub(crate) use drawings::{BestDrawings, MAX_HOLD};

@@ -240,8 +240,12 @@ fn not_built(
         let found = found.into_iter();
         found.map(|(_, start, what)| (start, what)).collect()
     };
+    let mut guides: FxHashMap<usize, LeftOut> = by_element(guides);
+    let poses = drawing.poses.layers.iter();
+    let poses = poses.map(|layer| drawing.groups[*layer].element.span.start);
+    guides.extend(poses.map(|start| (start, LeftOut::Element)));
     NotBuilt {
-        guides: by_element(guides),
+        guides,
         lines: by_element(lines),
     }
 }

@@ -1,6 +1,7 @@
 //! Where a model lies on the page of its drawing.
 
-use glam::{DQuat, DVec2, DVec3};
+use crate::math;
+use glam::{DVec2, DVec3};
 
 use super::{LookError, characters};
 use crate::assemble::world_transform;
@@ -98,7 +99,7 @@ fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scen
         } else {
             ELEVATION
         };
-        moved.rotation = world.rotation * DQuat::from_rotation_x(elevation.to_radians());
+        moved.rotation = world.rotation * math::rotation_x(elevation.to_radians());
         if !scene.roots.contains(&node) {
             scene.roots.push(node);
         }

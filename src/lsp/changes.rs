@@ -11,6 +11,7 @@ use super::backend::Backend;
 use super::documents::{Analyzed, Document};
 use crate::compile::{Options, compile};
 use crate::diagnostic::{Edit, applied};
+use crate::disk::motions;
 use crate::export::{self, GLB};
 use crate::ide::Analysis;
 use crate::ide::changes::{Change, Refusal, check, edits};
@@ -43,9 +44,10 @@ struct Possible {
 impl Backend {
     /// Says what can be changed about a part.
     pub(super) async fn preview_form(&self, params: FormParams) -> Result<Value> {
-        let (_, analyzed) = self.shown(&params.text_document).await?;
+        let (document, analyzed) = self.shown(&params.text_document).await?;
+        let files = document.folder().map(motions).unwrap_or_default();
         Ok(match analyzed.analysis.form(&params.part) {
-            Ok(form) => json!({ "form": form }),
+            Ok(form) => json!({ "form": form.with_motion_files(files) }),
             Err(refusal) => refused(&refusal),
         })
     }

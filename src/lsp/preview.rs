@@ -21,9 +21,9 @@ use crate::compile::Compiled;
 use crate::crash;
 use crate::export::{self, GLB};
 use crate::memo::Memo;
-use crate::preview::{Builds, Hub, Picked, Shown, bind, editing_in_client, serve};
+use crate::page::{Builds, Hub, Picked, Shown, Times, editing_in_client};
+use crate::preview::{bind, serve};
 use crate::source::Span;
-use crate::watch::BuildTimes;
 
 /// The texts that are previewed, and the connections to panel and page.
 pub(super) struct Previews {
@@ -85,7 +85,7 @@ impl Previews {
             });
         };
         // An editor begins drawings by itself.
-        let hub = Hub::new(show, None, None);
+        let hub = Hub::new(show, None, None, None);
         let previews = Arc::new(Self {
             hub,
             client,
@@ -207,10 +207,11 @@ impl Previews {
             text: analyzed.document.text(),
             compiled,
             model: model.as_ref().map(|(bytes, written)| (bytes, *written)),
-            times: BuildTimes {
+            times: Times {
                 noticed: begun,
                 started: begun,
                 finished: SystemTime::now(),
+                pushed: SystemTime::now(),
             },
         };
         // The text may have been closed meanwhile.

@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use typed_index_collections::{TiVec, ti_vec};
 
 use crate::index::index_type;
+use crate::math;
 
 index_type!(
     /// Refers to a joint of a skeleton.
@@ -231,7 +232,7 @@ impl Clip {
             match channel {
                 Channel::Position(axis) => position[axis.index()] = *number,
                 Channel::Rotation(axis) => {
-                    let (sin, cos) = (number.to_radians() / 2.0).sin_cos();
+                    let (sin, cos) = math::sin_cos(number.to_radians() / 2.0);
                     let turn = match axis {
                         Axis::X => DQuat::from_xyzw(sin, 0.0, 0.0, cos),
                         Axis::Y => DQuat::from_xyzw(0.0, sin, 0.0, cos),

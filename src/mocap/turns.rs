@@ -1,5 +1,6 @@
 //! Rotations that follow each other in time.
 
+use crate::math;
 use glam::{DQuat, DVec3};
 
 /// Whether consecutive quaternions are as near to each other as they can be.
@@ -38,14 +39,14 @@ pub(crate) fn damp(turns: &mut Vec<DQuat>, ratio: f64) {
             before.normalize_or_zero()
         };
         // Quaternions repeat after two whole turns; of all such angles, the one nearest to that of the frame before.
-        let angle = 2.0 * length.atan2(way.w);
+        let angle = 2.0 * math::atan2(length, way.w);
         let whole = 2.0 * std::f64::consts::TAU;
         let turns = ((before.dot(axis) - angle) / whole).round();
         let vector = axis * (angle + turns * whole);
         before = vector;
         *turn = match ratio {
             0.0 => first,
-            _ => (first * DQuat::from_scaled_axis(vector * ratio)).normalize(),
+            _ => (first * math::rotation_along(vector * ratio)).normalize(),
         };
     }
 }

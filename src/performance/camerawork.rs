@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::math;
 use crate::smoothing::ease;
 
 /// The vertical field of view of the camera, radians: that of an 85 mm lens on a square of 36 mm.
@@ -36,7 +37,7 @@ pub(crate) fn camerawork(joint: &[DVec3], front: DVec3, reach: f64, depth: f64) 
         }
     }
     let nearest = nearest.0;
-    let tangent = (CAMERA_FOV / 2.0).tan() * (1.0 - MARGIN);
+    let tangent = math::tan(CAMERA_FOV / 2.0) * (1.0 - MARGIN);
     // The camera is in front of the figure where it is nearest, too.
     let far = (reach / tangent + depth).max(depth * 1.5 / NEAREST);
     let last = joint.len().saturating_sub(1);

@@ -3,6 +3,7 @@
 //! The thesis has no rules for it; these were found on files of several capture systems. A step is the square root of the
 //! thesis' speed (equation 5.1), √SSD(k), over all joints.
 
+use crate::math;
 use glam::DVec3;
 use typed_index_collections::TiSlice;
 
@@ -150,7 +151,7 @@ fn is_t(pose: &TiSlice<JointId, DVec3>, arms: &[[JointId; 2]]) -> bool {
         let out = *shoulder - (sum - *shoulder) / others;
         let arm = *hand - *shoulder;
         let known = out.length_squared() > 0.0 && arm.length_squared() > 0.0;
-        known && out.angle_between(arm) <= ARMS_WITHIN.to_radians()
+        known && math::angle_between(out, arm) <= ARMS_WITHIN.to_radians()
     })
 }
 

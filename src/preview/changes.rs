@@ -1,9 +1,10 @@
-//! Changes of the drawing that a page shows.
+//! Changes of the drawing that a page shows, over HTTP.
 //!
 //! A page asks by POST with JSON, and names the key of the server that it got in its first messages. Other pages in the same browser do
 //! not have that key, and `access` lets none of their requests pass.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use axum::body::{Body, Bytes, to_bytes};
@@ -11,14 +12,14 @@ use axum::extract::State;
 use axum::http::header::HeaderName;
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 
-use super::hub::Hub;
-use super::server::{Shared, served};
-use super::starters::random_key;
-use crate::ide::changes::{Change, Choice, Refusal};
-use crate::watch::{Action, Done, Editor, NotChanged};
+use super::server::{GLB, Shared, served};
+use crate::ide::Analysis;
+use crate::ide::changes::{Action, Change, Done, Refusal, Steps};
+use crate::page::{Editing, Editor, Hub, Refused, ToChange, ToShow, ToTry, random_key};
+use crate::watch::Editor as FileEditor;
 
 /// The longest request, in bytes.
 const MAX_REQUEST: usize = 64 << 10;
@@ -29,67 +30,41 @@ const KEY: HeaderName = HeaderName::from_static("okoshi-key");
 /// The header with the address of a model that was only tried.
 const MODEL: HeaderName = HeaderName::from_static("okoshi-model");
 
-/// What lets pages change drawings. Without it they only show them.
-#[derive(Debug)]
-pub(crate) struct Editing {
-    /// Only who has read the messages of this server knows it.
-    pub(super) key: String,
-    pub(super) editor: Editor,
-}
+impl Editor for FileEditor {
+    fn act(&self, id: &str, action: &Action, shown: Option<&str>) -> Result<Done, Refusal> {
+        Ok(Self::act(self, Path::new(id), action, shown)?)
+    }
 
-impl Editing {
-    /// Changes are made by this editor. The ids of drawings are their paths.
-    pub(crate) fn new(editor: Editor) -> Self {
-        Self {
-            key: random_key(),
-            editor,
-        }
+    fn tried(&self, id: &str, change: &Change, shown: Option<&str>) -> Result<Vec<u8>, Refusal> {
+        Ok(Self::tried(self, Path::new(id), change, shown)?)
+    }
+
+    fn analysis(&self, id: &str) -> Result<Arc<Analysis>, Refusal> {
+        Ok(Self::analysis(self, Path::new(id))?)
+    }
+
+    fn steps(&self, id: &str) -> Steps {
+        Self::steps(self, Path::new(id))
+    }
+
+    fn forget(&self, id: &str) {
+        Self::forget(self, Path::new(id));
+    }
+
+    fn changes_copy(&self) -> bool {
+        Self::changes_copy(self)
+    }
+
+    fn motion_files(&self, id: &str) -> Vec<String> {
+        Self::motion_files(self, Path::new(id))
     }
 }
 
-/// A request to change a drawing.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ToChange {
-    drawing: String,
-    /// The build that the page showed.
-    revision: u64,
-    #[serde(rename = "do")]
-    action: ToDo,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum ToDo {
-    Make(Change),
-    Undo,
-    Redo,
-}
-
-/// A request for what a change would make of a drawing.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ToTry {
-    drawing: String,
-    revision: u64,
-    change: Change,
-    /// The address of the model that the page shows.
-    shows: String,
-}
-
-/// A request for what can be changed about a part.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ToShow {
-    drawing: String,
-    part: String,
-}
-
-/// Why something was not done, and what could be done instead.
-#[derive(Debug, Serialize)]
-struct Refused {
-    why: String,
-    choices: Vec<Choice>,
+impl Editing {
+    /// Changes are made in files. The ids of drawings are their paths.
+    pub(crate) fn of_files(editor: FileEditor) -> Self {
+        Self::new(random_key(), editor)
+    }
 }
 
 /// Makes a change, undoes or redoes one.
@@ -102,16 +77,7 @@ pub(super) async fn change(
         Ok(asked) => asked,
         Err(refused) => return refused,
     };
-    let action = match asked.action {
-        ToDo::Make(change) => Action::Make(change),
-        ToDo::Undo => Action::Undo,
-        ToDo::Redo => Action::Redo,
-    };
-    answered(move || {
-        let Done { part, note } = shared.hub.act(&asked.drawing, asked.revision, &action)?;
-        Ok(serde_json::json!({ "part": part, "note": note }))
-    })
-    .await
+    answered(move || shared.hub.change_as_asked(asked)).await
 }
 
 /// Shows what a change would make of a drawing, while it is being decided: as binary glTF, what differs from the model that the page
@@ -125,14 +91,9 @@ pub(super) async fn attempt(
         Ok(asked) => asked,
         Err(refused) => return refused,
     };
-    let tried = tokio::task::spawn_blocking(move || {
-        let hub = &shared.hub;
-        hub.tried(&asked.drawing, asked.revision, &asked.change, &asked.shows)
-    });
+    let tried = tokio::task::spawn_blocking(move || shared.hub.tried_as_asked(&asked));
     match tried.await {
-        Ok(Ok((address, bytes))) => {
-            ([(MODEL, address)], served("model/gltf-binary", Some(bytes))).into_response()
-        }
+        Ok(Ok((address, bytes))) => ([(MODEL, address)], served(GLB, Some(bytes))).into_response(),
         _ => StatusCode::NO_CONTENT.into_response(),
     }
 }
@@ -143,12 +104,7 @@ pub(super) async fn form(State(shared): State<Shared>, headers: HeaderMap, body:
         Ok(asked) => asked,
         Err(refused) => return refused,
     };
-    answered(move || {
-        let editing = shared.hub.editing_of(&asked.drawing)?;
-        let analysis = editing.editor.analysis(Path::new(&asked.drawing))?;
-        Ok(analysis.form(&asked.part)?)
-    })
-    .await
+    answered(move || shared.hub.form_as_asked(&asked)).await
 }
 
 /// The request of a page that has the key.
@@ -213,14 +169,11 @@ async fn asked<T: DeserializeOwned>(
 
 /// The answer of something that reads and writes files.
 async fn answered<T: Serialize + Send + 'static>(
-    work: impl FnOnce() -> Result<T, NotChanged> + Send + 'static,
+    work: impl FnOnce() -> Result<T, Refusal> + Send + 'static,
 ) -> Response {
     match tokio::task::spawn_blocking(work).await {
         Ok(Ok(answer)) => json(StatusCode::OK, &answer),
-        Ok(Err(NotChanged::Refused(Refusal { why, choices }))) => {
-            json(StatusCode::CONFLICT, &Refused { why, choices })
-        }
-        Ok(Err(error)) => said(StatusCode::CONFLICT, error.to_string()),
+        Ok(Err(refusal)) => json(StatusCode::CONFLICT, &Refused::from(refusal)),
         Err(_) => said(
             StatusCode::INTERNAL_SERVER_ERROR,
             "the program failed at this change; the drawing is as it was",
@@ -229,8 +182,7 @@ async fn answered<T: Serialize + Send + 'static>(
 }
 
 fn said(status: StatusCode, why: impl Into<String>) -> Response {
-    let (why, choices) = (why.into(), vec![]);
-    json(status, &Refused { why, choices })
+    json(status, &Refused::from(Refusal::without_choice(why)))
 }
 
 fn json(status: StatusCode, answer: &impl Serialize) -> Response {

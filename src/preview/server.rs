@@ -20,12 +20,13 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 
 use super::access::{Hosts, control};
-use super::films::Shot;
-use super::hub::Hub;
-use super::{camera, changes, films, page, socket};
+use super::{assets, camera, changes, socket};
+use crate::page::{self, Export, Hub, Shot};
 
 /// The port that is tried first, so that an open page finds the server again after a restart.
 const PORT: u16 = 4173;
+/// The media type of models.
+pub(super) const GLB: &str = "model/gltf-binary";
 /// The most connections; a page needs a few. Further ones are closed at once.
 const MAX_CONNECTIONS: usize = 256;
 /// The most pages that may be connected.
@@ -140,9 +141,11 @@ fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
         .route("/builds/{file}", get(build))
         .route("/originals/{file}", get(originals))
         .route("/pictures/{file}", get(picture))
+        .route("/papers/{file}", get(paper))
         .route("/films/{file}", get(film))
+        .route("/exports/{file}", get(export))
         .route("/starters/{file}", get(starter));
-    for (path, kind, bytes) in page::ASSETS {
+    for (path, kind, bytes) in assets::ASSETS {
         router = router.route(
             path,
             get(move || async move { ([(header::CONTENT_TYPE, kind)], bytes) }),
@@ -154,21 +157,47 @@ fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
         .layer(from_fn_with_state(hosts, control))
 }
 
-async fn build(State(shared): State<Shared>, uri: Uri) -> Response {
+async fn build(State(shared): State<Shared>, Path(file): Path<String>, uri: Uri) -> Response {
     let address = uri.path_and_query().map_or("", PathAndQuery::as_str);
     let address = address.trim_start_matches('/').to_owned();
-    // Comparing large models takes a while.
-    let bytes = tokio::task::spawn_blocking(move || shared.hub.bytes(&address)).await;
-    binary(bytes.ok().flatten())
+    match bytes(&shared, address).await {
+        Some(bytes) => served(GLB, Some(bytes)),
+        None => without_model(&shared, number(&file, ".glb")),
+    }
 }
 
 async fn originals(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
-    let model = number(&file, ".glb").and_then(|number| shared.hub.model(number));
-    binary(model.and_then(|model| model.originals.clone()))
+    let number = number(&file, ".glb");
+    match number.and_then(|number| shared.hub.model(number)) {
+        Some(model) => served(GLB, model.originals.clone()),
+        None => without_model(&shared, number),
+    }
 }
 
-fn binary(model: Option<Arc<[u8]>>) -> Response {
-    served("model/gltf-binary", model)
+/// What an address stands for. Comparing large models and writing large pages takes a while.
+async fn bytes(shared: &Shared, address: String) -> Option<Arc<[u8]>> {
+    let hub = shared.hub.clone();
+    let bytes = tokio::task::spawn_blocking(move || hub.bytes(&address)).await;
+    bytes.ok().flatten()
+}
+
+/// The page of a drawing. One that a newer build replaced was asked for before the page read of that.
+async fn paper(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
+    match bytes(&shared, format!("papers/{file}")).await {
+        Some(bytes) => served("application/json", Some(bytes)),
+        None if number(&file, ".json").is_some() => StatusCode::NO_CONTENT.into_response(),
+        None => StatusCode::NOT_FOUND.into_response(),
+    }
+}
+
+/// The answer to whoever asks for something of a model that is not there. One that newer models replaced was asked for before the page
+/// read of those: that is no mistake, which browsers would report.
+fn without_model(shared: &Shared, number: Option<u64>) -> Response {
+    if number.is_some_and(|number| shared.hub.is_replaced(number)) {
+        StatusCode::NO_CONTENT.into_response()
+    } else {
+        StatusCode::NOT_FOUND.into_response()
+    }
 }
 
 pub(super) fn served(media_type: &'static str, bytes: Option<Arc<[u8]>>) -> Response {
@@ -179,9 +208,9 @@ pub(super) fn served(media_type: &'static str, bytes: Option<Arc<[u8]>>) -> Resp
 }
 
 async fn picture(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
-    let model = number(&file, ".png").and_then(|number| shared.hub.model(number));
-    let Some(model) = model else {
-        return StatusCode::NOT_FOUND.into_response();
+    let number = number(&file, ".png");
+    let Some(model) = number.and_then(|number| shared.hub.model(number)) else {
+        return without_model(&shared, number);
     };
     let _permit = shared.hub.drawing_pictures.acquire().await;
     let drawn = tokio::task::spawn_blocking(move || model.picture()).await;
@@ -195,10 +224,36 @@ async fn film(State(shared): State<Shared>, Path(file): Path<String>, uri: Uri) 
         return StatusCode::NOT_FOUND.into_response();
     };
     let _permit = shared.hub.drawing_films.acquire().await;
-    let drawn = tokio::task::spawn_blocking(move || films::gif(&model.bytes, shot)).await;
+    let drawn = tokio::task::spawn_blocking(move || page::gif(&model.bytes, shot)).await;
     match drawn {
         Ok(Ok(bytes)) => served("image/gif", Some(bytes)),
         Ok(Err(why)) => (StatusCode::UNPROCESSABLE_ENTITY, why.to_string()).into_response(),
+        Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+    }
+}
+
+/// Another file of the drawing of a model: the model as OBJ, or the sheet of a puppet as SVG. It is for saving, not for looking at: a
+/// sheet has pieces of the drawing in it, which anybody may have drawn.
+async fn export(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
+    let asked = file
+        .split_once('.')
+        .and_then(|(number, ending)| Some((number.parse().ok()?, Export::by_ending(ending)?)));
+    let Some((number, export)) = asked else {
+        return StatusCode::NOT_FOUND.into_response();
+    };
+    let _permit = shared.hub.drawing_films.acquire().await;
+    let hub = shared.hub.clone();
+    match tokio::task::spawn_blocking(move || hub.exported(number, export)).await {
+        Ok(Some(Ok(bytes))) => {
+            let saved = [(header::CONTENT_DISPOSITION, "attachment")];
+            (
+                saved,
+                served("application/octet-stream", Some(bytes.into())),
+            )
+                .into_response()
+        }
+        Ok(Some(Err(why))) => (StatusCode::UNPROCESSABLE_ENTITY, why).into_response(),
+        Ok(None) => StatusCode::NOT_FOUND.into_response(),
         Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
     }
 }

@@ -8,9 +8,8 @@ use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
 use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
-use super::hub::{Builds, Hub, Picked, json};
-use super::message::{FromPage, ToPage};
 use super::server::Shared;
+use crate::page::{Builds, FromPage, Hub, Picked, ToPage, json};
 
 /// The longest message that a page may send, in bytes.
 const MAX_MESSAGE: usize = 16 << 10;

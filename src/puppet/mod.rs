@@ -38,6 +38,9 @@ const LETTERS: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
 /// Holes that are nearer than this are one, in millimetres.
 const SAME_HOLE: f64 = 1.0;
 
+/// A page that most printers have, width and height in millimetres.
+pub(crate) const A4: DVec2 = DVec2::new(210.0, 297.0);
+
 /// How a sheet is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {

@@ -9,6 +9,7 @@ use crate::geometry::{
     FillRule, Outline, Polygon, Ring, bounds, bounds_of, centroid, distance_squared,
     edge_distance_squared, edges, offset, resolve_overlaps, simplify, subtract, union,
 };
+use crate::math;
 
 /// The paper around what is drawn.
 const MARGIN: f64 = 2.0;
@@ -136,7 +137,7 @@ pub(super) fn rough_box(template: &Template<'_>, scale: f64, widest: f64) -> DVe
         discs.push((mark, MARK + MARK_EDGE));
     }
     let sizes = template.boxes.iter().map(|TurnedBox { turn, low, high }| {
-        let way = DVec2::from_angle(*turn);
+        let way = math::direction(*turn);
         let drawn = (*low * scale - MARGIN, *high * scale + MARGIN);
         let (low, high) = discs.iter().fold(drawn, |(low, high), (at, radius)| {
             let at = way.rotate(*at);
@@ -160,7 +161,7 @@ impl Paper {
 
     /// A point of the piece, turned as on the sheet.
     pub(super) fn turned(&self, point: DVec2) -> DVec2 {
-        DVec2::from_angle(self.turn).rotate(point)
+        math::direction(self.turn).rotate(point)
     }
 
     /// The lower and the upper corner of its box on the sheet, before it is moved to its place.
@@ -314,10 +315,10 @@ fn nearest(outline: &Outline, point: DVec2) -> DVec2 {
 
 fn disc(at: DVec2, radius: f64) -> Outline {
     // The corners lie outside, so that the disc is nowhere narrower than it should be.
-    let radius = radius / (PI / CORNERS as f64).cos();
+    let radius = radius / math::cos(PI / CORNERS as f64);
     let angle = |corner: usize| TAU * corner as f64 / CORNERS as f64;
     let ring: Ring = (0..CORNERS)
-        .map(|corner| at + DVec2::from_angle(angle(corner)) * radius)
+        .map(|corner| at + math::direction(angle(corner)) * radius)
         .collect();
     resolve_overlaps(vec![ring], FillRule::NonZero)
 }
@@ -334,7 +335,7 @@ fn bridge(from: DVec2, to: DVec2) -> Outline {
 }
 
 fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
-    let way = DVec2::from_angle(turn);
+    let way = math::direction(turn);
     let rings = outline.rings();
     let points = rings.flatten().map(|point| way.rotate(*point));
     bounds_of(points).unwrap_or((DVec2::INFINITY, DVec2::NEG_INFINITY))

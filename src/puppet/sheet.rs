@@ -1,5 +1,6 @@
 //! Writes the sheet as SVG. Lengths are millimetres, which are also the user units.
 
+use crate::math;
 use std::fmt::Write as _;
 
 use glam::{DAffine2, DVec2};
@@ -154,7 +155,7 @@ fn piece(
         r##"<path id="piece-{id}-cut" d="{}" fill="#fff" stroke="#888" stroke-width="0.35" stroke-linejoin="round"/>"##,
         path(&paper.outline, place)
     );
-    let to_sheet = DAffine2::from_scale_angle_translation(DVec2::splat(scale), paper.turn, shift);
+    let to_sheet = DAffine2::from_mat2_translation(math::rotation(paper.turn) * scale, shift);
     let [a, b, c, d, e, f] = to_sheet.to_cols_array();
     let _ = writeln!(
         out,

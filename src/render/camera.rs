@@ -6,6 +6,7 @@ use glam::{DVec3, Vec2, Vec3};
 
 use super::surface::{Normalization, Surface};
 use crate::import::{CameraPose, CameraProjection, ModelCamera};
+use crate::math;
 
 /// How far the camera can be raised or lowered, in degrees.
 pub const MAX_PITCH: f64 = 90.0;
@@ -43,8 +44,8 @@ impl Default for View {
 impl View {
     /// Right and up in the picture, and towards the camera: unit vectors of the model's world.
     pub(super) fn axes(self) -> [DVec3; 3] {
-        let (yaw_sin, yaw_cos) = self.yaw.to_radians().sin_cos();
-        let (pitch_sin, pitch_cos) = self.pitch.to_radians().sin_cos();
+        let (yaw_sin, yaw_cos) = math::sin_cos(self.yaw.to_radians());
+        let (pitch_sin, pitch_cos) = math::sin_cos(self.pitch.to_radians());
         [
             DVec3::new(yaw_cos, 0.0, -yaw_sin),
             DVec3::new(-pitch_sin * yaw_sin, pitch_cos, -pitch_sin * yaw_cos),
@@ -296,7 +297,7 @@ impl Camera {
                 near,
                 far,
             } => {
-                let half = (vertical_field_of_view / 2.0).tan();
+                let half = math::tan(vertical_field_of_view / 2.0);
                 let far = far.unwrap_or(f64::INFINITY);
                 (Projection::Perspective, half, near, far)
             }

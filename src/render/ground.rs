@@ -1,5 +1,8 @@
 //! The invisible ground: shadows that fall on it, and lines that show how the camera moves over it.
 
+use std::sync::OnceLock;
+
+use crate::math;
 use glam::{Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
@@ -40,25 +43,31 @@ fn smooth(share: f32) -> f32 {
 
 /// A point of the lattice on the ground.
 struct LatticePoint {
-    /// The share of the light that reaches it, 0 to 1.
-    light: f32,
+    place: Vec3,
+    /// The share of the light that reaches it, 0 to 1, once it is asked for.
+    light: OnceLock<f32>,
     /// Whether the camera sees it. Where the model covers the ground it is dark, which must not show beside the model.
     is_seen: bool,
 }
 
 /// The light on the ground in a picture, on a lattice of points.
-pub(super) struct GroundLight {
+pub(super) struct GroundLight<'a> {
+    tracer: &'a Tracer<'a>,
+    lights: &'a Lights,
     spacing: u32,
     columns: usize,
-    /// The share of the light that reaches each point, 0 to 1; rows from the top. The first row and column lie outside the picture.
-    points: Vec<f32>,
+    /// Rows from the top; `None` where no shadow is visible. The first row and column lie outside the picture.
+    own: Vec<Option<LatticePoint>>,
+    /// The share of the light that is shown at each point, 0 to 1, which is gathered from its neighbours. Of points behind the model it is found
+    /// once a pixel beside them shows the ground after all, as a gap in the model does: most are never asked for.
+    shown: Vec<OnceLock<f32>>,
 }
 
-impl GroundLight {
+impl<'a> GroundLight<'a> {
     /// The light on the ground below the model in a picture of `size` pixels.
     pub(super) fn new(
-        tracer: &Tracer<'_>,
-        lights: &Lights,
+        tracer: &'a Tracer<'a>,
+        lights: &'a Lights,
         camera: &Camera,
         coverage: &Coverage,
         size: [u32; 2],
@@ -80,46 +89,69 @@ impl GroundLight {
             if shadow_fade(place, &tracer.surface) <= 0.0 {
                 return None;
             }
-            let share = (row % CELL as usize) * CELL as usize + column % CELL as usize;
             let hides = |hit: Hit| hit.distance < distance;
             let is_hidden = is_covered([column, row])
                 && tracer.closest(origin, direction, 0.0).is_some_and(hides);
             Some(LatticePoint {
-                light: ground_light(&lights.on_ground(tracer, place, share), lights),
+                place,
+                light: OnceLock::new(),
                 is_seen: !is_hidden,
             })
         };
-        let own: Vec<Option<LatticePoint>> = (0..columns * rows).into_par_iter().map(at).collect();
-        // Each of the rays of a cell has the same weight.
-        let gathered = |index: usize, counts: fn(&LatticePoint) -> bool| {
-            let [column, row] = [index % columns, index / columns];
-            let mut sum = 0.0;
-            let mut weights = 0.0;
-            for (y, high) in [(row.wrapping_sub(1), 1.0), (row, 2.0), (row + 1, 1.0)] {
-                for (x, wide) in [
-                    (column.wrapping_sub(1), 1.0),
-                    (column, 2.0),
-                    (column + 1, 1.0),
-                ] {
-                    let inside = x < columns && y < rows;
-                    let point = inside.then(|| own[y * columns + x].as_ref()).flatten();
-                    if let Some(point) = point.filter(|point| counts(point)) {
-                        sum += point.light * high * wide;
-                        weights += high * wide;
-                    }
-                }
-            }
-            (weights > 0.0).then(|| sum / weights)
-        };
-        let light = |index: usize| {
-            let seen = gathered(index, |point| point.is_seen);
-            seen.or_else(|| gathered(index, |_| true)).unwrap_or(1.0)
-        };
-        Self {
+        let mut ground = Self {
+            tracer,
+            lights,
             spacing,
             columns,
-            points: (0..columns * rows).map(light).collect(),
+            own: (0..columns * rows).into_par_iter().map(at).collect(),
+            shown: Vec::new(),
+        };
+        let seen = |index| {
+            let light = ground.gathered(index, |point| point.is_seen);
+            light.map_or_else(OnceLock::new, OnceLock::from)
+        };
+        ground.shown = (0..columns * rows).into_par_iter().map(seen).collect();
+        ground
+    }
+
+    /// The share of the light that reaches a point itself, 0 to 1.
+    fn light(&self, index: usize, point: &LatticePoint) -> f32 {
+        *point.light.get_or_init(|| {
+            let [column, row] = [index % self.columns, index / self.columns];
+            let share = (row % CELL as usize) * CELL as usize + column % CELL as usize;
+            let incident = self.lights.on_ground(self.tracer, point.place, share);
+            ground_light(&incident, self.lights)
+        })
+    }
+
+    /// The light of a point and of those around it that count, so that each of the rays of a cell has the same weight.
+    fn gathered(&self, index: usize, counts: fn(&LatticePoint) -> bool) -> Option<f32> {
+        let [column, row] = [index % self.columns, index / self.columns];
+        let mut sum = 0.0;
+        let mut weights = 0.0;
+        for (y, high) in [(row.wrapping_sub(1), 1.0), (row, 2.0), (row + 1, 1.0)] {
+            for (x, wide) in [
+                (column.wrapping_sub(1), 1.0),
+                (column, 2.0),
+                (column + 1, 1.0),
+            ] {
+                if x >= self.columns || y >= self.own.len() / self.columns {
+                    continue;
+                }
+                let neighbor = y * self.columns + x;
+                let point = self.own[neighbor].as_ref().filter(|point| counts(point));
+                if let Some(point) = point {
+                    sum += self.light(neighbor, point) * high * wide;
+                    weights += high * wide;
+                }
+            }
         }
+        (weights > 0.0).then(|| sum / weights)
+    }
+
+    /// The share of the light that is shown at a point, 0 to 1.
+    fn shown(&self, index: usize) -> f32 {
+        *self.shown[index].get_or_init(|| self.gathered(index, |_| true).unwrap_or(1.0))
     }
 
     /// The share of the light that reaches the middle of a pixel, 0 to 1.
@@ -131,7 +163,7 @@ impl GroundLight {
         let (right, down) = (x.fract(), y.fract());
         let between = |row: usize| {
             let first = row * self.columns + column;
-            self.points[first] * (1.0 - right) + self.points[first + 1] * right
+            self.shown(first) * (1.0 - right) + self.shown(first + 1) * right
         };
         between(row) * (1.0 - down) + between(row + 1) * down
     }
@@ -192,7 +224,7 @@ impl Floor {
 
 /// The nearest length of the series 1, 2, 5, 10, 20 and so on.
 fn round_length(length: f64) -> f64 {
-    let power = 10_f64.powf(length.log10().floor());
+    let power = math::powf(10_f64, math::log10(length).floor());
     let digits = match length / power {
         ..1.5 => 1.0,
         ..3.5 => 2.0,

@@ -3,19 +3,19 @@
 //! `obvhs` builds a binary tree; two levels of it become one here, so that a ray tests four boxes at once, and four triangles
 //! (Dammertz, Hanika and Keller 2008). What a ray meets does not depend on the shape of the tree.
 
-use std::time::Duration;
-
 use glam::Vec3;
-use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
-use obvhs::bvh2::builder::build_bvh2;
+use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::node::Bvh2Node;
-use obvhs::ploc::PlocSearchDistance;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use smallvec::SmallVec;
 
 use super::lanes::{Child, Hit, Node, Pack, Ray, WIDTH, bounds, corners};
 use super::stack::Stack;
 use super::surface::Surface;
+
+/// How long a ray takes for a box, relative to a triangle.
+const TRAVERSAL_COST: f32 = 3.0;
 
 /// How many rays will be traced: a better tree pays off only for many.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,21 +57,21 @@ impl Hierarchy {
         let boxes: Vec<Aabb> = (0..surface.triangles.len() as u32)
             .map(|triangle| bounds(&corners(surface, triangle)))
             .collect();
-        let effort = BvhBuildParams {
-            // Reinsertion would improve the tree a little.
-            reinsertion_batch_ratio: 0.0,
-            max_prims_per_leaf: WIDTH as u32,
-            ..match rays {
-                Rays::Few => BvhBuildParams::very_fast_build(),
-                Rays::Many => BvhBuildParams::medium_build(),
-                Rays::Film => BvhBuildParams {
-                    ploc_search_distance: PlocSearchDistance::VeryHigh,
-                    search_depth_threshold: 0,
-                    ..BvhBuildParams::medium_build()
-                },
-            }
+        // How many neighbours are compared, and up to which depth.
+        let (neighbors, depth) = match rays {
+            Rays::Few => (PlocSearchDistance::Minimum, 0),
+            Rays::Many => (PlocSearchDistance::Medium, 3),
+            Rays::Film => (PlocSearchDistance::VeryHigh, 0),
         };
-        let tree = build_bvh2(&boxes, effort, &mut Duration::default());
+        // Not the helper function of `obvhs`, which reads a clock. Its reinsertion would improve the tree a little.
+        let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
+            neighbors,
+            &boxes,
+            (0..boxes.len() as u32).collect(),
+            SortPrecision::U64,
+            depth,
+        );
+        collapse(&mut tree, WIDTH as u32, TRAVERSAL_COST);
         let mut hierarchy = Self {
             nodes: Vec::with_capacity(tree.nodes.len() / 3 + 1),
             packs: Vec::with_capacity(tree.nodes.len() / 2 + 1),

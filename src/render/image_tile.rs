@@ -21,7 +21,7 @@ const TRACED: Option<fn(usize) -> Option<usize>> = None;
 pub(super) fn draw_tile(
     sampler: &PixelSampler<'_>,
     lights: &Lights,
-    ground: Option<&GroundLight>,
+    ground: Option<&GroundLight<'_>>,
     background: Option<[u8; 3]>,
     [left, top]: [u32; 2],
     [width, height]: [u32; 2],
@@ -66,7 +66,7 @@ pub(super) fn draw_tile(
 }
 
 /// Premultiplied colour and alpha of a pixel that shows nothing but the ground.
-fn bare_ground(sampler: &PixelSampler<'_>, ground: &GroundLight, x: u32, y: u32) -> Vec4 {
+fn bare_ground(sampler: &PixelSampler<'_>, ground: &GroundLight<'_>, x: u32, y: u32) -> Vec4 {
     let surface = &sampler.tracer.surface;
     let faded = |shadow: f32| {
         let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);

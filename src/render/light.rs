@@ -1,5 +1,6 @@
 //! Lighting: three soft lamps that turn with the camera, and a sky.
 
+use crate::math;
 use glam::{Quat, Vec2, Vec3};
 
 use super::fragment::Fragment;
@@ -124,7 +125,7 @@ impl Rays {
 impl Lights {
     /// Lights that turn with the camera by `yaw` degrees.
     pub(super) fn new(yaw: f64, sampling: &Sampling) -> Self {
-        let turn = Quat::from_rotation_y(yaw.to_radians() as f32);
+        let turn = math::rotation_y(yaw.to_radians()).as_quat();
         let directions = LAMP.map(|lamp| turn * lamp.direction.normalize());
         Self {
             directions,
@@ -243,7 +244,7 @@ pub(super) fn even(index: usize) -> Vec2 {
 
 /// A uniformly distributed point in a disk.
 fn disk(share: Vec2, radius: f32) -> Vec2 {
-    let (sin, cos) = (share.x * std::f32::consts::TAU).sin_cos();
+    let (sin, cos) = math::sin_cos(share.x * std::f32::consts::TAU);
     Vec2::new(cos, sin) * share.y.sqrt() * radius
 }
 

@@ -1,5 +1,6 @@
 //! Shading: from incident light to the colour of a fragment.
 
+use crate::math;
 use glam::Vec3;
 
 use super::fragment::Fragment;
@@ -112,7 +113,7 @@ fn environment_brdf(roughness: f32, facing: f32) -> (f32, f32) {
     let y = roughness * -0.0275 + 0.0425;
     let z = roughness * -0.572 + 1.04;
     let w = roughness * 0.022 - 0.04;
-    let edge = (x * x).min((-9.28 * facing).exp2()) * x + y;
+    let edge = (x * x).min(math::exp2(-9.28 * facing)) * x + y;
     (edge * -1.04 + z, edge * 1.04 + w)
 }
 
@@ -123,5 +124,5 @@ fn tone_mapped(light: Vec3) -> Vec3 {
         return light.max(Vec3::ZERO);
     }
     let room = 1.0 - SHOULDER;
-    light * ((SHOULDER + room * (1.0 - (-(most - SHOULDER) / room).exp())) / most)
+    light * ((SHOULDER + room * (1.0 - math::exp(-(most - SHOULDER) / room))) / most)
 }

@@ -1,7 +1,7 @@
 //! Renders the pictures of a film one after another, several at the same time.
 
 use std::sync::Mutex;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{SyncSender, sync_channel};
 
 use rayon::prelude::*;
 
@@ -13,6 +13,7 @@ use super::sampling::{FILM, Sampling};
 use super::{Options, RenderError, on_pool};
 use crate::crash::Crash;
 use crate::import::ModelCamera;
+use crate::threads;
 
 /// The most pixels of the pictures that are rendered at the same time, unless one has more.
 const MAX_BATCH_PIXELS: u64 = 8 << 20;
@@ -91,6 +92,9 @@ impl Shooting<'_> {
         mut each: impl FnMut(Image) -> Result<(), E>,
     ) -> Result<(), E> {
         let moments: Vec<f64> = moments.into_iter().collect();
+        if threads::are_none() {
+            return hand_over(self.batches(&moments), &mut each);
+        }
         std::thread::scope(|scope| {
             // A batch is rendered while `each` takes the one before.
             let (sender, batches) = sync_channel(0);
@@ -102,21 +106,27 @@ impl Shooting<'_> {
         })
     }
 
+    /// Renders pictures until nobody takes more.
+    fn render(&self, moments: &[f64], taken: SyncSender<Batch>) {
+        for images in self.batches(moments) {
+            let failed = images.is_err();
+            // Nobody takes pictures after an error.
+            if taken.send(images).is_err() || failed {
+                return;
+            }
+        }
+    }
+
     /// Renders pictures in batches, several at once: much of the work for one picture uses one thread only.
-    fn render(&self, moments: &[f64], batches: SyncSender<Batch>) {
+    fn batches<'m>(&'m self, moments: &'m [f64]) -> impl Iterator<Item = Batch> + 'm {
         let [width, height] = self.options.size.map(u64::from);
         let fitting = (MAX_BATCH_PIXELS / (width * height)).max(1);
         let work = || Ok(rayon::current_num_threads() as u64);
         let batch = on_pool(work).map_or(1, |threads| threads.min(fitting)) as usize;
-        for moments in moments.chunks(batch) {
+        moments.chunks(batch).map(|moments| {
             let picture = |time: &f64| self.picture(*time);
-            let images = on_pool(|| moments.par_iter().map(picture).collect());
-            let failed = images.is_err();
-            // Nobody takes pictures after an error.
-            if batches.send(images).is_err() || failed {
-                return;
-            }
-        }
+            on_pool(|| moments.par_iter().map(picture).collect())
+        })
     }
 
     /// The camera at a time.
@@ -180,7 +190,7 @@ type Batch = Result<Vec<Image>, RenderError>;
 
 /// Hands over pictures one by one until there are no more. Its end, early or not, ends the rendering of more.
 fn hand_over<E: From<RenderError>>(
-    batches: Receiver<Batch>,
+    batches: impl IntoIterator<Item = Batch>,
     each: &mut impl FnMut(Image) -> Result<(), E>,
 ) -> Result<(), E> {
     for images in batches {

@@ -1,5 +1,6 @@
 //! Images on surfaces, with mipmaps.
 
+use crate::math;
 use glam::{Vec2, Vec3, Vec4};
 use image::RgbaImage;
 use std::sync::LazyLock;
@@ -11,7 +12,7 @@ static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
         let linear = if value <= 0.04045 {
             value / 12.92
         } else {
-            ((value + 0.055) / 1.055).powf(2.4)
+            math::powf((value + 0.055) / 1.055, 2.4)
         };
         linear as f32
     })
@@ -33,7 +34,7 @@ fn srgb_value(light: f32) -> f32 {
     if light <= 0.003_130_8 {
         12.92 * light
     } else {
-        1.055 * light.powf(1.0 / 2.4) - 0.055
+        1.055 * math::powf(light, 1.0 / 2.4) - 0.055
     }
 }
 
@@ -98,7 +99,7 @@ impl Texture {
 
     /// Linear colour and alpha at `uv` (origin at the image's top left), for a pixel that covers `texels` texels.
     pub(super) fn at(&self, uv: Vec2, texels: f32, sampler: &Sampler) -> Vec4 {
-        let level = texels.max(1.0).log2().round() as usize;
+        let level = math::log2(texels.max(1.0)).round() as usize;
         let image = &self.levels[level.min(self.levels.len() - 1)];
         let size = Vec2::new(image.width() as f32, image.height() as f32);
         let place = uv * size;

@@ -34,6 +34,8 @@ pub(crate) struct Clip<'a> {
     pub limited: bool,
     /// The drawings in order: the frame of the motion that is shown, and for how many frames. Empty for full animation.
     pub exposure: Vec<[usize; 2]>,
+    /// The drawings that are chosen by hand, in order: the frame of the motion, and for how many frames it is to be shown.
+    pub chosen: Vec<[usize; 2]>,
     /// The frames of the motion that were omitted, in order.
     pub omitted: Vec<u32>,
     /// The shown frames that are covered by holding the pose before, in order.
@@ -100,6 +102,11 @@ fn report<'a>(compiled: &'a Compiled, clip: &'a FigureClip) -> Clip<'a> {
         limited: clip.cut.is_some(),
         exposure: drawings
             .map(|drawing| [drawing.source as usize, drawing.length])
+            .collect(),
+        chosen: clip
+            .chosen
+            .iter()
+            .map(|chosen| [chosen.source as usize, chosen.frames])
             .collect(),
         omitted,
         held,

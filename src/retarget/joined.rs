@@ -3,6 +3,7 @@
 //! Clips are joined after they were carried over, so motions of different skeletons, and those that move parts without any, can follow
 //! each other.
 
+use crate::math;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
@@ -160,7 +161,7 @@ fn blended(
             middle
         };
         let carried = above(&pose);
-        let rotation = (carried.rotation * start.slerp(end, t)).normalize();
+        let rotation = (carried.rotation * math::slerp(start, end, t)).normalize();
         pose[part] = Transform {
             rotation,
             position: carried.apply(first.lerp(second, t)) - rotation * inside,

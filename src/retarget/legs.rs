@@ -1,5 +1,6 @@
 //! Legs whose feet are lifted: by the knee, or as a whole where there is none.
 
+use crate::math;
 use glam::{DQuat, DVec3};
 
 use super::kinematics::ForwardKinematics;
@@ -133,7 +134,7 @@ impl Leg {
             let placed = kinematics.transforms[self.end].rotation;
             let up = placed * rig.parts[self.end].node.rotation.inverse() * DVec3::Y;
             let level = arc(up, DVec3::Y, DVec3::Z);
-            let part = |share: f64| DQuat::IDENTITY.slerp(level, share);
+            let part = |share: f64| math::slerp(DQuat::IDENTITY, level, share);
             let raised = |share: f64| {
                 let points = sole.iter().map(|point| part(share) * (*point - ankle));
                 lowest(points) - lowest(sole.iter().map(|point| *point - ankle))
@@ -163,13 +164,13 @@ impl Leg {
             if let Some(way) = way.try_normalize() {
                 let axis = way.cross(DVec3::Y);
                 let raised = |angle: f64| {
-                    let turn = DQuat::from_axis_angle(axis, angle);
+                    let turn = math::rotation_around(axis, angle);
                     lowest(from_hip.iter().map(|point| turn * *point)) - before
                 };
                 let angle = least(MOST.to_radians(), |angle| raised(angle) >= lift);
                 // The edge of a wide sole goes down before its middle goes up.
                 if raised(angle) > 0.0 {
-                    turns[0] = DQuat::from_axis_angle(axis, angle);
+                    turns[0] = math::rotation_around(axis, angle);
                 }
             }
             return turns;
@@ -239,7 +240,7 @@ impl Knee {
     fn lifted(&self, height: f64) -> [DQuat; 2] {
         let [thigh, shin] = self.ways;
         let target = thigh + shin + DVec3::Y * height;
-        let bent = |angle: f64| DQuat::from_axis_angle(self.axis, angle);
+        let bent = |angle: f64| math::rotation_around(self.axis, angle);
         let reaches = |angle: f64| (thigh + bent(angle) * shin).length() <= target.length();
         let angle = least(MOST_BENT.to_radians(), reaches);
         let end = thigh + bent(angle) * shin;

@@ -7,6 +7,7 @@ use std::ops::Sub;
 
 use glam::DVec3;
 
+use crate::math;
 use crate::smoothing::{ease, smoothed};
 
 /// A point of a foot is in contact if it is lower than this above its lowest height, in leg lengths …
@@ -193,12 +194,12 @@ fn point_contacts(
         let speed = path[before].distance(path[after]) / passed / leg;
         // A foot that turns back in the air is slow for a moment only.
         let change = (path[before] + path[after] - 2.0 * path[sample]).length();
-        let speed = speed.hypot(change / (time * time * leg) * TURN);
+        let speed = math::hypot(speed, change / (time * time * leg) * TURN);
         let height = (path[sample].y - lowest) / leg;
         let firmness = within(height / contact_height) * within(speed / CONTACT_SPEED);
         Contact {
             firmness,
-            pull: firmness * (-speed / PREFERENCE).exp(),
+            pull: firmness * math::exp(-speed / PREFERENCE),
         }
     };
     (0..path.len()).map(contact).collect()

@@ -6,6 +6,7 @@ use typed_index_collections::TiSlice;
 use super::axes::Landmarks;
 use super::rotations::arc;
 use super::{Source, ground};
+use crate::math;
 use crate::mocap::{JointId, Pose, Skeleton, Transform};
 use crate::retarget::{Drive, Follow};
 
@@ -100,7 +101,7 @@ pub(super) fn choose(source: &mut Source<'_>) -> RestPose {
 fn lean(pose: &TiSlice<JointId, Transform>, landmarks: &Landmarks, up: DVec3) -> Option<DQuat> {
     let [left, right] = landmarks.shoulders?.map(|joint| pose[joint].position);
     let line = ((left + right) / 2.0 - pose[landmarks.hips].position).try_normalize()?;
-    (line.dot(up) >= UPRIGHT.to_radians().cos()).then(|| arc(up, line, up))
+    (line.dot(up) >= math::cos(UPRIGHT.to_radians())).then(|| arc(up, line, up))
 }
 
 /// Whether a body stands upright in a pose: the head above the hips, legs down, hips and shoulders level and turned to the same side.
@@ -111,11 +112,11 @@ fn stands(pose: &TiSlice<JointId, Transform>, landmarks: &Landmarks, up: DVec3) 
     let way = |from: JointId, to: JointId| pose[to].position - pose[from].position;
     let down = |leg: DVec3| {
         leg.try_normalize()
-            .is_some_and(|leg| leg.dot(-up) >= LEGS.to_radians().cos())
+            .is_some_and(|leg| leg.dot(-up) >= math::cos(LEGS.to_radians()))
     };
     let level = |line: DVec3| {
         line.try_normalize()
-            .is_some_and(|line| line.dot(up).abs() <= LEVEL.to_radians().sin())
+            .is_some_and(|line| line.dot(up).abs() <= math::sin(LEVEL.to_radians()))
     };
     let legs = match (landmarks.thighs, landmarks.feet) {
         (Some(thighs), Some(feet)) => (0..2).all(|side| down(way(thighs[side], feet[side]))),
@@ -150,7 +151,7 @@ fn nearest(source: &mut Source<'_>) -> usize {
             let bone = tip.place(&source.clip.skeleton, pose) - pose[drive.joint].position;
             let drawn = part.tip - part.joint;
             let angle = if bone.length_squared() > 0.0 && drawn.length_squared() > 0.0 {
-                (to_drawing * bone).angle_between(drawn)
+                math::angle_between(to_drawing * bone, drawn)
             } else {
                 0.0
             };

@@ -11,6 +11,7 @@ use super::rotations::Rotations;
 use super::turns::Length;
 use super::{Rig, RigPart};
 use crate::labels::FigurePartId;
+use crate::math;
 use crate::mocap::Transform;
 use crate::smoothing::envelope;
 
@@ -158,8 +159,8 @@ fn directions() -> impl Iterator<Item = DVec3> {
     let around = (0..AROUND).flat_map(|step| {
         let angle = std::f64::consts::TAU * step as f64 / AROUND as f64;
         TILTS.map(|tilt| {
-            let (out, level) = tilt.to_radians().sin_cos();
-            DVec3::new(angle.cos() * level, angle.sin() * level, out)
+            let (out, level) = math::sin_cos(tilt.to_radians());
+            DVec3::new(math::cos(angle) * level, math::sin(angle) * level, out)
         })
     });
     around.chain([DVec3::Z, DVec3::NEG_Z])
@@ -233,7 +234,7 @@ impl Arm {
         let drawn = |part: FigurePartId| rig.parts[part].node;
         let chest = placed[self.chest].rotation * drawn(self.chest).rotation.inverse();
         let shoulder = placed[self.top].apply(drawn(self.top).to_local(rig.parts[self.top].joint));
-        let turn = DQuat::from_scaled_axis(chest * opening);
+        let turn = math::rotation_along(chest * opening);
         let mut deepest = (0.0, DVec3::ZERO, DVec3::ZERO);
         for (part, point, allowed) in &self.points {
             let now = placed[*part].apply(drawn(*part).to_local(*point));
@@ -261,7 +262,7 @@ impl Arm {
         let drawn = rig.parts[self.chest].node.rotation.inverse();
         let turns = openings.iter().enumerate().map(|(frame, opening)| {
             let chest = rotations.at(self.chest, frame) * drawn;
-            DQuat::from_scaled_axis(chest * *opening)
+            math::rotation_along(chest * *opening)
         });
         let turns: Vec<DQuat> = turns.collect();
         for part in &self.carried {

@@ -10,6 +10,7 @@ use super::rotations::Rotations;
 use super::stance::Stance;
 use super::{Rig, Source};
 use crate::labels::FigurePartId;
+use crate::math;
 use crate::mocap::JointId;
 use crate::retarget::Drive;
 
@@ -166,7 +167,7 @@ fn rolled(before: &[Vec<DVec3>], now: &[Vec<DVec3>], height: f64) -> DVec3 {
     for (before, now) in before.iter().zip(now) {
         let at = height_of((before, now));
         let weight = if at > lowest {
-            (-(at - lowest) / height).exp()
+            math::exp(-(at - lowest) / height)
         } else {
             1.0
         };

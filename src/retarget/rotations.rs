@@ -1,5 +1,6 @@
 //! The rotations of a rig's parts.
 
+use crate::math;
 use glam::{DQuat, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -63,7 +64,7 @@ impl Rotations {
             let turns = (0..frames).map(|frame| {
                 let from = self.at(before, frame) * from_rest.inverse();
                 let to = self.at(after, frame) * to_rest.inverse();
-                (from.slerp(to, share) * rest).normalize()
+                (math::slerp(from, to, share) * rest).normalize()
             });
             let turns = turns.collect();
             self.own[*part] = Some(turns);
@@ -82,7 +83,7 @@ impl Rotations {
         let turned = self.turned[part].get_or_insert_with(|| vec![0.0; own.len()]);
         for ((own, turned), turn) in own.iter_mut().zip(turned).zip(turns) {
             *own = (turn * *own).normalize();
-            *turned += turn.angle_between(DQuat::IDENTITY);
+            *turned += math::angle_between_turns(turn, DQuat::IDENTITY);
         }
     }
 
@@ -103,7 +104,7 @@ impl Rotations {
 
     /// The same rotations, played along a map of time.
     pub(super) fn timed(self, map: &TimeMap) -> Self {
-        let timed = |turns: Vec<DQuat>| map.apply(&turns, DQuat::slerp);
+        let timed = |turns: Vec<DQuat>| map.apply(&turns, math::slerp);
         Self {
             own: self.own.into_iter().map(|own| own.map(timed)).collect(),
             carrier: self.carrier,
@@ -356,7 +357,7 @@ pub(super) fn arc(from: DVec3, to: DVec3, about: DVec3) -> DQuat {
         return DQuat::from_xyzw(cross.x, cross.y, cross.z, 1.0 + from.dot(to)).normalize();
     }
     let axis = about.reject_from(from).try_normalize();
-    DQuat::from_axis_angle(
+    math::rotation_around(
         axis.unwrap_or_else(|| from.any_orthonormal_vector()),
         std::f64::consts::PI,
     )

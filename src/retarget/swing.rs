@@ -3,12 +3,13 @@
 //! The far end of such a part is a weight on a rod. A damped spring pulls it to where it would be without swinging, and gravity
 //! pulls it down, less what it pulls in the drawing: as drawn, a figure at rest is in balance.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::Rig;
 use super::carried::{self, Carriage, Carried, Tracks};
 use super::rotations::{Rotations, arc};
 use crate::labels::FigurePartId;
+use crate::math;
 use crate::mocap::{Transform, height};
 
 /// Steps of the integration per second, at least; every frame has a whole number of them.
@@ -107,7 +108,7 @@ fn meter(rig: &Rig) -> f64 {
 /// Whether a clip ends as it begins, so that it may be repeated.
 pub(super) fn is_cycle(rotations: &Rotations, frames: usize) -> bool {
     let mut turns = rotations.all();
-    turns.all(|turns| turns[0].angle_between(turns[frames - 1]) < CYCLE.to_radians())
+    turns.all(|turns| math::angle_between_turns(turns[0], turns[frames - 1]) < CYCLE.to_radians())
 }
 
 /// The part that another hangs on, as an ellipsoid in the axes of its node.
@@ -249,12 +250,12 @@ impl Pendulum {
         }
         let most = self.most;
         let cross = drawn.cross(offset);
-        let angle = cross.length().atan2(drawn.dot(offset));
+        let angle = math::atan2(cross.length(), drawn.dot(offset));
         if angle <= most || angle.is_nan() {
             return offset;
         }
         let axis = cross.try_normalize();
         let axis = axis.unwrap_or_else(|| (drawn / self.length).any_orthonormal_vector());
-        DQuat::from_axis_angle(axis, most) * drawn
+        math::rotation_around(axis, most) * drawn
     }
 }

@@ -1,5 +1,6 @@
 //! The bones inside the parts of a rig that bend.
 
+use crate::math;
 use glam::{DQuat, DVec3};
 use rustc_hash::FxHashMap;
 use typed_index_collections::{TiSlice, TiVec};
@@ -99,7 +100,7 @@ fn add_chain(
     let (mut before, mut first) = (index, 1);
     for node in &bend.nodes {
         let own = parts.next_key();
-        let rotation = DQuat::from_rotation_z(node.angle);
+        let rotation = math::rotation_z(node.angle);
         let position = node.position.extend(depth);
         let is_bone = node.is_bone();
         parts.push(RigPart {
@@ -177,7 +178,7 @@ fn set_tips(bend: &Bend, chain: &[FigurePartId], parts: &mut TiSlice<FigurePartI
 /// Whether a way leads along a node's axis, but for a few degrees.
 fn is_along(rotation: DQuat, way: DVec3) -> bool {
     const FEW: f64 = 5.0;
-    (rotation * DVec3::Y).angle_between(way) < FEW.to_radians()
+    math::angle_between(rotation * DVec3::Y, way) < FEW.to_radians()
 }
 
 /// The place on a node's axis that is as far along it as another one.

@@ -19,12 +19,12 @@ use super::performed::{self, Channels, Performed};
 use super::rigging::{self, RestNodes};
 use super::tracks::AnimatedNodes;
 use super::turn::{self, PlayedTurn};
-use crate::bind::{ClipLimits, ClipRequest, PartId, PerformanceRequest, SetBy};
+use crate::bind::{ClipLimits, ClipRequest, HeldRequest, PartId, PerformanceRequest, SetBy};
 use crate::clips::{BuiltIn, Legs};
 use crate::diagnostic::Diagnostic;
 use crate::labels::{Class, Figure, FigurePartId};
 use crate::limited::Measured;
-use crate::limited::{self, Cut, Exposure, Length};
+use crate::limited::{self, Chosen, Cut, Exposure, Length};
 use crate::mark_tracks::MarkTracks;
 use crate::memo::{Exactly, Memo, Same};
 use crate::mocap::resample::TimeMap;
@@ -272,11 +272,14 @@ impl<'a> ClipBuilder<'a> {
             _ => request.is_loop,
         };
         let is_loop = ends_as_it_begins && !is_timed;
-        let cut = limits.map(|limits| {
-            let cut = self.cut([limits.omit, limits.hold], &measured, key_frame, is_loop);
-            diagnostics::too_limited(&cut, frames, limits.span, diagnostics);
-            cut
-        });
+        let held = request.held.clone().or_else(|| self.held(group));
+        let (cut, chosen) = self.drawings(
+            limits,
+            held.as_ref(),
+            || Arc::clone(&measured),
+            (frames, key_frame, is_loop),
+            diagnostics,
+        );
         let filmed = performance.as_ref().and_then(|found| {
             let part = found.channels.filmed(&found.plan)?;
             let end = bones::driven_end(&rig, part);
@@ -305,6 +308,7 @@ impl<'a> ClipBuilder<'a> {
             name: figure_clip::free_name(&self.clips, group.root, &wanted),
             file: turns[main].link.to_owned(),
             turns: turn::played(turns),
+            is_posed: false,
             requested_at: request.span,
             root: group.root,
             parts: figure_clip::part_drives(&group.parts, &matched.matching, |part| {
@@ -313,6 +317,8 @@ impl<'a> ClipBuilder<'a> {
             motion: Arc::clone(motion),
             cut,
             limited_at: limits.map(|limits| limits.span),
+            chosen,
+            held_at: held.map(|held| held.span),
             performed: performance.map(|found| Performed {
                 file: found.request.file.to_owned(),
                 requested_at: found.request.span,
@@ -330,6 +336,38 @@ impl<'a> ClipBuilder<'a> {
         self.note_loose(&clip, group, &drawn[main]);
         clip.add_to(scene);
         self.clips.push(clip);
+    }
+
+    /// Which drawings of a clip are shown and for how long, and which of them are chosen by hand. `clip` are its frames, the one that
+    /// must stay, and whether it is a loop.
+    pub(super) fn drawings(
+        &self,
+        limits: Option<ClipLimits>,
+        held: Option<&HeldRequest>,
+        measured: impl Fn() -> Arc<Measured>,
+        (frames, key_frame, is_loop): (usize, Option<usize>, bool),
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> (Option<Arc<Cut>>, Vec<Chosen>) {
+        let cut = limits.map(|limits| {
+            let amounts = [limits.omit, limits.hold];
+            let cut = self.cut(amounts, &measured(), key_frame, is_loop);
+            diagnostics::too_limited(&cut, frames, limits.span, diagnostics);
+            cut
+        });
+        let Some(held) = held else {
+            return (cut, Vec::new());
+        };
+        let chosen = held.drawings.iter().map(|(drawing, _)| Chosen {
+            source: (drawing.frame - 1) as u32,
+            frames: drawing.frames,
+        });
+        let chosen: Vec<Chosen> = chosen.collect();
+        let measured = measured();
+        let cut = cut.unwrap_or_else(|| self.cut([0; 2], &measured, key_frame, is_loop));
+        let sources = measured.poses().looping(is_loop).count();
+        let (cut, conflicts) = limited::by_hand(&cut, &chosen, sources, key_frame);
+        diagnostics::not_held(held, &conflicts, sources, diagnostics);
+        (Some(Arc::new(cut)), chosen)
     }
 
     fn note_loose(&mut self, clip: &FigureClip, group: &FigureGroup, rig: &Rig) {
@@ -413,7 +451,11 @@ impl<'a> ClipBuilder<'a> {
         })
     }
 
-    fn measured(&self, rig: &Arc<Rig>, retargeted: &Arc<RetargetedClip>) -> Arc<Measured> {
+    pub(super) fn measured(
+        &self,
+        rig: &Arc<Rig>,
+        retargeted: &Arc<RetargetedClip>,
+    ) -> Arc<Measured> {
         let key = MeasuredKey(Exactly(Arc::clone(rig)), Same(Arc::clone(retargeted)));
         self.memo.get(key, |MeasuredKey(rig, retargeted)| {
             Arc::new(Measured::of_figure(&rig.0, &retargeted.0))
@@ -442,9 +484,15 @@ impl<'a> ClipBuilder<'a> {
     }
 
     /// The limits of all clips of a figure that have none of their own.
-    fn limits(&self, group: &FigureGroup) -> Option<ClipLimits> {
+    pub(super) fn limits(&self, group: &FigureGroup) -> Option<ClipLimits> {
         let bindings = self.context.bindings;
         of_figure(group, |part| bindings.limits_of_clips(part))
+    }
+
+    /// The drawings that are chosen by hand for all clips of a figure that have none of their own.
+    pub(super) fn held(&self, group: &FigureGroup) -> Option<HeldRequest> {
+        let bindings = self.context.bindings;
+        of_figure(group, |part| bindings.held_of_clips(part))
     }
 
     /// The performance of a clip: its own, or else that of all clips of the figure.

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::bind::{FollowedName, PartId, PartMark, PerformanceRequest};
+use crate::bind::{FollowedName, HeldRequest, PartId, PartMark, PerformanceRequest};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::limited::{Cut, MAX_OMITTED_RUN};
+use crate::limited::{Conflict, Cut, MAX_OMITTED_RUN};
 use crate::mark_tracks;
 use crate::mocap::resample::Outside;
 use crate::mocap::{JointId, Skeleton, bvh};
@@ -182,6 +182,56 @@ pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mu
             "4 to 6 look right; if the motion has several actions, cut it into one file for each"
                 .to_owned(),
         );
+    }
+}
+
+/// Drawings that do not stand as `Held` says.
+pub(super) fn not_held(
+    held: &HeldRequest,
+    conflicts: &[(usize, Conflict)],
+    frames: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for (index, conflict) in conflicts {
+        let Some((drawing, span)) = held.drawings.get(*index) else {
+            continue;
+        };
+        let frame = drawing.frame;
+        let (why, help) = match conflict {
+            Conflict::Missing => (
+                format!("the clip has no frame {frame}: it has {frames}"),
+                format!("write a frame from 1 to {frames}"),
+            ),
+            Conflict::First => (
+                "the first drawing cannot be left out".to_owned(),
+                "leave out the drawings behind it, or hold it for longer".to_owned(),
+            ),
+            Conflict::LeftOut => (
+                format!("the drawing {frame} is left out anyway"),
+                format!("take `{frame} 0` away"),
+            ),
+            Conflict::NoRoom => (
+                format!("there is no frame for the drawing {frame}: those beside it stand for one frame each"),
+                "leave out the drawing before or behind it".to_owned(),
+            ),
+            Conflict::Covered => (
+                format!("the drawing {frame} is covered by one before it"),
+                "let the drawing before it stand for fewer frames, or take this one away".to_owned(),
+            ),
+            Conflict::UntilTheEnd(stands) => (
+                format!("the drawing {frame} stands until the end of the clip, for {stands} frames"),
+                format!("write `{frame} {stands}`: the clip is as long as before"),
+            ),
+            Conflict::Key => (
+                format!("with the drawing {frame} so, the key pose of the performance would not stand in its frame"),
+                "let the drawings before the key pose stand for as long as before, all together, or write `Perform -t`, which keeps the motion's timing".to_owned(),
+            ),
+        };
+        let diagnostic = Diagnostic::new(Code::TooLimited, *span, why).help(help);
+        // All figures that play the clip have the same problem.
+        if !diagnostics.contains(&diagnostic) {
+            diagnostics.push(diagnostic);
+        }
     }
 }
 

@@ -6,8 +6,7 @@ use typed_index_collections::{TiSlice, TiVec};
 
 use crate::bind::PartId;
 use crate::labels::{FigurePartId, Label, Tip};
-use crate::limited::{Cut, Exposure};
-use crate::limited::{KeyTimes, Measured};
+use crate::limited::{Chosen, Cut, Exposure, KeyTimes, Measured};
 use crate::mocap::{JointId, Skeleton};
 use crate::performance::Filmed;
 use crate::prepare::PreparedClip;
@@ -28,6 +27,8 @@ pub struct FigureClip {
     pub file: String,
     /// The motions that play in turn.
     pub turns: Vec<FigureTurn>,
+    /// Whether it is made of key poses.
+    pub is_posed: bool,
     /// Where a string asks for the clip.
     pub requested_at: Span,
     /// The root of the figure.
@@ -38,8 +39,12 @@ pub struct FigureClip {
     pub motion: Arc<PreparedClip>,
     /// The omissions and holds of limited animation; `None` for full animation.
     pub cut: Option<Arc<Cut>>,
-    /// Where a string limits the clip; `None` for full animation.
+    /// Where a string limits the clip.
     pub limited_at: Option<Span>,
+    /// The drawings that are chosen by hand, in order.
+    pub(crate) chosen: Vec<Chosen>,
+    /// Where a string chooses them.
+    pub held_at: Option<Span>,
     /// The performance that the clip follows.
     pub performed: Option<Performed>,
     /// How the performance is filmed.

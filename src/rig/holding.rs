@@ -9,6 +9,7 @@ use super::figures::FigureGroup;
 use crate::bind::PartId;
 use crate::geometry::{Outline, distance_squared, y_up};
 use crate::labels::FigurePartId;
+use crate::math;
 use crate::mocap::Transform;
 use crate::retarget::{RetargetedClip, Rig};
 
@@ -168,7 +169,7 @@ impl<'a> Pair<'a> {
             let at = placed[*bone].apply(rig.parts[*bone].node.to_local(*point));
             let at = below.apply(placed[self.parent].to_local(at));
             let beside = ((at.z - below.position.z).abs() - self.depth).max(0.0);
-            distance(&self.below, at.truncate()).hypot(beside)
+            math::hypot(distance(&self.below, at.truncate()), beside)
         });
         gaps.fold(f64::INFINITY, f64::min)
     }

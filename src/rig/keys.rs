@@ -86,6 +86,14 @@ impl Keys {
         )
     }
 
+    /// Adds those of key poses that move so many parts, in so many frames.
+    ///
+    /// # Errors
+    /// If there are too many then.
+    pub(super) fn add_posed(&mut self, parts: usize, frames: usize) -> Result<(), Excess> {
+        self.add(frames.saturating_mul(parts), 0)
+    }
+
     /// Adds keys, and frames that are computed of parts that swing.
     fn add(&mut self, keys: usize, swung: usize) -> Result<(), Excess> {
         let more = keys.saturating_add(swung.saturating_mul(SWING));

@@ -1,5 +1,6 @@
 //! Figures that are drawn from above: as drawn they are upright like a picture on a wall, and as soon as they move, they lie on the ground.
 
+use crate::math;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
@@ -31,7 +32,7 @@ pub(super) fn laid_down(drawn: &Arc<Rig>) -> Arc<Rig> {
     }
     let all: Vec<FigurePartId> = rig.parts.keys().collect();
     let middle = DVec3::Y * f64::midpoint(low.y, high.y);
-    let lay = DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2);
+    let lay = math::rotation_x(-std::f64::consts::FRAC_PI_2);
     turn(&mut rig, &all, lay, middle);
     lower_legs(&mut rig);
     let down = lowest(&rig, &all) - low.y;
@@ -77,7 +78,7 @@ fn lower_legs(rig: &mut Rig) {
         };
         let lowered = |step: usize| {
             let angle = MOST.to_radians() * step as f64 / STEPS as f64;
-            DQuat::from_axis_angle(DVec3::Y.cross(way), angle)
+            math::rotation_around(DVec3::Y.cross(way), angle)
         };
         let reaches = |step: &usize| {
             let turn = lowered(*step);

@@ -23,6 +23,7 @@ mod motion_files;
 mod moves;
 mod performances;
 mod performed;
+mod poses;
 mod rigging;
 mod surface;
 mod tracks;
@@ -63,6 +64,7 @@ use motion_files::MotionFiles;
 use moves::Roles;
 use performances::Performances;
 pub(crate) use performed::Performed;
+pub(crate) use poses::kept;
 pub(crate) use rigging::RestNode;
 use rigging::RestNodes;
 use tracks::AnimatedNodes;
@@ -140,7 +142,7 @@ pub(crate) fn add_clips(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<FigureClip> {
     let requests = context.bindings.clip_requests();
-    if requests.is_empty() {
+    if requests.is_empty() && context.bindings.poses.is_empty() {
         return Vec::new();
     }
     let rest = RestNodes::new(context.frames, &nodes.raw);
@@ -283,6 +285,7 @@ pub(crate) fn add_clips(
             findings.report(diagnostics);
         }
     }
+    poses::add(&mut builder, &groups, &mut keys, scene, diagnostics);
     let skeleton = builder.clips.last().map(|clip| clip.skeleton());
     builder.report_loose(diagnostics);
     builder.problems.report(context, skeleton, diagnostics);

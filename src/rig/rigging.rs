@@ -1,5 +1,6 @@
 //! Builds rigs from the figures of a drawing.
 
+use crate::math;
 use glam::{DQuat, DVec2, DVec3};
 use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
@@ -269,7 +270,7 @@ impl RestNodes {
             // The original precedes its copies.
             rest[node.part].get_or_insert((
                 Transform {
-                    rotation: DQuat::from_rotation_z(frame.angle),
+                    rotation: math::rotation_z(frame.angle),
                     position: frame.origin.extend(node.depth),
                 },
                 node.is_rooted,

@@ -5,6 +5,7 @@ use glam::{DVec2, DVec3};
 use super::Context;
 use crate::bind::PartId;
 use crate::geometry::y_up;
+use crate::math;
 
 /// The directions around the viewer's axis in which a surface is measured …
 const AROUND: usize = 16;
@@ -21,7 +22,7 @@ pub(super) fn outermost(
 ) -> Vec<DVec3> {
     let mut points: Vec<DVec3> = Vec::new();
     for step in 0..AROUND {
-        let around = DVec2::from_angle(std::f64::consts::TAU * step as f64 / AROUND as f64);
+        let around = math::direction(std::f64::consts::TAU * step as f64 / AROUND as f64);
         // The outline is searched once for all tilts.
         let supports = nodes.clone().flat_map(|(node, depth)| {
             let parts = context.parts_of_node[node].iter();
@@ -29,7 +30,7 @@ pub(super) fn outermost(
         });
         let supports: Vec<Support> = supports.collect();
         let tilts = TILTS.map(|tilt| {
-            let (up, level) = tilt.to_radians().sin_cos();
+            let (up, level) = math::sin_cos(tilt.to_radians());
             (around * level).extend(up)
         });
         // Straight to the front and to the back it makes no difference where on the outline.

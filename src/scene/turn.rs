@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use typed_index_collections::{TiSlice, TiVec};
 
 use crate::index::index_type;
+use crate::math;
 
 index_type!(
     /// Counts the views of a character.
@@ -32,8 +33,8 @@ pub struct Turn {
 /// The axes of a viewer in a direction, degrees: the screen's right and up, and towards the viewer, as unit vectors of the
 /// character's space (x its left, y up, z its front).
 pub fn view_axes([theta, phi]: [f64; 2]) -> [DVec3; 3] {
-    let (st, ct) = theta.to_radians().sin_cos();
-    let (sp, cp) = phi.to_radians().sin_cos();
+    let (st, ct) = math::sin_cos(theta.to_radians());
+    let (sp, cp) = math::sin_cos(phi.to_radians());
     [
         DVec3::new(ct, 0.0, -st),
         DVec3::new(-st * sp, cp, -ct * sp),
@@ -43,8 +44,8 @@ pub fn view_axes([theta, phi]: [f64; 2]) -> [DVec3; 3] {
 
 /// The direction of a unit vector towards the viewer, degrees.
 pub fn direction(towards: DVec3) -> [f64; 2] {
-    let theta = towards.x.atan2(towards.z);
-    [theta, towards.y.clamp(-1.0, 1.0).asin()].map(f64::to_degrees)
+    let theta = math::atan2(towards.x, towards.z);
+    [theta, math::asin(towards.y.clamp(-1.0, 1.0))].map(f64::to_degrees)
 }
 
 impl Turn {

@@ -1,5 +1,6 @@
 //! Smooth and sharp edges: which faces around a point share a corner with a common normal.
 
+use crate::math;
 use glam::DVec3;
 
 /// The crease angle, below which edges are smooth.
@@ -18,7 +19,7 @@ impl Crease {
         };
         // A cosine above 1 makes nothing smooth, not even coplanar faces.
         let cosine = if degrees > 0.0 {
-            degrees.to_radians().cos()
+            math::cos(degrees.to_radians())
         } else {
             2.0
         };

@@ -4,6 +4,7 @@
 //! whole drawing as seen from the front, and a small change of the drawing makes a small change of the solid. A turn of less
 //! than 360° is centred on the viewer and closed by two flat faces.
 
+use crate::math;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DVec2, DVec3};
@@ -62,7 +63,7 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
         .map(|row| match 4 * row {
             // Exactly in the drawing plane.
             quarter if whole && quarter == 2 * steps => DVec2::NEG_X,
-            _ => DVec2::from_angle(first + sweep * row as f64 / steps as f64),
+            _ => math::direction(first + sweep * row as f64 / steps as f64),
         })
         .collect();
     let mut written = Vec::with_capacity(rings.len() * rows);

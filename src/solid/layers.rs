@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::Options;
 use crate::geometry::Outline;
+use crate::math;
 
 /// Smaller scales become 0: the copy is a line or a point.
 pub(super) const MIN_SCALE: f64 = 1e-3;
@@ -82,8 +83,8 @@ pub(super) fn rounding(
     scale: fn(f64) -> [f64; 2],
 ) -> Vec<Layer> {
     let layer = |t: f64| {
-        let [across, along] = scale(snap(t.to_radians().cos()));
-        let z = radius * t.to_radians().sin();
+        let [across, along] = scale(snap(math::cos(t.to_radians())));
+        let z = radius * math::sin(t.to_radians());
         Layer { across, along, z }
     };
     steps(angles, steps_per_half_turn(options))

@@ -28,6 +28,7 @@ mod shell;
 mod source;
 mod stack;
 
+use crate::math;
 use glam::{DMat2, DVec2, DVec3};
 
 use crate::budget::{self, Step};
@@ -78,7 +79,7 @@ impl Default for Placement {
 
 impl Placement {
     fn turn(&self) -> DMat2 {
-        DMat2::from_angle(self.rotation)
+        math::rotation(self.rotation)
     }
 }
 

@@ -8,6 +8,7 @@ use glam::DVec3;
 use super::crease::{Crease, share, share_tip};
 use super::rings::Rings;
 use super::stack::{Base, Form, Level, PlacementTransform, rises};
+use crate::math;
 use crate::scene::Surface;
 
 /// Per point of a level, the corners that its adjacent walls use: the wall before the point and
@@ -216,7 +217,7 @@ impl Shell<'_> {
                         Some(_) => [self.point(other, j), self.point(k, i)],
                     };
                     let [a, b] = sides.map(|p| (p - here).normalize_or_zero());
-                    a.cross(b).length().atan2(a.dot(b)).max(1e-9)
+                    math::atan2(a.cross(b).length(), a.dot(b)).max(1e-9)
                 };
                 let weights: Vec<f64> = around.iter().map(angle).collect();
                 let position = self.transform.position(self.point(k, around[0].1));

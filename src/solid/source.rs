@@ -1,5 +1,6 @@
 //! The description of a solid, from which its surface is made on demand.
 
+use crate::math;
 use std::any::Any;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
@@ -185,7 +186,7 @@ impl Solid {
         let placement = &self.options.placement;
         let placed = DAffine2::from_scale(DVec2::splat(placement.scale))
             * DAffine2::from_translation(placement.translation.truncate())
-            * DAffine2::from_angle(placement.rotation);
+            * DAffine2::from_mat2(math::rotation(placement.rotation));
         placed * self.to_frame
     }
 }

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
 
+use super::poses::PoseNodes;
 use super::prepare::{JOINED, Prepared};
 use super::style::Styles;
 use super::{DescSlot, Element, text};
@@ -145,11 +146,12 @@ impl Element {
     }
 }
 
-/// The visible texts, in document order.
+/// The visible texts, in document order. Of those in pose layers only the strings that make them such layers, visible or not.
 pub(super) fn labels<'a, 'input>(
     document: &'a roxmltree::Document<'input>,
     styles: &Styles<'_>,
     prepared: &Prepared,
+    poses: &PoseNodes,
 ) -> Vec<(Node<'a, 'input>, text::Label)> {
     let drawn = |node: &Node<'_, '_>| {
         !node
@@ -163,7 +165,16 @@ pub(super) fn labels<'a, 'input>(
         .collect();
     texts
         .into_par_iter()
-        .filter_map(|node| Some((node, text::read(node, styles, prepared)?)))
+        .filter_map(|node| {
+            let label = if poses.are_made_by(node.id()) {
+                text::read_hidden(node, styles, prepared)
+            } else if poses.hold(node.id()) {
+                None
+            } else {
+                text::read(node, styles, prepared)
+            };
+            Some((node, label?))
+        })
         .collect()
 }
 

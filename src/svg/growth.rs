@@ -229,8 +229,13 @@ pub(super) mod tests {
         let text = format!(
             "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' width='9' height='9'>{body}</svg>"
         );
-        let (drawing, diagnostics) =
-            crate::svg::read(&text, 0.001, &MemoryResolver::default(), &|_| vec![].into());
+        let (drawing, diagnostics) = crate::svg::read(
+            &text,
+            0.001,
+            &MemoryResolver::default(),
+            &|_| vec![].into(),
+            &|_, _| false,
+        );
         let refused = diagnostics
             .into_iter()
             .find(|found| found.code == Code::LimitPassed)?;

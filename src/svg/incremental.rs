@@ -89,6 +89,15 @@ impl<'a> TextEdit<'a> {
             self.apply_to_element(&mut converted.element);
             converted.whole = self.change.moved(converted.whole);
         }
+        for copy in &mut drawing.poses.copies {
+            let around = copy.around.iter_mut();
+            std::iter::once(&mut copy.element)
+                .chain(around)
+                .for_each(|element| self.apply_to_element(element));
+        }
+        for posed in &mut drawing.poses.texts {
+            self.apply_to_text(&mut posed.text);
+        }
         for (label, _) in &mut drawing.labels {
             label.element = self.change.moved(label.element);
             let edited = label.text.plain_around(self.change).is_some();

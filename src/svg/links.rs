@@ -18,14 +18,48 @@ pub(super) enum Unshown {
     TooNarrow(String),
 }
 
+/// How many bytes of linked pictures are kept of a drawing.
+pub(crate) const MAX_KEPT: usize = 8 << 20;
+
+/// A picture that a drawing links to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LinkedPicture {
+    /// The link, as the drawing has it.
+    pub link: String,
+    /// The file; `None` if all pictures together would be larger than 8 MiB.
+    pub bytes: Option<Arc<[u8]>>,
+}
+
+/// What is noted while usvg reads pictures.
+#[derive(Debug, Default)]
+pub(super) struct Noted {
+    pub(super) unshown: Vec<Unshown>,
+    /// The pictures that are shown, each link once.
+    pub(super) linked: Vec<LinkedPicture>,
+}
+
+impl Noted {
+    fn keep(&mut self, link: &str, bytes: Arc<[u8]>) {
+        if self.linked.iter().any(|picture| picture.link == link) {
+            return;
+        }
+        let kept = self.linked.iter().flat_map(|picture| &picture.bytes);
+        let sum: usize = kept.map(|bytes| bytes.len()).sum();
+        self.linked.push(LinkedPicture {
+            link: link.to_owned(),
+            bytes: (sum + bytes.len() <= MAX_KEPT).then_some(bytes),
+        });
+    }
+}
+
 /// What usvg reads from a drawing with one more style sheet. What it cannot show is left out.
 pub(super) fn styled_tree(text: &str, style: &str, resolver: &dyn Resolver) -> Option<usvg::Tree> {
     let document = roxmltree::Document::parse_with_options(text, parsing()).ok()?;
-    let unshown = Mutex::new(Vec::new());
+    let noted = Mutex::default();
     let viewports = ImageViewports::of(&document);
     let options = usvg::Options {
         style_sheet: Some(style.to_owned()),
-        ..options(resolver, &viewports, &unshown)
+        ..options(resolver, &viewports, &noted)
     };
     usvg::Tree::from_xmltree(&document, &options).ok()
 }
@@ -41,14 +75,14 @@ pub(super) fn parsing<'input>() -> roxmltree::ParsingOptions<'input> {
 pub(super) fn options<'a>(
     resolver: &'a dyn Resolver,
     viewports: &'a ImageViewports<'_>,
-    unshown: &'a Mutex<Vec<Unshown>>,
+    noted: &'a Mutex<Noted>,
 ) -> usvg::Options<'a> {
     // usvg's own data resolver recognises the format by the first bytes.
     let read = usvg::ImageHrefResolver::default_data_resolver();
     let read_embedded = usvg::ImageHrefResolver::default_data_resolver();
     let leave_out = |why| {
-        if let Ok(mut unshown) = unshown.lock() {
-            unshown.push(why);
+        if let Ok(mut noted) = noted.lock() {
+            noted.unshown.push(why);
         }
         None
     };
@@ -65,7 +99,12 @@ pub(super) fn options<'a>(
                 Ok(bytes) => {
                     let picture = read("text/plain", Arc::new(bytes.to_vec()), options)?;
                     match viewports.misfit(Origin::Link(href), &picture) {
-                        None => Some(picture),
+                        None => {
+                            if let Ok(mut noted) = noted.lock() {
+                                noted.keep(href, bytes);
+                            }
+                            Some(picture)
+                        }
                         Some(link) => leave_out(Unshown::TooNarrow(link)),
                     }
                 }

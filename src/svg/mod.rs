@@ -19,6 +19,7 @@ mod oklab;
 mod paint;
 mod paths;
 mod pictures;
+mod poses;
 mod prepare;
 mod raster;
 mod replacements;
@@ -42,10 +43,14 @@ pub(crate) use entities::character;
 pub(crate) use excerpts::{Excerpts, excerpts};
 pub(crate) use image::{PictureSource, pixels_of};
 pub(crate) use incremental::TextEdit;
+pub(crate) use links::LinkedPicture;
+#[cfg(test)]
+pub(crate) use links::MAX_KEPT;
 pub(crate) use links::broken_link;
 pub(crate) use oklab::oklab;
 pub(crate) use paths::StrokeSource;
 pub(crate) use pictures::LARGE;
+pub(crate) use poses::{DrawnPath, IsPose, PosedShape, Poses, transforms_around};
 pub use raster::{LeftOut, raster};
 pub(crate) use text::Label;
 pub(crate) use unseen::{ConvertedText, Hidden, Unseen};
@@ -94,8 +99,12 @@ pub struct Drawing {
     pub labels: Vec<(Label, GroupId)>,
     /// What the drawing holds but does not show.
     pub unseen: Unseen,
+    /// The pose layers, and what is in them.
+    pub(crate) poses: Poses,
     /// Per group whether its pictures are read pixel by pixel (see [`PixelGroups`]); `None` if there are no pictures.
     pub pixel_groups: Option<TiVec<GroupId, bool>>,
+    /// The pictures that it links to and shows.
+    pub pictures: Vec<LinkedPicture>,
     /// How much work it may cause.
     pub(crate) budget: Budget,
 }
@@ -238,7 +247,7 @@ pub struct Line {
 pub(crate) type PixelGroups<'a> = &'a (dyn Fn(&Drawing) -> TiVec<GroupId, bool> + Sync);
 
 /// Reads a drawing. `tolerance` is how far a flattened curve may deviate, as a share of its shape's larger extent;
-/// `pixel_groups` is called only if there are pictures.
+/// `pixel_groups` is called only if there are pictures; `is_pose` says which texts make pose layers.
 ///
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing. Recurses as deep as the
 /// drawing is nested, so the thread needs a large stack, as [`crate::compile::compile`] gives it; where there are no
@@ -248,9 +257,17 @@ pub fn read(
     tolerance: f64,
     resolver: &dyn Resolver,
     pixel_groups: PixelGroups<'_>,
+    is_pose: IsPose<'_>,
 ) -> (Drawing, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
-    let drawing = read_document(source, tolerance, resolver, pixel_groups, &mut diagnostics);
+    let drawing = read_document(
+        source,
+        tolerance,
+        resolver,
+        pixel_groups,
+        is_pose,
+        &mut diagnostics,
+    );
     let drawing = drawing.unwrap_or_else(|diagnostic| {
         diagnostics.push(*diagnostic);
         Drawing::default()
@@ -263,6 +280,7 @@ fn read_document(
     tolerance: f64,
     resolver: &dyn Resolver,
     pixel_groups: PixelGroups<'_>,
+    is_pose: IsPose<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
     if source.trim_start_matches('\u{feff}').trim().is_empty() {
@@ -292,7 +310,14 @@ fn read_document(
             Diagnostic::new(Code::NotSvg, span, message).help("save the drawing as SVG"),
         ));
     }
-    let mut drawing = shapes::read(&document, &prepared, tolerance, resolver, diagnostics)?;
+    let mut drawing = shapes::read(
+        &document,
+        &prepared,
+        tolerance,
+        resolver,
+        is_pose,
+        diagnostics,
+    )?;
     if drawing.shapes.iter().any(|shape| shape.picture.is_some()) {
         let pixel_groups = pixel_groups(&drawing);
         pictures::trace(&mut drawing, &pixel_groups, diagnostics);

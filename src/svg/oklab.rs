@@ -1,5 +1,7 @@
 //! Colours as the eye compares them.
 
+use crate::math;
+
 /// Oklab: lightness and two colour axes (Ottosson, *A perceptual color space for image processing*, 2020) of an sRGB
 /// colour.
 pub(crate) fn oklab(color: [u8; 3]) -> [f64; 3] {
@@ -8,12 +10,12 @@ pub(crate) fn oklab(color: [u8; 3]) -> [f64; 3] {
         if channel <= 0.040_45 {
             channel / 12.92
         } else {
-            ((channel + 0.055) / 1.055).powf(2.4)
+            math::powf((channel + 0.055) / 1.055, 2.4)
         }
     });
-    let l = (0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b).cbrt();
-    let m = (0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b).cbrt();
-    let s = (0.088_302_461_9 * r + 0.281_718_837_6 * g + 0.629_978_700_5 * b).cbrt();
+    let l = math::cbrt(0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b);
+    let m = math::cbrt(0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b);
+    let s = math::cbrt(0.088_302_461_9 * r + 0.281_718_837_6 * g + 0.629_978_700_5 * b);
     [
         0.210_454_255_3 * l + 0.793_617_785_0 * m - 0.004_072_046_8 * s,
         1.977_998_495_1 * l - 2.428_592_205_0 * m + 0.450_593_709_9 * s,

@@ -389,6 +389,7 @@ mod tests {
             0.001,
             &crate::resolver::MemoryResolver::default(),
             &|_| vec![].into(),
+            &|_, _| false,
         );
         assert!(drawing.shapes.is_empty());
         assert_eq!(diagnostics.len(), 1, "{diagnostics:?}");

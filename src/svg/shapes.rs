@@ -11,17 +11,18 @@ use typed_index_collections::TiVec;
 use super::dashes::Dashes;
 use super::elements::{Ids, element, labels, start_tag};
 use super::fit::ImageViewports;
-use super::links::{options, report_links, unusable};
+use super::links::{Noted, options, report_links, unusable};
 use super::paint::is_opaque;
 use super::paths::{StrokeSource, affine, bez_path, curved, open_line};
+use super::poses::{IsPose, PoseNodes, PoseReader, Poses};
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::tangles::Tangles;
 use super::unsolid::Who;
 use super::walk::{Inherited, Leaf, Task, Walk, group_kind};
 use super::{
-    Drawing, Element, Paint, PaintKey, PictureSource, Shape, ShapeId, dropped, growth, sheets,
-    unseen,
+    Drawing, Element, GroupId, Paint, PaintKey, PictureSource, Shape, ShapeId, dropped, growth,
+    sheets, unseen,
 };
 use crate::budget::{Budget, Work};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
@@ -35,9 +36,10 @@ pub(super) fn read(
     prepared: &Prepared,
     tolerance: f64,
     resolver: &dyn Resolver,
+    is_pose: IsPose<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
-    let unshown = Mutex::new(Vec::new());
+    let noted = Mutex::default();
     let viewports = ImageViewports::of(document);
     sheets::check_lengths(document, prepared)?;
     let styles = Styles::read(document);
@@ -49,14 +51,15 @@ pub(super) fn read(
     } else {
         None
     };
+    let pose_nodes = PoseNodes::find(document, prepared, is_pose);
     // usvg uses one core; the texts, which it does not read, need only the XML.
     let (tree, (labels, by_id, unseen, dropped)) = rayon::join(
-        || usvg::Tree::from_xmltree(document, &options(resolver, &viewports, &unshown)),
+        || usvg::Tree::from_xmltree(document, &options(resolver, &viewports, &noted)),
         || {
             let ids = early_ids.unwrap_or_else(|| Ids::read(document, prepared));
             let dropped = dropped::read(document, &styles, prepared, &ids);
             (
-                labels(document, &styles, prepared),
+                labels(document, &styles, prepared, &pose_nodes),
                 ids,
                 unseen::read(document, &styles, prepared),
                 dropped,
@@ -64,17 +67,14 @@ pub(super) fn read(
         },
     );
     let tree = tree.map_err(|error| Box::new(unusable(&error, document, prepared)))?;
-    report_links(
-        document,
-        prepared,
-        unshown.into_inner().unwrap_or_default(),
-        diagnostics,
-    );
+    let Noted { unshown, linked } = noted.into_inner().unwrap_or_default();
+    report_links(document, prepared, unshown, diagnostics);
     dropped::report_pages(document, prepared, &styles, diagnostics);
     dropped::report_linked_sheets(document, prepared, diagnostics);
     let offset = page_corner(document);
     let mut walk = Walk {
         prepared,
+        poses: &pose_nodes,
         root: document.root_element(),
         by_id,
         group_of: vec![None; document.descendants().count() + 1],
@@ -97,6 +97,10 @@ pub(super) fn read(
         .into_iter()
         .map(|(node, label)| (label, walk.group(node)))
         .collect();
+    let pose_groups = pose_nodes.layers.iter();
+    let pose_groups = pose_groups.filter_map(|node| document.get_node(*node));
+    let pose_groups = pose_groups.map(|node| (node.id(), walk.group(node)));
+    let pose_groups: FxHashMap<NodeId, GroupId> = pose_groups.collect();
     let Walk {
         groups,
         tasks,
@@ -146,6 +150,22 @@ pub(super) fn read(
             .map(|(index, (task, _))| (task.xml, index.into()));
         shape_of_node.extend(drawn);
     }
+    let poses = if pose_groups.is_empty() {
+        Poses::default()
+    } else {
+        let drawn = tasks.iter().zip(&made).filter(|(_, shape)| shape.is_some());
+        let drawn: Vec<&Task<'_>> = drawn.map(|(task, _)| task).collect();
+        let reader = PoseReader {
+            document,
+            prepared,
+            styles: &styles,
+            ids: &context.by_id,
+            page,
+            tolerance,
+            nodes: &pose_nodes,
+        };
+        reader.read(&pose_groups, &drawn, resolver)
+    };
     drop(tasks);
     // Dropping a large tree takes a tenth of the time of building it: nobody needs to wait for that.
     crate::threads::run_aside(move || drop(tree));
@@ -161,7 +181,9 @@ pub(super) fn read(
         transparency_groups,
         labels,
         unseen,
+        poses,
         pixel_groups: None,
+        pictures: linked,
         budget,
     };
     // A shape that is left out is neither, and has its own report.

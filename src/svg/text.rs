@@ -116,6 +116,15 @@ pub(super) fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared)
     if !styles.is_shown(node) {
         return None;
     }
+    read_hidden(node, styles, prepared)
+}
+
+/// The same, whether it is hidden or not.
+pub(super) fn read_hidden(
+    node: Node<'_, '_>,
+    styles: &Styles<'_>,
+    prepared: &Prepared,
+) -> Option<Label> {
     let text = content(node, prepared);
     let size = styles.font_size(first_run(node));
     let frame = Frame {

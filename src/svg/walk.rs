@@ -11,6 +11,7 @@ use super::clip::Clip;
 use super::dropped::Users;
 use super::elements::{Ids, element};
 use super::paths::affine;
+use super::poses::PoseNodes;
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::unsolid::Feature;
@@ -85,6 +86,8 @@ pub(super) enum Leaf<'a> {
 /// The state of the walk over usvg's tree.
 pub(super) struct Walk<'a, 'input> {
     pub(super) prepared: &'a Prepared,
+    /// The pose layers, in which nothing is a shape of the drawing.
+    pub(super) poses: &'a PoseNodes,
     pub(super) root: Node<'a, 'input>,
     pub(super) by_id: Ids<'a>,
     /// For each XML node, the group that it is or is in; `None` if unknown.
@@ -167,7 +170,9 @@ impl<'a> Walk<'a, '_> {
                 group.blend_mode() != usvg::BlendMode::Normal,
             ),
         ];
-        let used = features.into_iter().filter(|(_, used)| *used);
+        let is_posed = own.is_some_and(|own| self.poses.hold(own));
+        let used = features.into_iter();
+        let used = used.filter(|(_, used)| *used && !is_posed);
         let used: Vec<_> = used.map(|(feature, _)| (feature, user())).collect();
         for (feature, user) in used {
             self.note(feature, user);
@@ -266,6 +271,9 @@ impl<'a> Walk<'a, '_> {
         let Some(node) = self.root.document().get_node(own.unwrap_or(inherited.xml)) else {
             return;
         };
+        if self.poses.hold(node.id()) {
+            return;
+        }
         // Of paths, only those that a clone or a marker draws have no element of their own.
         let is_path = matches!(leaf, Leaf::Path(_));
         if own.is_none() && is_path && node.tag_name().name() != "use" {

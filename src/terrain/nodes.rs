@@ -1,6 +1,6 @@
 //! The nodes of landscapes: one for each tile layer.
 
-use glam::DQuat;
+use crate::math;
 
 use super::reading::Layer;
 use crate::bind::Bindings;
@@ -27,7 +27,7 @@ pub(crate) fn node(
         // A landscape stays level, however the part that it hangs on is turned.
         Some((_, frame)) => (
             frame.to_local(y_up(middle)).extend(0.0) * world.scale,
-            DQuat::from_rotation_z(-frame.angle),
+            math::rotation_z(-frame.angle),
         ),
         None => (world.point_on_ground(middle), world.rotation),
     };

@@ -3,6 +3,7 @@
 //! Colours are computed here rather than by a rasteriser: transparent pixels keep their colours, because alpha is not
 //! premultiplied, and the few operations used give the same bits on every machine.
 
+use crate::math;
 use glam::{DAffine2, DVec2};
 use image::{Rgba, RgbaImage};
 
@@ -98,7 +99,7 @@ impl Gradient {
 
     /// Whether a radial gradient has a constant colour outside its end circle.
     pub(super) fn is_bounded(&self, focus: Focus) -> bool {
-        let inside = focus.x.hypot(focus.y) + focus.radius < 1.0;
+        let inside = math::hypot(focus.x, focus.y) + focus.radius < 1.0;
         self.spread == Spread::Pad && inside
     }
 

@@ -18,7 +18,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DMat2, DVec2};
 
 pub(crate) use gradient::{Focus, Gradient, Spread, Stop};
-pub(crate) use picture::{Decoded, Holes, PictureError, decode, picture, pixels};
+pub(crate) use picture::{Decoded, Holes, PictureError, decode, picture, pixels, upright};
 
 use crate::scene::{Filter, MediaType, Wrap};
 
@@ -232,7 +232,7 @@ impl Plan {
             Source::Linear(gradient) => gradient.row_map(width),
             Source::Radial(..) => {
                 let scale = DVec2::splat(0.5 / self.reach);
-                DAffine2::from_scale_angle_translation(scale, 0.0, DVec2::splat(0.5))
+                DAffine2::from_mat2_translation(DMat2::from_diagonal(scale), DVec2::splat(0.5))
             }
             Source::Pattern(_) | Source::Picture(..) => DAffine2::IDENTITY,
         };

@@ -4,7 +4,9 @@ use std::io::Cursor;
 use std::sync::Arc;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{DynamicImage, ExtendedColorType, ImageEncoder as _, RgbaImage};
+use image::{
+    DynamicImage, ExtendedColorType, ImageDecoder as _, ImageEncoder as _, ImageReader, RgbaImage,
+};
 
 use super::{Alpha, Picture};
 use crate::scene::MediaType;
@@ -75,19 +77,36 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
 /// # Errors
 /// See [`PictureError`].
 pub(crate) fn pixels(bytes: &[u8]) -> Result<(DynamicImage, Option<MediaType>), PictureError> {
-    let mut reader = image::ImageReader::new(Cursor::new(bytes))
-        .with_guessed_format()
-        .map_err(image::ImageError::IoError)?;
-    let mut limits = image::Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
-    reader.limits(limits);
+    let reader = reader(bytes)?;
     let media_type = match reader.format() {
         Some(image::ImageFormat::Png) => is_plain_png(bytes).then_some(MediaType::Png),
         Some(image::ImageFormat::Jpeg) => Some(MediaType::Jpeg),
         _ => None,
     };
     Ok((reader.decode()?, media_type))
+}
+
+/// Decodes a picture as it is looked at: cameras write beside the pixels which side is up.
+///
+/// # Errors
+/// See [`PictureError`].
+pub(crate) fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
+    let mut decoder = reader(bytes)?.into_decoder()?;
+    let orientation = decoder.orientation()?;
+    let mut picture = DynamicImage::from_decoder(decoder)?;
+    picture.apply_orientation(orientation);
+    Ok(picture)
+}
+
+fn reader(bytes: &[u8]) -> Result<ImageReader<Cursor<&[u8]>>, PictureError> {
+    let mut reader = ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(image::ImageError::IoError)?;
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    reader.limits(limits);
+    Ok(reader)
 }
 
 /// Whether a PNG is one that glTF allows: sRGB, with square pixels, and not animated.

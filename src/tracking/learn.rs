@@ -1,5 +1,6 @@
 //! What the marks of a clip look like, learned from some of its frames.
 
+use crate::math;
 use glam::DVec3;
 use thiserror::Error;
 
@@ -309,7 +310,7 @@ fn usual_area(samples: &[Vec<f64>], largest: f64) -> f64 {
 impl LearnedMark {
     /// How it looks usually: how far its hue is from what was learned, degrees, and the logarithms of its chroma and of its area.
     pub(super) fn look(&self) -> DVec3 {
-        DVec3::new(0.0, self.appearance.usual.ln(), self.area.ln())
+        DVec3::new(0.0, math::ln(self.appearance.usual), math::ln(self.area))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Things that stand still and look like a mark now and then, while the mark moves.
 
+use crate::math;
 use glam::{DVec2, DVec3};
 
 use super::traces::Trace;
@@ -25,7 +26,7 @@ struct Place {
 
 /// How much a look is like the usual one of a mark, from 0 to 1.
 pub(super) fn similarity(look: DVec3, usual: DVec3) -> f64 {
-    (-((look - usual) / UNUSUAL).length_squared() / 2.0).exp()
+    math::exp(-((look - usual) / UNUSUAL).length_squared() / 2.0)
 }
 
 /// For each trace whether it is something that stands still, is seen now and then while the mark moves elsewhere, and is seen in fewer

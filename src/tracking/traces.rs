@@ -1,5 +1,6 @@
 //! The ways of everything that could be a mark, from frame to frame.
 
+use crate::math;
 use glam::{DVec2, DVec3};
 
 /// How far something is from where it is expected at most, as a part of the picture's diagonal.
@@ -72,7 +73,11 @@ impl Thing {
 
     /// How it looks: its hue in degrees, and the logarithms of its chroma and of its area.
     pub(super) fn look(&self) -> DVec3 {
-        DVec3::new(self.tint.x, self.tint.y.max(1e-3).ln(), self.area.ln())
+        DVec3::new(
+            self.tint.x,
+            math::ln(self.tint.y.max(1e-3)),
+            math::ln(self.area),
+        )
     }
 }
 
@@ -189,7 +194,7 @@ impl Open {
         let expected = last.at + steps * self.velocity;
         let reach = (reach + last.radius() / 2.0) * (1.0 + 0.5 * self.missing as f64);
         let part = expected.distance(thing.at) / reach;
-        (part < 1.0).then(|| part + 0.5 * (thing.area / last.area).ln().abs())
+        (part < 1.0).then(|| part + 0.5 * math::ln(thing.area / last.area).abs())
     }
 
     fn see(&mut self, thing: Thing) {

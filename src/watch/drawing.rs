@@ -51,14 +51,11 @@ pub(crate) enum Outcome {
 impl Drawing {
     /// A drawing that has not been built yet.
     pub(crate) fn new(path: &Path, options: &Options) -> Self {
-        let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        let (reading, resolver) = options.reading(path);
         Self {
             source: Source::new(path, options.unsaved.as_deref()),
-            options: compile::Options {
-                tolerance: options.tolerance,
-            },
-            resolver: FolderResolver::new(options.base.clone().unwrap_or(folder))
-                .allowing(options.root.as_deref()),
+            options: reading,
+            resolver,
             compiler: Compiler::default(),
             surfaces: Memo::default(),
             last: None,

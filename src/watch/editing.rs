@@ -1,20 +1,16 @@
 //! Changes of drawings' files: made in the text as it is now, and undone.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use super::Options;
-use crate::compile::{self, Compiler};
-use crate::diagnostic::{Edit, applied};
-use crate::disk::{
-    FolderResolver, ReadError, WriteError, decode, is_packed, read_file, rewrite_if, stamp,
-};
+use crate::disk::{self, ReadError, WriteError, decode, is_packed, read_file, rewrite_if, stamp};
 use crate::export;
 use crate::ide::Analysis;
-use crate::ide::changes::{Change, History, Refusal, Step, check, edits, no_worse};
+use crate::ide::changes::{Action, Change, Done, Reading, Refusal, Session, Steps};
 use crate::memo::Memo;
 
 /// How often a change is tried again if another program writes the file meanwhile.
@@ -23,22 +19,6 @@ const TRIES: usize = 5;
 const PATIENCE: Duration = Duration::from_secs(2);
 /// How long a file must have stayed the same: programs write in pieces.
 const SETTLED: Duration = Duration::from_millis(30);
-
-/// How many of the last changes are known by their texts: a page may make one after the other before it has seen a build.
-const MAX_KNOWN: usize = 16;
-/// How many bytes these texts may have together.
-const MAX_KNOWN_BYTES: usize = 32 << 20;
-
-/// What is to be done to a drawing.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Action {
-    /// A change is made.
-    Make(Change),
-    /// The last change is undone.
-    Undo,
-    /// What was undone last is made again.
-    Redo,
-}
 
 /// Why a drawing is not changed.
 #[derive(Debug, thiserror::Error)]
@@ -74,22 +54,13 @@ fn unwritten(error: &WriteError) -> String {
     }
 }
 
-/// What was done to a drawing.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Done {
-    /// The part that it was about, by the name that it has now.
-    pub part: Option<String>,
-    /// What else has changed, as a sentence without a full stop.
-    pub note: Option<String>,
-}
-
-/// What can be undone and redone, in words.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Steps {
-    /// The change that would be undone.
-    pub undo: Option<String>,
-    /// The change that would be made again.
-    pub redo: Option<String>,
+impl From<NotChanged> for Refusal {
+    fn from(error: NotChanged) -> Self {
+        match error {
+            NotChanged::Refused(refusal) => refusal,
+            error => Self::without_choice(error.to_string()),
+        }
+    }
 }
 
 /// Changes the files of drawings, one at a time.
@@ -102,23 +73,9 @@ pub(crate) struct Editor {
 /// A drawing that is edited.
 #[derive(Debug, Default)]
 struct Edited {
-    history: History,
-    compiler: Compiler,
-    /// The last state that was compiled.
-    last: Option<Arc<Analysis>>,
-    /// The texts before and after the last changes.
-    made: VecDeque<[Arc<str>; 2]>,
+    session: Session,
     /// The surfaces of the last model of a change that was only tried.
     surfaces: Memo,
-}
-
-/// A change that is possible.
-struct Possible {
-    edits: Vec<Edit>,
-    /// The drawing with the change; `None` if nothing changes.
-    after: Option<Arc<Analysis>>,
-    /// What else it does, as a sentence without a full stop.
-    note: Option<String>,
 }
 
 impl Editor {
@@ -134,10 +91,21 @@ impl Editor {
         self.drawings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Does something with the session of a drawing, and how that is read.
+    fn with<R>(&self, path: &Path, work: impl FnOnce(&mut Edited, Reading<'_>) -> R) -> R {
+        let (options, resolver) = self.options.reading(path);
+        let reading = Reading {
+            options,
+            resolver: &resolver,
+        };
+        let mut drawings = self.drawings();
+        work(drawings.entry(path.to_owned()).or_default(), reading)
+    }
+
     /// Forgets what was compiled of a drawing: a file that it links to may have changed.
     pub(crate) fn forget(&self, path: &Path) {
         if let Some(edited) = self.drawings().get_mut(path) {
-            edited.last = None;
+            edited.session.forget();
         }
     }
 
@@ -146,21 +114,33 @@ impl Editor {
     /// # Errors
     /// If the file cannot be read, or is no drawing at the moment.
     pub(crate) fn analysis(&self, path: &Path) -> Result<Arc<Analysis>, NotChanged> {
-        let mut drawings = self.drawings();
-        let edited = drawings.entry(path.to_owned()).or_default();
-        self.settled(path, edited)
+        self.with(path, |edited, reading| {
+            settled(self.file(path), &mut edited.session, reading)
+        })
+    }
+
+    /// The file that is changed: of a drawing that is open elsewhere, the program that has it open writes the file itself, and takes over
+    /// what was changed in the copy.
+    fn file<'a>(&'a self, path: &'a Path) -> &'a Path {
+        self.options.unsaved.as_deref().unwrap_or(path)
+    }
+
+    /// Whether a copy is changed instead of the drawing.
+    pub(crate) fn changes_copy(&self) -> bool {
+        self.options.unsaved.is_some()
+    }
+
+    /// The motion files in a drawing's folder, as the drawing names them.
+    pub(crate) fn motion_files(&self, path: &Path) -> Vec<String> {
+        disk::motions(path.parent().unwrap_or(Path::new("")))
     }
 
     /// What can be undone and redone in a drawing.
     pub(crate) fn steps(&self, path: &Path) -> Steps {
         let drawings = self.drawings();
-        let title = |step: &Step| step.change.title();
         drawings
             .get(path)
-            .map_or_else(Steps::default, |edited| Steps {
-                undo: edited.history.last().map(title),
-                redo: edited.history.next().map(title),
-            })
+            .map_or_else(Steps::default, |edited| edited.session.steps())
     }
 
     /// Changes a drawing's file: reads it, makes the change in its text, compiles that, and writes it if nothing else has changed.
@@ -175,47 +155,19 @@ impl Editor {
         action: &Action,
         shown: Option<&str>,
     ) -> Result<Done, NotChanged> {
-        let mut drawings = self.drawings();
-        let edited = drawings.entry(path.to_owned()).or_default();
-        for _ in 0..TRIES {
-            let before = self.settled(path, edited)?;
-            let text = before.source();
-            let (found, note) = match action {
-                Action::Make(change) => {
-                    let possible = self.possible(path, edited, &before, change, shown)?;
-                    if possible.after.is_some() {
-                        edited.last = possible.after;
-                    }
-                    (possible.edits, possible.note)
+        self.with(path, |Edited { session, .. }, reading| {
+            for _ in 0..TRIES {
+                let before = settled(self.file(path), session, reading)?;
+                let pending = session.pending(&before, action, shown, reading)?;
+                let (old, new) = (before.source(), &pending.text);
+                if old == new || rewrite_if(self.file(path), old.as_bytes(), new.as_bytes())? {
+                    return Ok(session.done(action, pending));
                 }
-                Action::Undo | Action::Redo => (self.stepped(path, edited, &before, action)?, None),
-            };
-            let new: Arc<str> = applied(text, &found).into();
-            if new != *text && !rewrite_if(path, text.as_bytes(), new.as_bytes())? {
-                continue;
             }
-            let history = &mut edited.history;
-            let part = match action {
-                Action::Make(change) => change.part_after(),
-                Action::Undo => history
-                    .last()
-                    .and_then(|step| step.change.part().map(str::to_owned)),
-                Action::Redo => history.next().and_then(|step| step.change.part_after()),
-            };
-            match action {
-                Action::Make(_) if new == *text => {}
-                Action::Make(change) => history.add(Step::new(change.clone(), text, &found)),
-                Action::Undo => history.undo(text, &found),
-                Action::Redo => history.redo(text, &found),
-            }
-            if new != *text {
-                edited.know([text.clone(), new]);
-            }
-            return Ok(Done { part, note });
-        }
-        Err(refused(
-            "another program writes the drawing at the moment: try again",
-        ))
+            Err(refused(
+                "another program writes the drawing at the moment: try again",
+            ))
+        })
     }
 
     /// What a change would make of a drawing, in the format of its models. The file stays as it is, and nothing is to be undone.
@@ -228,168 +180,43 @@ impl Editor {
         change: &Change,
         shown: Option<&str>,
     ) -> Result<Vec<u8>, NotChanged> {
-        let mut drawings = self.drawings();
-        let edited = drawings.entry(path.to_owned()).or_default();
-        let before = self.settled(path, edited)?;
-        let possible = self.possible(path, edited, &before, change, shown)?;
-        let after = possible.after.unwrap_or(before);
-        let scene = &after.compiled().scene;
-        let model = export::to_memory(self.options.exporter, scene, Some(&mut edited.surfaces))?;
-        Ok(model.bytes)
-    }
-
-    /// A change that a person wants.
-    fn possible(
-        &self,
-        path: &Path,
-        edited: &mut Edited,
-        before: &Analysis,
-        change: &Change,
-        shown: Option<&str>,
-    ) -> Result<Possible, NotChanged> {
-        let shown = shown.ok_or_else(|| {
-            Refusal::without_choice(
-                "the drawing has changed too often since: look at it again, and try once more",
-            )
-        })?;
-        // What was changed here meanwhile did not come from elsewhere.
-        let shown = edited.since(shown);
-        if *shown != **before.source() {
-            let shown = self.compiled(path, edited, &shown);
-            before.still_means(&shown, change)?;
-        }
-        let edits = edits(before, change)?;
-        let text = before.source();
-        let new = applied(text, &edits);
-        let (mut after, mut note) = (None, None);
-        if new != **text {
-            let compiled = self.compiled(path, edited, &new);
-            note = check(before, &compiled, change)?;
-            after = Some(compiled);
-        }
-        Ok(Possible { edits, after, note })
-    }
-
-    /// The edits that undo or redo a step. A step that does not fit any more is forgotten, so that those before it can be undone.
-    fn stepped(
-        &self,
-        path: &Path,
-        edited: &mut Edited,
-        before: &Analysis,
-        action: &Action,
-    ) -> Result<Vec<Edit>, NotChanged> {
-        let is_undo = *action == Action::Undo;
-        let step = match is_undo {
-            true => edited.history.last(),
-            false => edited.history.next(),
-        };
-        let step = step.ok_or_else(|| {
-            refused(match is_undo {
-                true => "there is nothing to undo",
-                false => "there is nothing to redo",
-            })
-        })?;
-        let title = step.change.title();
-        let text = before.source();
-        let found = step.undone(text).ok_or_else(|| {
-            format!("what was changed is not there any more, because another program saved the drawing: {title} stays as it is")
-        });
-        let found = found.and_then(|found| {
-            let after = self.compiled(path, edited, &applied(text, &found));
-            let worse = no_worse(before, &after);
-            worse.map_err(|refusal| refusal.why)?;
-            edited.last = Some(after);
-            Ok(found)
-        });
-        found.map_err(|why| {
-            match is_undo {
-                true => edited.history.forget_last(),
-                false => edited.history.forget_next(),
-            }
-            refused(&why)
+        self.with(path, |Edited { session, surfaces }, reading| {
+            let before = settled(self.file(path), session, reading)?;
+            let tried = session.tried(&before, change, shown, reading)?;
+            let scene = &tried.compiled().scene;
+            Ok(export::to_memory(self.options.exporter, scene, Some(surfaces))?.bytes)
         })
-    }
-
-    /// The drawing as its file is now, once it has stayed the same for a while and can be read.
-    fn settled(&self, path: &Path, edited: &mut Edited) -> Result<Arc<Analysis>, NotChanged> {
-        let begun = Instant::now();
-        loop {
-            let is_over = begun.elapsed() > PATIENCE;
-            let old = stamp(path);
-            let text = match text_of(path) {
-                // Programs replace files: for a moment there may be none.
-                Err(NotChanged::Unread(ReadError::Missing { .. })) if !is_over => {
-                    sleep(SETTLED);
-                    continue;
-                }
-                text => text?,
-            };
-            let is_own = edited
-                .made
-                .back()
-                .is_some_and(|[_, after]| **after == *text);
-            let is_known = edited
-                .last
-                .as_ref()
-                .is_some_and(|last| **last.source() == *text);
-            let age = old.and_then(|(_, time)| time.elapsed().ok());
-            let is_quiet = is_own || is_known || age.is_none_or(|age| age > SETTLED);
-            if is_quiet || is_over {
-                let analysis = self.compiled(path, edited, &text);
-                if analysis.is_sound() {
-                    edited.last = Some(analysis.clone());
-                    return Ok(analysis);
-                }
-                if is_over {
-                    return Err(refused(
-                        "the drawing cannot be read as it is, or is being written: correct its errors first",
-                    ));
-                }
-            }
-            sleep(SETTLED);
-        }
-    }
-
-    fn compiled(&self, path: &Path, edited: &mut Edited, text: &str) -> Arc<Analysis> {
-        if let Some(last) = &edited.last
-            && **last.source() == *text
-        {
-            return last.clone();
-        }
-        let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
-        let base = self.options.base.clone().unwrap_or(folder);
-        let resolver = FolderResolver::new(base).allowing(self.options.root.as_deref());
-        let options = compile::Options {
-            tolerance: self.options.tolerance,
-        };
-        let compiled = edited.compiler.compile(text, &options, &resolver);
-        Arc::new(Analysis::new(text, compiled))
     }
 }
 
-impl Edited {
-    /// Keeps the texts before and after a change.
-    fn know(&mut self, texts: [Arc<str>; 2]) {
-        self.made.push_back(texts);
-        let bytes = |made: &VecDeque<[Arc<str>; 2]>| -> usize {
-            made.iter().map(|[_, after]| after.len()).sum()
+/// The drawing as its file is now, once it has stayed the same for a while and can be read.
+fn settled(
+    path: &Path,
+    session: &mut Session,
+    reading: Reading<'_>,
+) -> Result<Arc<Analysis>, NotChanged> {
+    let begun = Instant::now();
+    loop {
+        let is_over = begun.elapsed() > PATIENCE;
+        let old = stamp(path);
+        let text = match text_of(path) {
+            // Programs replace files: for a moment there may be none.
+            Err(NotChanged::Unread(ReadError::Missing { .. })) if !is_over => {
+                sleep(SETTLED);
+                continue;
+            }
+            text => text?,
         };
-        while self.made.len() > MAX_KNOWN
-            || self.made.len() > 1 && bytes(&self.made) > MAX_KNOWN_BYTES
-        {
-            self.made.pop_front();
-        }
-    }
-
-    /// The text that changes made here have led to from this one.
-    fn since(&self, shown: &str) -> Arc<str> {
-        let mut text: Arc<str> = shown.into();
-        for [before, after] in &self.made {
-            if *before == text {
-                text = after.clone();
+        let age = old.and_then(|(_, time)| time.elapsed().ok());
+        let is_quiet = session.knows(&text) || age.is_none_or(|age| age > SETTLED);
+        if is_quiet || is_over {
+            match session.current(&text, reading) {
+                Ok(analysis) => return Ok(analysis),
+                Err(refusal) if is_over => return Err(refusal.into()),
+                Err(_) => {}
             }
         }
-        text
+        sleep(SETTLED);
     }
 }
 

@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant, SystemTime};
 
-use crate::compile::{Compiled, TOLERANCE};
-use crate::disk::{ChangeDetection, FolderWatch, WatchError};
+use crate::compile::{self, Compiled, TOLERANCE};
+use crate::disk::{ChangeDetection, FolderResolver, FolderWatch, WatchError};
 use crate::export::{Exporter, GLB, Model};
-pub(crate) use editing::{Action, Done, Editor, NotChanged, Steps};
+pub(crate) use editing::Editor;
 use watcher::Watcher;
 
 /// How drawings are read.
@@ -49,6 +49,19 @@ impl Default for Options {
             shows_incomplete: false,
             exporter: &GLB,
         }
+    }
+}
+
+impl Options {
+    /// How the drawing at a path is compiled, and what resolves its links.
+    pub(crate) fn reading(&self, path: &Path) -> (compile::Options, FolderResolver) {
+        let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        let base = self.base.clone().unwrap_or(folder);
+        let resolver = FolderResolver::new(base).allowing(self.root.as_deref());
+        let options = compile::Options {
+            tolerance: self.tolerance,
+        };
+        (options, resolver)
     }
 }
 

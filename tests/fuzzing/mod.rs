@@ -8,6 +8,7 @@
 mod patience;
 
 mod changes;
+mod character;
 mod drawing;
 mod files;
 mod messages;
@@ -33,7 +34,7 @@ pub(crate) struct Target {
 }
 
 /// All targets.
-pub(crate) const TARGETS: [Target; 13] = [
+pub(crate) const TARGETS: [Target; 14] = [
     Target {
         name: "string",
         check: string::check,
@@ -68,6 +69,11 @@ pub(crate) const TARGETS: [Target; 13] = [
         name: "picture",
         check: picture::check,
         seeds: picture::seeds,
+    },
+    Target {
+        name: "character",
+        check: character::check,
+        seeds: character::seeds,
     },
     Target {
         name: "messages",

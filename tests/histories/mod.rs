@@ -132,6 +132,8 @@ const SUBJECTS: &[Subject] = &[
                 "Motion \"motion.bvh\" lying +z",
                 "Motion \"motion.bvh\" Limited 1 4",
                 "Motion \"motion.bvh\" Limited 2 6",
+                "Motion \"motion.bvh\" Limited 2 6 Held 2 3",
+                "Motion \"motion.bvh\" Held 1 2 2 0",
                 "Motion punch Perform \"marks.csv\"",
                 "Motion punch Perform -e \"marks.csv\"",
                 "Motion punch Perform -ec \"marks.csv\"",
@@ -375,7 +377,7 @@ impl Seen {
         let defaults = bindings.defaults.iter().map(|(_, setting)| setting);
         let mut keywords = self.keywords.borrow_mut();
         for setting in own.chain(defaults) {
-            let inner = [&setting.limited, &setting.performance];
+            let inner = [&setting.limited, &setting.held, &setting.performance];
             let inner = inner.into_iter().flatten().map(|inner| &**inner);
             let found = inner
                 .chain([setting])

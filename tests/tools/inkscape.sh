@@ -2,8 +2,9 @@
 # Drives the extension from the real Inkscape: OKOSHI=/path/to/okoshi SCRATCH=folder bash tests/tools/inkscape.sh
 #
 # Tests installation; models from the command line, which must be byte for byte those of `okoshi build`; errors in a drawing; and in
-# a window on a virtual screen (Xvfb, openbox, xdotool) the menu entries, clicks on findings, which select objects, saving while the
-# preview or `okoshi watch` runs, and Save As. Screenshots go to SCRATCH/shots; OKOSHI_REWRITE=pictures also replaces that of the manual.
+# a window on a virtual screen (Xvfb, openbox, xdotool) the menu entries, clicks on findings, which select objects, names that are
+# suggested, changes of the page that are taken in, saving while the preview or `okoshi watch` runs, and Save As. Screenshots go to
+# SCRATCH/shots; OKOSHI_REWRITE=pictures also replaces those of the manual.
 # Without OKOSHI the program is taken from target/. Exits with status 77 and a reason if something is not installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -125,6 +126,10 @@ await test -s "$SCRATCH/display"
 DISPLAY=:$(cat "$SCRATCH/display")
 export DISPLAY
 log=$SCRATCH/inkscape.log
+# The form of a part lies beside the drawing from the start: Inkscape, which waits for it, does not draw what a window uncovers that is moved.
+mkdir "$XDG_CONFIG_HOME/openbox"
+beside='<application title="* in form.svg: Okoshi"><position force="yes"><x>715</x><y>190</y></position></application>'
+sed "s|</applications>|$beside</applications>|" /etc/xdg/openbox/rc.xml > "$XDG_CONFIG_HOME/openbox/rc.xml"
 openbox > "$SCRATCH/openbox.log" 2>&1 &
 started+=($!)
 shot() { import -window root "$SCRATCH/shots/$1.png"; }
@@ -163,7 +168,7 @@ entry() { # DRAWING ID TEXT: calls an entry of the menu, and waits for its messa
   await gone "$inkscape"
 }
 inkscape --action-list 2> /dev/null > "$SCRATCH/actions"
-for id in check explain preview stop; do has "$SCRATCH/actions" "org.okoshi.$id.noprefs:"; done
+for id in check explain part preview stop suggest take-in; do has "$SCRATCH/actions" "org.okoshi.$id.noprefs:"; done
 
 echo "-- entries of the menu"
 cp "$here/human.svg" "$here/fault.svg" "$SCRATCH/"
@@ -230,9 +235,12 @@ xdotool windowactivate --sync "$findings" key Down Return
 await selected text154
 settle
 shot check-selected
-case ",${OKOSHI_REWRITE:-}," in
-  *,pictures,*) convert "$SCRATCH/shots/check-selected.png" +dither -colors 128 "$project/docs/editors/inkscape.png" ;;
-esac
+manual() { # SHOT NAME: puts a screenshot into the manual, if pictures are to be rewritten
+  case ",${OKOSHI_REWRITE:-}," in
+    *,pictures,*) convert "$SCRATCH/shots/$1.png" +dither -colors 128 "$project/docs/editors/$2.png" ;;
+  esac
+}
+manual check-selected inkscape
 # Another check shows its result in the same window.
 action delete-selection
 action org.okoshi.check.noprefs
@@ -248,6 +256,114 @@ entry "$here/human.svg" explain '- `Shape`: how the flat outline becomes a solid
 cmp "$here/human.svg" "$SCRATCH/human.svg"
 cmp "$here/fault.svg" "$SCRATCH/fault.svg"
 
+echo "-- names that are suggested"
+entry "$here/looks.svg" suggest "every part has a name already"
+cp "$project/tests/binding/art/fl_cow.svg" "$here/cow.svg"
+DBUS_SESSION_BUS_ADDRESS=$bus begin "$here/cow.svg"
+await window "cow.svg - Inkscape"
+xdotool windowactivate --sync "$(window "cow.svg - Inkscape" | tail -n 1)"
+settle
+action select-by-id s5
+saved_copy() { # NAME: what Inkscape would save
+  action export-filename "$SCRATCH/$1.svg"
+  action export-do
+  await test -s "$SCRATCH/$1.svg"
+}
+labels() { saved_copy "$1"; grep -c 'inkscape:label=' "$SCRATCH/$1.svg" || true; } # NAME
+undo() { xdotool windowactivate --sync "$(window "$1 - Inkscape" | tail -n 1)" key ctrl+z; } # NAME
+[ "$(labels cow-before)" = 0 ] || fail "the cow has labels"
+action org.okoshi.suggest.noprefs
+await window "^cow.svg: Okoshi"
+# Beside the drawing.
+xdotool windowmove --sync "$(window "^cow.svg: Okoshi")" 740 420
+settle
+shot suggest
+manual suggest inkscape-names
+[ "$(report cow.svg headline)" = "5 names in cow.svg" ] || fail "the headline is $(report cow.svg headline)"
+selected s5
+[ "$(labels cow-named)" = 5 ] || fail "the cow has not got its labels"
+"$program" annotate -q "$here/cow.svg" -o "$SCRATCH/cow-expected.svg"
+for drawing in cow-named cow-expected; do "$program" inspect -q "$SCRATCH/$drawing.svg" | sed 1d > "$SCRATCH/$drawing.txt"; done
+cmp "$SCRATCH/cow-named.txt" "$SCRATCH/cow-expected.txt"
+close cow.svg
+undo cow.svg
+undone() { [ "$(labels "$1")" = 0 ]; }
+await undone cow-undone
+diff <(sed '/<path/,$!d' "$SCRATCH/cow-before.svg") <(sed '/<path/,$!d' "$SCRATCH/cow-undone.svg") || fail "one step does not undo it"
+kill "$inkscape"
+await gone "$inkscape"
+cmp "$here/cow.svg" "$project/tests/binding/art/fl_cow.svg"
+
+echo "-- the form of a part"
+cp "$project/examples/human.svg" "$here/form.svg"
+DBUS_SESSION_BUS_ADDRESS=$bus begin "$here/form.svg"
+await window "form.svg - Inkscape"
+xdotool windowactivate --sync "$(window "form.svg - Inkscape" | tail -n 1)"
+settle
+xdotool key 5
+part() { # TITLE OBJECT…: opens the form of selected objects; Inkscape answers when it is closed
+  local title=$1 object
+  shift
+  action select-clear
+  for object in "$@"; do action select-by-id "$object"; done
+  action org.okoshi.part.noprefs &
+  await window "^$title in form.svg: Okoshi"
+  xdotool windowactivate --sync "$(window "^$title in form.svg: Okoshi")"
+  settle
+}
+# Inkscape listens while it waits for the form, but takes no other extension then.
+ready() { await is_ready && settle; }
+is_ready() { ! pgrep -f "$place/okoshi_part" && action select-list; }
+says() { saved_copy "$1" && grep -qF -- "$2" "$SCRATCH/$1.svg"; } # NAME TEXT
+part Rarm text154
+shot part
+manual part inkscape-part
+# The name has the focus; Return applies.
+xdotool type --delay 30 -- Rhand
+settle
+xdotool key Return
+ready
+await says formed '>Rhand@Ubody$Shape roundv -90 90<'
+selected text154
+undo form.svg
+# One step takes it back.
+await says unformed '>Rarm@Ubody$Shape roundv -90 90<'
+# A shape whose colour is that of a legend: that is asked.
+part U-1 path106
+xdotool key --delay 100 Tab Tab Tab ctrl+a
+xdotool type --delay 30 -- '#ff0000'
+xdotool key Return
+settle
+shot part-refused
+xdotool key Return
+ready
+await says legend '>$Shape roundv -90 90 Color #ff0000<'
+# Two parts get the same colour, which a legend of both says.
+part "Rarm, Larm" path114 path116
+xdotool key --delay 100 Tab Tab ctrl+a
+xdotool type --delay 30 -- '#00ff00'
+xdotool key Return
+settle
+shot part-several
+xdotool key Return
+ready
+await says several '>$Shape default -15 15 Color #00ff00<'
+# Nothing is changed by a form that is closed, or without a selection.
+part U-1 path106
+xdotool key Escape
+ready
+action select-clear
+action org.okoshi.part.noprefs &
+await window "^form.svg: Okoshi"
+settle
+shot part-nothing
+xdotool key Escape
+ready
+saved_copy same
+cmp "$SCRATCH/several.svg" "$SCRATCH/same.svg"
+kill "$inkscape"
+await gone "$inkscape"
+
 echo "-- the preview"
 mkdir "$SCRATCH/bin"
 for opener in xdg-open www-browser; do
@@ -260,7 +376,8 @@ preview() {
   await gone "$inkscape"
 }
 opened() { [ "$(grep -c . "$SCRATCH/opened")" = "$1" ]; } # NUMBER
-states() { find "$XDG_CACHE_HOME/okoshi/inkscape" -name server.json; }
+# Of the server that is running.
+states() { find "$XDG_CACHE_HOME/okoshi/inkscape" -name server.json -exec grep -L '"ended"' {} +; }
 field() { $python -c 'import json, sys; print(json.load(open(sys.argv[1]))[sys.argv[2]])' "$(states)" "$1"; }
 preview "$here/looks.svg"
 await opened 1
@@ -283,6 +400,61 @@ await shown 8
 entry "$here/looks.svg" stop "1 preview stopped"
 [ ! -e "$copy" ] || fail "the copy was left"
 if serves; then fail "the page is served on"; fi
+
+echo "-- changes that the page makes"
+cp "$project/examples/human.svg" "$here/mine.svg"
+: > "$SCRATCH/opened"
+DBUS_SESSION_BUS_ADDRESS=$bus begin "$here/mine.svg"
+await window "mine.svg - Inkscape"
+xdotool windowactivate --sync "$(window "mine.svg - Inkscape" | tail -n 1)"
+settle
+action org.okoshi.preview.noprefs
+await opened 1
+page=$(head -n 1 "$SCRATCH/opened")
+await serves
+copy=$(field copy)
+# As the page writes it, which the tests of the program show.
+change() { sed "s/$2/$3/" "$1" > "$SCRATCH/new.svg" && ! cmp -s "$1" "$SCRATCH/new.svg" && cat "$SCRATCH/new.svg" > "$1"; } # FILE OLD NEW
+change "$copy" '>Rarm@Ubody' '>Rhand@Ubody'
+# Meanwhile something is moved in Inkscape, and saved.
+action select-by-id path110
+action transform-translate 3,0
+await window "^\*mine.svg"
+xdotool windowactivate --sync "$(window "^\*mine.svg" | tail -n 1)" key ctrl+s
+moved() { ! cmp -s "$here/mine.svg" "$project/examples/human.svg"; }
+await moved
+has "$here/mine.svg" 'Rarm@Ubody'
+# The copy has both then.
+drawn() { grep -oE ' (d|transform|x)="[^"]*"' "$1"; } # FILE
+both() { grep -qF 'Rhand@Ubody' "$copy" && cmp -s <(drawn "$copy") <(drawn "$here/mine.svg"); }
+await both
+action org.okoshi.take-in.noprefs
+await window "^mine.svg: Okoshi"
+settle
+shot take-in
+[ "$(report mine.svg headline)" = "1 change taken into mine.svg" ] || fail "the headline is $(report mine.svg headline)"
+close mine.svg
+selected path110
+saved_copy taken
+has "$SCRATCH/taken.svg" 'Rhand@Ubody'
+undo mine.svg
+taken_back() { saved_copy taken-back && grep -qF 'Rarm@Ubody' "$SCRATCH/taken-back.svg"; }
+await taken_back
+# One step: what was moved before stays so.
+diff <(drawn "$SCRATCH/taken-back.svg") <(drawn "$here/mine.svg") || fail "more was undone"
+# Another program changes the file itself.
+change "$here/mine.svg" '>Larm@Ubody' '>Lhand@Ubody'
+action org.okoshi.take-in.noprefs
+await window "^mine.svg: Okoshi"
+settle
+close mine.svg
+saved_copy taken-again
+has "$SCRATCH/taken-again.svg" 'Lhand@Ubody'
+has "$SCRATCH/taken-again.svg" 'Rarm@Ubody'
+kill "$inkscape"
+await gone "$inkscape"
+entry "$here/mine.svg" take-in "There is nothing to take in"
+entry "$here/mine.svg" stop "1 preview stopped"
 
 echo "-- saves while okoshi watches"
 watched=$SCRATCH/watched

@@ -2,7 +2,7 @@
 # Makes the pictures of docs/motion.md from the drawings in examples/motion/: bash tests/tools/motion_pictures.sh [NAME…]
 #
 # NAME is a drawing there, without extension. The film strips show the limited clip (NAME-limited.png) and the full one
-# (NAME-full.png); drawings with only one of them get NAME.png, and those that play a clip that comes along NAME-WORD.png. Requires okoshi
+# (NAME-full.png), or drawings that are held by hand (NAME-held.png) and each for a frame (NAME-each.png); drawings with only one of them get NAME.png, and those that play a clip that comes along NAME-WORD.png. Requires okoshi
 # and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a folder to use instead of docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -17,7 +17,7 @@ cp examples/motion/* "$room"
 mkdir "$room/full"
 cp "$room"/*.bvh "$room/full"
 for drawing in "$room"/*.svg; do
-  sed -E 's/ ?Limited [0-9]+ [0-9]+//' "$drawing" > "$room/full/$(basename "$drawing")"
+  sed -E 's/ ?Limited [0-9]+ [0-9]+//; s/ ?Held( [0-9]+)+//' "$drawing" > "$room/full/$(basename "$drawing")"
 done
 # smaller PICTURE COLOURS: with so many colours.
 smaller() {
@@ -42,6 +42,12 @@ single() {
   want "$1" || return 0
   strip "$room/$1.svg" "$out/motion/$2.png" "${@:3}"
 }
+# held DRAWING VIEW FROM TO SIZE CELLS: with the drawings that are held by hand, and with each for a frame.
+held() {
+  want "$1" || return 0
+  strip "$room/full/$1.svg" "$out/motion/$1-each.png" "${@:2}"
+  strip "$room/$1.svg" "$out/motion/$1-held.png" "${@:2}"
+}
 # clip DRAWING WORD VIEW SIZE CELLS: the drawing plays a clip that comes along, in place.
 clip() {
   want "$(basename "$1" .svg)" || return 0
@@ -60,11 +66,15 @@ pair dog 8,8 0 1.25 220x160 8
 single beetle beetle 8,12 0 1.25 200x130 8
 single robot-ja robot 40,8 2.0 2.35 200x240 8
 single stick stick -75,8 1.01 1.594 200x240 8
+# Eight frames, in which the foot hits.
+held stick -75,8 1.42 1.71 200x240 8
 single visitor visitor-greeting -55,8 1.75 3.1 150x190 10
+# The last frame is the first one.
+single lamp lamp -20,6 0 1.95 150x190 10
 clip examples/motion/monkey.svg walk 35,8 200x240 8
-clip src/cli/templates/boy.svg walk -75,8 130x170 10
-clip src/cli/templates/boy.svg run -75,8 130x170 10
-clip src/cli/templates/boy.svg dance 0,8 130x170 10
+clip src/starters/boy.svg walk -75,8 130x170 10
+clip src/starters/boy.svg run -75,8 130x170 10
+clip src/starters/boy.svg dance 0,8 130x170 10
 clip examples/motion/dog.svg walk 8,8 160x120 8
 clip examples/motion/dog.svg run 8,8 160x120 8
 clip examples/motion/beetle.svg walk 8,12 160x120 8

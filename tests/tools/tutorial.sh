@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures of docs/tutorial.md and docs/how-to.md: bash tests/tools/tutorial.sh [NAME…]
+# Makes the pictures of docs/tutorial.md and docs/how-to.md, and that of a photograph: bash tests/tools/tutorial.sh [NAME…]
 #
 # Each shows the page of a drawing of examples/tutorial or examples/how-to on the left and its model on the right. NAME is a picture
 # without extension: tutorial/3-names. Requires Inkscape for the pages, okoshi for the models, and Python's Pillow. OKOSHI is a binary to
@@ -50,3 +50,13 @@ how-to/cat how-to/cat move 2 0.5 25,12
 how-to/duck how-to/duck 28,16
 how-to/birdhouse how-to/birdhouse 30,12 90,5
 END
+
+# The photograph, and the figure that it becomes.
+if [ $# = 0 ] || [[ " $* " == *" photograph "* ]]; then
+  "$okoshi" trace --quiet examples/photographs/boy.jpg -o "$room/boy.svg"
+  "$okoshi" annotate --quiet "$room/boy.svg"
+  sed -i 's|</svg>|<text x="10" y="20" font-size="14">%Motion walk</text></svg>|' "$room/boy.svg"
+  "$okoshi" render --quiet "$room/boy.svg" -o "$room/boy.png" --size 520x720 --view 30,12 --background "#ffffff" --clip walk --strip 3
+  python3 tests/tools/page_and_model.py examples/photographs/boy.jpg "$room/boy.png" "$out/photograph.png"
+  echo photograph
+fi

@@ -1,38 +1,31 @@
-"""The entries of Inkscape's menu *Extensions → Okoshi*. None of them changes the drawing."""
+"""Entries of Inkscape's menu *Extensions → Okoshi*. These do not change the drawing; `okoshi_changing` and
+`okoshi_parts` have those that do."""
 
 import re
 
+from okoshi_cache import Failed
+from okoshi_canvas import remember
 from okoshi_drawing import Drawing
+from okoshi_entry import Entry
 from okoshi_findings import format_findings, plural, read_findings
-from okoshi_previews import Failed, show, stop_all
-from okoshi_program import Missing, find, run
+from okoshi_previews import show, stop_all, waiting
+from okoshi_program import find, run
 from okoshi_messages import show_message
 from okoshi_report import make_report, show_report
 
-import inkex
 
-
-class Entry(inkex.EffectExtension):
-    """An entry of the menu, implemented by `do`. Shows errors as messages."""
+class Unchanging(Entry):
+    """An entry that leaves the document alone."""
 
     def load_raw(self):
         """Reads nothing: okoshi reads the drawing, and some entries are called without one."""
-
-    def effect(self):
-        try:
-            self.do()
-        except (Missing, Failed) as error:
-            show_message(str(error))
 
     def has_changed(self, ret):
         """Returns no document to Inkscape, so that there is nothing to undo."""
         return False
 
-    def do(self):
-        raise NotImplementedError
 
-
-class Check(Entry):
+class Check(Unchanging):
     """Shows all diagnostics, and the number of parts and strings if there are no errors."""
 
     def do(self):
@@ -57,25 +50,29 @@ class Check(Entry):
             show_message("\n\n".join([format_findings(found), verdict]) if found else verdict, text + verdict)
 
 
-class Preview(Entry):
+class Preview(Unchanging):
     """Shows the model in the browser; each drawing has a server."""
 
     def do(self):
         drawing = Drawing(self.options.input_file)
         address = show(find(), drawing)
+        remember(drawing)
         if address is not None:
             show_message("The preview is at %s, but no browser was found to open it." % address)
 
 
-class Stop(Entry):
+class Stop(Unchanging):
     """Stops the servers."""
 
     def do(self):
         number = stop_all()
-        show_message("%s stopped" % plural(str(number), "preview") if number else "no preview is running")
+        said = "%s stopped" % plural(str(number), "preview") if number else "no preview is running"
+        for name in waiting():
+            said += "\n\nWhat the page has changed in %s is not in Inkscape yet: open it there and call Take In Changes." % name
+        show_message(said)
 
 
-class Explain(Entry):
+class Explain(Unchanging):
     """Shows the manual."""
 
     def add_arguments(self, pars):

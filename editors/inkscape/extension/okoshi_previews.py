@@ -1,82 +1,29 @@
 """The servers of *Preview in 3D*: one for each drawing, each with a folder in the user's cache.
 
-The folder contains a copy of the canvas, which the server watches beside the drawing itself, `server.json` with process, port and
-copy, and `lock`, which the process that runs the server (`okoshi_follow`) holds. The lock, not a process id, shows whether a server is
-running: the system releases it however the process ends, while process ids are reused.
+The folder contains a copy of the canvas (`okoshi_canvas`), which the server watches beside the drawing itself, `server.json` with process,
+port and copy, and `lock`, which the process that runs the server (`okoshi_follow`) holds.
 """
 
-import hashlib
 import json
 import os
 import re
-import shutil
 import socket
 import subprocess
 import sys
 import time
 import webbrowser
 
+from okoshi_cache import TIMEOUT, Failed, cache, folder_of, is_locked, remove
+from okoshi_canvas import changed, renew
+
 STATE, LOCK, LOG, STOP = "server.json", "lock", "log.txt", "stop"
-# How long a server may take to start or stop, in seconds.
-TIMEOUT = 20
 # Constants that subprocess has on Windows only: DETACHED_PROCESS, CREATE_NEW_PROCESS_GROUP.
 DETACHED = 0x00000008 | 0x00000200
-
-
-class Failed(Exception):
-    """An error with a message for the user."""
-
-
-def cache():
-    """The folder of all previews."""
-    home = os.path.expanduser("~")
-    if sys.platform == "win32":
-        base = os.environ.get("LOCALAPPDATA") or os.path.join(home, "AppData", "Local")
-    elif sys.platform == "darwin":
-        base = os.path.join(home, "Library", "Caches")
-    else:
-        base = os.environ.get("XDG_CACHE_HOME") or os.path.join(home, ".cache")
-    return os.path.join(base, "okoshi", "inkscape")
-
-
-def folder_of(drawing):
-    """The folder of a drawing's preview, by its path; drawings that were never saved share one."""
-    place = os.path.realpath(drawing.original) if drawing.original else "never saved"
-    return os.path.join(cache(), hashlib.sha256(place.encode("utf-8", "surrogatepass")).hexdigest()[:16])
-
-
-def lock(folder, name=LOCK):
-    """Takes a lock of the folder. Returns the open file, which holds the lock, or None if another process has it."""
-    file = open(os.path.join(folder, name), "a+b")
-    try:
-        if sys.platform == "win32":
-            import msvcrt
-
-            file.seek(0)
-            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-        else:
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        file.close()
-        return None
-    return file
 
 
 def is_running(folder):
     """Whether a server is running for this folder."""
     return is_locked(folder, LOCK)
-
-
-def is_locked(folder, name):
-    """Whether a process holds a lock of the folder."""
-    if not os.path.isdir(folder):
-        return False
-    taken = lock(folder, name)
-    if taken is not None:
-        taken.close()
-    return taken is None
 
 
 def read_state(folder):
@@ -88,14 +35,6 @@ def read_state(folder):
         return None
 
 
-def write_atomic(path, data):
-    """Replaces a file atomically."""
-    temporary = path + ".new"
-    with open(temporary, "wb") as file:
-        file.write(data)
-    os.replace(temporary, path)
-
-
 def show(program, drawing):
     """Opens the preview of the drawing on the canvas; starts a server if there is none.
 
@@ -105,30 +44,32 @@ def show(program, drawing):
     os.makedirs(folder, mode=0o700, exist_ok=True)
     if is_running(folder):
         page = wait(folder)
-        write_atomic(read_state(folder)["copy"], drawing.data)
+        renew(folder, read_state(folder)["copy"], drawing.data)
     else:
         start(program, drawing, folder)
         page = wait(folder)
     return open_page(page)
 
 
+def copy_of(folder, drawing):
+    """The path of the copy of a drawing's canvas, whether there is one or not."""
+    return os.path.join(folder, drawing.name)
+
+
 def start(program, drawing, folder):
     """Starts the process that runs a server, detached from Inkscape."""
     for old in (STATE, STOP, LOG):
         remove(os.path.join(folder, old))
-    copy = os.path.join(folder, drawing.name)
-    write_atomic(copy, drawing.data)
+    copy = copy_of(folder, drawing)
+    renew(folder, copy, drawing.data)
     root = drawing.root
     if root is None:
         root = os.path.join(folder, "links")
         os.makedirs(root, exist_ok=True)
     follower = os.path.join(os.path.dirname(os.path.abspath(__file__)), "okoshi_follow.py")
     log = os.path.join(folder, LOG)
-    original = drawing.original or ""
-    if not original.lower().endswith(".svg"):
-        original = ""
     with open(log, "wb") as output:
-        detach([sys.executable, follower, program, copy, original, root, folder, str(free_port())], output)
+        detach([sys.executable, follower, program, copy, drawing.original or "", root, folder, str(free_port())], output)
 
 
 def wait(folder):
@@ -203,14 +144,24 @@ def free_port():
         return listener.getsockname()[1]
 
 
+def folders():
+    """The folders of all drawings."""
+    try:
+        return [os.path.join(cache(), name) for name in sorted(os.listdir(cache()))]
+    except OSError:
+        return []
+
+
+def waiting():
+    """The names of the drawings whose page has changes that were not taken in."""
+    states = [(folder, read_state(folder)) for folder in folders()]
+    return [os.path.basename(state["copy"]) for folder, state in states if state is not None and changed(folder, state["copy"])]
+
+
 def stop_all():
     """Stops all servers. Returns their number."""
-    try:
-        names = sorted(os.listdir(cache()))
-    except OSError:
-        return 0
     number = 0
-    for folder in (os.path.join(cache(), name) for name in names):
+    for folder in folders():
         if not is_running(folder):
             continue
         number += 1
@@ -222,14 +173,3 @@ def stop_all():
                 raise Failed("A preview could not be stopped: process %s." % (read_state(folder) or {}).get("pid"))
             time.sleep(0.05)
     return number
-
-
-def remove(path):
-    """Removes a file or folder, if it exists."""
-    try:
-        if os.path.isdir(path):
-            shutil.rmtree(path)
-        else:
-            os.remove(path)
-    except OSError:
-        pass

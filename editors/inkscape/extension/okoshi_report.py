@@ -1,4 +1,4 @@
-"""What *Check Strings* shows: a window of its own (`okoshi_window`), or a message where there can be none."""
+"""What *Check Strings* and *Suggest Strings* show: a window of its own (`okoshi_window`), or a message where there can be none."""
 
 import json
 import os
@@ -6,17 +6,19 @@ import subprocess
 import sys
 import threading
 
+from okoshi_cache import folder_of, is_locked, write_atomic
 from okoshi_findings import count
-from okoshi_previews import DETACHED, folder_of, is_locked, write_atomic
+from okoshi_previews import DETACHED
 
 REPORT, WINDOW_LOCK = "report.json", "window.lock"
 # How long the window may take to open, in seconds.
 TIMEOUT = 20
 
 
-def make_report(drawing, found, detail="", note=""):
-    """A report for the window: the findings, a headline, a line below it, and advice."""
-    headline = "%s in %s" % (count(found) or "No problems", drawing.name)
+def make_report(drawing, found, detail="", note="", headline=None):
+    """A report for the window: the findings, a headline, which else is their number, a line below it, and advice."""
+    if headline is None:
+        headline = "%s in %s" % (count(found) or "No problems", drawing.name)
     return {"name": drawing.name, "headline": headline, "detail": detail, "note": note.strip(), "findings": found}
 
 

@@ -1,6 +1,6 @@
-"""The window with the findings of a drawing. Argument: the drawing's folder in the cache.
+"""The window with the findings of a drawing, or the names that were suggested. Argument: the drawing's folder in the cache.
 
-It shows the report in that folder's `report.json`, and the new one when *Check Strings* replaces it, so that each drawing has one
+It shows the report in that folder's `report.json`, and the new one when an entry of the menu replaces it, so that each drawing has one
 window. A click on a finding selects its object in Inkscape. The process writes a line to stdout once the window is open, and
 ends with status 1 at once if there is no GTK 3 or no screen.
 """
@@ -9,8 +9,8 @@ import json
 import os
 import sys
 
+from okoshi_cache import lock
 from okoshi_findings import MAX_FINDINGS
-from okoshi_previews import lock
 from okoshi_report import REPORT, WINDOW_LOCK
 from okoshi_select import select
 
@@ -19,27 +19,13 @@ try:
 
     for library in ("Gdk", "Gtk"):
         gi.require_version(library, "3.0")
-    from gi.repository import Gdk, Gio, GLib, Gtk, Pango
+    from gi.repository import Gdk, Gio, GLib, Gtk
+
+    from okoshi_widgets import bold, label
 except (ImportError, ValueError):
     sys.exit(1)
 
-ICONS = {"error": "dialog-error", "warning": "dialog-warning", "hint": "dialog-information"}
-
-
-def label(text, style=None, attributes=None):
-    """A label whose long lines are wrapped, with a class of GTK's style."""
-    made = Gtk.Label(label=text, xalign=0, wrap=True, wrap_mode=Pango.WrapMode.WORD_CHAR, attributes=attributes)
-    if style:
-        made.get_style_context().add_class(style)
-    return made
-
-
-def bold(scale=1.0):
-    """Attributes of bold text, larger by a factor."""
-    attributes = Pango.AttrList()
-    for attribute in (Pango.attr_weight_new(Pango.Weight.BOLD), Pango.attr_scale_new(scale)):
-        attributes.insert(attribute)
-    return attributes
+ICONS = {"error": "dialog-error", "warning": "dialog-warning", "hint": "dialog-information", "uncertain": "dialog-question"}
 
 
 class Window(Gtk.Window):
@@ -80,7 +66,7 @@ class Window(Gtk.Window):
         more = ["the first %d are shown" % MAX_FINDINGS] if len(found) > MAX_FINDINGS else []
         self.detail.set_text("; ".join([report["detail"]] * bool(report["detail"]) + more))
         self.note.set_text(report["note"])
-        self.status.set_text("Click a finding to select its object." if found else "")
+        self.status.set_text("Click a row to select its object." if found else "")
         for row in self.list.get_children():
             row.destroy()
         for one in found[:MAX_FINDINGS]:
@@ -119,9 +105,9 @@ def row_of(one):
     for text in (one["label"], one["help"]):
         if text:
             texts.add(label(text))
-    texts.add(label(" · ".join(filter(None, ["%s %s" % (one["severity"], one["code"]), one["object"]])), "dim-label"))
+    texts.add(label(" · ".join(filter(None, [("%s %s" % (one["severity"], one["code"])).strip(), one["object"]])), "dim-label"))
     content = Gtk.Box(spacing=8, margin=8)
-    icon = Gtk.Image.new_from_icon_name(ICONS[one["severity"]], Gtk.IconSize.LARGE_TOOLBAR)
+    icon = Gtk.Image.new_from_icon_name(ICONS.get(one["severity"] or one["code"], ICONS["hint"]), Gtk.IconSize.LARGE_TOOLBAR)
     icon.set_valign(Gtk.Align.START)
     content.add(icon)
     content.add(texts)

@@ -5,7 +5,6 @@ What talks to Inkscape itself takes inkex on PYTHONPATH, and is skipped without;
 
 import json
 import os
-import stat
 import subprocess
 import sys
 import tempfile
@@ -15,10 +14,9 @@ import urllib.request
 import xml.etree.ElementTree as ElementTree
 from unittest import mock
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-EXTENSION = os.path.join(os.path.dirname(HERE), "extension")
-sys.path.insert(0, EXTENSION)
+from common import EXTENSION, HERE, PATIENCE, SVG, Folder
 
+import okoshi_cache
 import okoshi_drawing
 import okoshi_findings
 import okoshi_follow
@@ -30,31 +28,6 @@ try:
     import inkex
 except ImportError:
     inkex = None
-
-# The limit of every wait, in seconds: it only ends a test that hangs.
-PATIENCE = 60
-SVG = (
-    '<?xml version="1.0" encoding="UTF-8"?>\n'
-    '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink">%s</svg>\n'
-)
-
-
-class Folder(unittest.TestCase):
-    """A test with a folder of its own, whose name has a blank and a letter beyond ASCII."""
-
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="zwei Öhrchen ")
-        self.addCleanup(holder.cleanup)
-        self.folder = os.path.realpath(holder.name)
-
-    def write(self, name, text="", executable=False):
-        path = os.path.join(self.folder, name)
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        if executable:
-            os.chmod(path, os.stat(path).st_mode | stat.S_IXUSR)
-        return path
 
 
 @unittest.skipIf(sys.platform == "win32", "programs are told by their endings there")
@@ -251,7 +224,7 @@ class Reports(Folder):
     def test_an_open_window_gets_the_new_report(self):
         cache = os.path.join(self.folder, "cache")
         os.mkdir(cache)
-        held = okoshi_previews.lock(cache, okoshi_report.WINDOW_LOCK)
+        held = okoshi_cache.lock(cache, okoshi_report.WINDOW_LOCK)
         self.addCleanup(held.close)
         with mock.patch.dict(os.environ, {"DISPLAY": ":9999"}):
             self.assertTrue(okoshi_report.show_report(self.drawing, self.report("hint")))
@@ -270,7 +243,8 @@ class Previews(Folder):
         browser = self.write("browser", '#!/bin/sh\necho "$1" >> "$OPENED"\n', executable=True)
         self.opened = os.path.join(self.folder, "opened")
         patch = {
-            "XDG_CACHE_HOME": os.path.join(self.folder, "cache"),
+            # Wherever the system has its cache.
+            **dict.fromkeys(("XDG_CACHE_HOME", "LOCALAPPDATA", "HOME"), os.path.join(self.folder, "cache")),
             "FAKE_LOG": self.calls,
             "OPENED": self.opened,
         }
@@ -282,9 +256,6 @@ class Previews(Folder):
         environ = mock.patch.dict(os.environ, patch)
         environ.start()
         self.addCleanup(environ.stop)
-        where = mock.patch.object(okoshi_previews, "cache", lambda: os.path.join(self.folder, "cache"))
-        where.start()
-        self.addCleanup(where.stop)
         self.addCleanup(okoshi_previews.stop_all)
 
     def drawing(self, text, name="Mensch.svg"):
@@ -345,7 +316,7 @@ class Previews(Folder):
     def test_a_server_that_has_died_is_started_anew(self):
         drawing = self.drawing("first")
         self.show("first")
-        folder = okoshi_previews.folder_of(drawing)
+        folder = okoshi_cache.folder_of(drawing)
         os.kill(okoshi_previews.read_state(folder)["pid"], 15)
         end = time.monotonic() + PATIENCE
         while okoshi_previews.is_running(folder) and time.monotonic() < end:
@@ -355,16 +326,30 @@ class Previews(Folder):
         self.assertIn("second", self.served(pages[1], "second"))
         self.assertEqual(len(self.lines(self.calls, 2)), 2)
 
+    @unittest.skipIf(inkex is None, "lxml comes with inkex")
+    def test_what_the_page_has_changed_outlives_the_server_and_the_canvas(self):
+        self.show('<path id="p"/>')
+        page = self.lines(self.opened, 1)[0]
+        copy = okoshi_previews.read_state(okoshi_cache.folder_of(self.drawing("")))["copy"]
+        self.write(copy, SVG % '<path id="p" data-name="Arm"/>')
+        self.write("Mensch.svg", SVG % '<path id="p"/><rect id="saved"/>')
+        self.assertIn('<path id="p" data-name="Arm"/><rect id="saved"/>', self.served(page, '"Arm"/><rect'))
+        self.assertEqual(okoshi_previews.waiting(), ["Mensch.svg"])
+        self.assertEqual(okoshi_previews.stop_all(), 1)
+        self.show('<path id="p"/><rect id="canvas"/>')
+        page = self.lines(self.opened, 2)[1]
+        self.assertIn('<path id="p" data-name="Arm"/><rect id="canvas"/>', self.served(page, '"Arm"/><rect id="canvas"'))
+
     def test_what_a_server_says_that_does_not_start_is_shown(self):
         with mock.patch.dict(os.environ, {"FAKE_FAILS": "1"}):
-            with self.assertRaises(okoshi_previews.Failed) as caught:
+            with self.assertRaises(okoshi_cache.Failed) as caught:
                 okoshi_previews.show(self.program, self.drawing("x"))
         self.assertIn("the fake fails, as it was told", str(caught.exception))
 
     def test_an_old_okoshi_is_told(self):
         for number, said in enumerate(("unrecognized subcommand 'preview'", "unexpected argument '--unsaved' found")):
             old = self.write("old%d" % number, '#!/bin/sh\necho "error: %s" >&2; exit 2\n' % said, executable=True)
-            with self.assertRaises(okoshi_previews.Failed) as caught:
+            with self.assertRaises(okoshi_cache.Failed) as caught:
                 okoshi_previews.show(old, self.drawing("x"))
             self.assertIn("too old", str(caught.exception))
 
@@ -384,8 +369,11 @@ class Follow(Folder):
     def test_the_drawing_is_followed_and_its_copy_too(self):
         command = okoshi_follow.preview_command("okoshi", "/cache/a.svg", "/here/a.svg", "/here", "80")
         self.assertEqual(command[3:], ["preview", "/here/a.svg", "--unsaved", "/cache/a.svg", "--port", "80"])
+        command = okoshi_follow.preview_command("okoshi", "/cache/a.svg", "/here/a.svgz", "/here", "80")
+        self.assertEqual(command[3:], ["preview", "/cache/a.svg", "--base", "/here", "--unsaved", "/cache/a.svg", "--port", "80"])
+        # Nobody would know of which drawing the changes are.
         command = okoshi_follow.preview_command("okoshi", "/cache/a.svg", "", "/links", "80")
-        self.assertEqual(command[3:], ["preview", "/cache/a.svg", "--base", "/links", "--port", "80"])
+        self.assertEqual(command[3:], ["preview", "/cache/a.svg", "--base", "/links", "--read-only", "--port", "80"])
 
     def test_a_save_keeps_the_preview_alive(self):
         copy, original = self.write("copy.svg"), self.write("a.svg")
@@ -415,7 +403,7 @@ class Descriptions(unittest.TestCase):
                     self.assertTrue(os.path.isfile(os.path.join(EXTENSION, element.text)), element.text)
         self.assertEqual(
             ids,
-            ["org.okoshi." + one for one in ("check", "explain", "output.glb", "output.gltf", "preview", "stop")],
+            ["org.okoshi." + one for one in ("check", "explain", "output.glb", "output.gltf", "part", "preview", "stop", "suggest", "take-in")],
         )
 
 
@@ -423,11 +411,12 @@ class Descriptions(unittest.TestCase):
 class Scripts(Folder):
     """The scripts as Inkscape starts them, with an okoshi that is a shell script."""
 
-    def call(self, script, okoshi, *arguments):
+    def call(self, script, okoshi, *arguments, drawing=""):
         program = self.write("okoshi", "#!/bin/sh\n" + okoshi, executable=True)
-        copy = self.write("tmp/ink_ext.svg", SVG % "")
+        copy = self.write("tmp/ink_ext.svg", SVG % drawing)
         # Without a screen, so that no window is opened.
         environ = dict(os.environ, OKOSHI=program, DOCUMENT_PATH=os.path.join(self.folder, "Mensch.svg"), DISPLAY="", WAYLAND_DISPLAY="")
+        environ.update(dict.fromkeys(("XDG_CACHE_HOME", "LOCALAPPDATA", "HOME"), os.path.join(self.folder, "cache")))
         process = subprocess.Popen(
             [sys.executable, os.path.join(EXTENSION, script), *arguments, copy],
             env=environ,
@@ -469,6 +458,62 @@ class Scripts(Folder):
         status, out, err = self.call("okoshi_check.py", "echo 'error[E006]: gone'; exit 1\n")
         self.assertEqual((status, out, err), (0, b"", "error[E006]: gone\n\n"))
 
+    def test_names_are_written_as_labels_and_shown(self):
+        # Arguments: --color never annotate --json -o named/named.svg …
+        answer = '{"parts": [{"name": "Arm", "parent": "Body", "certainty": "uncertain", "why": "it is thin", "element": "p"}]}'
+        okoshi = "echo '%s'; sed 's/id=\"p\"/id=\"p\" data-name=\"Arm\"/' Mensch.svg > \"$6\"\n" % answer
+        status, out, err = self.call("okoshi_suggest.py", okoshi, drawing='<!-- kept --><path id="p" d="M 0,0"/>')
+        self.assertEqual(status, 0)
+        self.assertIn(b'<!-- kept --><path id="p" d="M 0,0" data-name="Arm"/>', out)
+        expected = [
+            "1 name in Mensch.svg",
+            "look at 1 uncertain name: only place and shape tell",
+            "Arm@Body\n    uncertain: it is thin\n    of the object: p",
+            "Edit → Undo takes all of them back.\n",
+        ]
+        self.assertEqual(err, "\n\n".join(expected))
+
+    def test_what_the_file_says_is_taken_in(self):
+        self.write("Mensch.svg", SVG % '<path id="p" data-name="Arm"/>')
+        status, out, err = self.call("okoshi_take_in.py", "exit 9\n", drawing='<path id="p"/><rect id="r"/>')
+        self.assertEqual(status, 0)
+        self.assertIn(b'<path id="p" data-name="Arm"/><rect id="r"/>', out)
+        expected = ["1 change taken into Mensch.svg", "The label of p is `Arm`\n    of the object: p", "Edit → Undo takes all of them back.\n"]
+        self.assertEqual(err, "\n\n".join(expected))
+        said = "There is nothing to take in: Mensch.svg is here as the preview's page and the file have it.\n"
+        self.assertEqual(self.call("okoshi_take_in.py", "exit 9\n", drawing='<path id="p" data-name="Arm"/>'), (0, b"", said))
+
+    def test_what_was_not_saved_stays_where_the_file_is_known(self):
+        drawing = '<path id="p" data-name="Arm"/>'
+        self.write("Mensch.svg", SVG % drawing)
+        self.call("okoshi_suggest.py", "echo '{\"parts\": []}'; cp Mensch.svg \"$6\"\n", drawing=drawing)
+        self.assertEqual(self.call("okoshi_take_in.py", "exit 9\n", drawing='<path id="p" data-name="Paw"/>')[1], b"")
+
+    def test_a_drawing_to_which_nothing_is_added_is_not_given_back(self):
+        okoshi = "echo '`Mensch.svg` stays as it is: every part has a name already' >&2; exit 1\n"
+        said = "`Mensch.svg` stays as it is: every part has a name already\n\n"
+        self.assertEqual(self.call("okoshi_suggest.py", okoshi), (0, b"", said))
+        status, out, err = self.call("okoshi_suggest.py", "echo \"error: unrecognized subcommand 'annotate'\" >&2; exit 2\n")
+        self.assertEqual((status, out), (0, b""))
+        self.assertIn("install a newer one", err)
+
+    def test_a_form_takes_a_selection_and_a_screen(self):
+        answer = '{"drawing": "Mensch.svg", "forms": [{"part": "Arm"}, {"part": "Arm"}]}'
+        # Arguments: --color never inspect --form=#p --form=#t …
+        okoshi = "test \"$4 $5\" = '--form=#p --form=#t' && echo '%s'\n" % answer
+        said = "Nothing is selected. Select a shape, or the string of a part, and call Part… again.\n"
+        self.assertEqual(self.call("okoshi_part.py", okoshi), (0, b"", said))
+        status, out, err = self.call("okoshi_part.py", okoshi, "--id=p", "--id=t", drawing='<path id="p"/><text id="t"/>')
+        self.assertEqual((status, out), (0, b""))
+        self.assertIn("needs a screen and GTK 3", err)
+
+    def test_a_selection_without_parts_is_told(self):
+        okoshi = "echo 'error: Mensch.svg: the text `#t` is the string of no part' >&2; echo 'and more' >&2; exit 2\n"
+        said = "Mensch.svg: the text `#t` is the string of no part\n\nSelect a shape, or the string of a part.\n"
+        self.assertEqual(self.call("okoshi_part.py", okoshi, "--id=t", drawing='<text id="t"/>'), (0, b"", said))
+        status, out, err = self.call("okoshi_part.py", "echo \"error: unexpected argument '--form' found\" >&2; exit 2\n", "--id=t", drawing='<text id="t"/>')
+        self.assertIn("install a newer one", err)
+
     def test_the_manual_takes_a_word(self):
         okoshi = 'shift 2; echo "$*"\n'
         self.assertEqual(self.call("okoshi_explain.py", okoshi), (0, b"", "explain\n\n"))
@@ -490,10 +535,10 @@ class Scripts(Folder):
 
     def test_a_missing_program_is_said_in_words(self):
         copy = self.write("tmp/ink_ext.svg", SVG % "")
-        for script in ("okoshi_glb.py", "okoshi_check.py", "okoshi_preview.py", "okoshi_explain.py"):
+        for script in ("okoshi_glb.py", "okoshi_check.py", "okoshi_preview.py", "okoshi_explain.py", "okoshi_suggest.py", "okoshi_part.py"):
             process = subprocess.Popen(
                 [sys.executable, os.path.join(EXTENSION, script), copy],
-                env=dict(os.environ, OKOSHI="/gone/okoshi"),
+                env=dict(os.environ, OKOSHI="/gone/okoshi", DISPLAY="", WAYLAND_DISPLAY=""),
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
             )

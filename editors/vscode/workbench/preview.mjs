@@ -1,9 +1,7 @@
 // Tests the panel that shows the model beside the text. The panel stays open from step to step.
 
 import assert from "node:assert/strict";
-import { copyFileSync, existsSync, readFileSync, rmSync } from "node:fs";
-import { join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { existsSync, readFileSync, rmSync } from "node:fs";
 import { place } from "./steps.mjs";
 
 /** Colours of the figure's parts, by comparing red, green and blue, which lights and shadows do not change. */
@@ -15,7 +13,7 @@ const BLUE = { name: "blue", is: (r, g, b) => b > 60 && b > 1.4 * r && b > 1.15 
 const STORING = 8000;
 
 /** The panel in the second column. */
-class Panel {
+export class Panel {
   constructor(editor, page) {
     this.editor = editor;
     this.page = page;
@@ -78,14 +76,7 @@ function changes(before, after) {
   return count;
 }
 
-export async function previews({ editor, page, step, again, at, saved, figure, read, open, shots, reload, configure, program, WRONG }) {
-  const panel = new Panel(editor, page);
-  const shot = (name) => page.screenshot({ path: join(shots, `${name}.png`) });
-  /** A screenshot that is a picture of the manual, which `OKOSHI_REWRITE=pictures` replaces. */
-  const manual = async (name) => {
-    await shot(name);
-    if (process.env.OKOSHI_REWRITE?.split(",").includes("pictures")) copyFileSync(join(shots, `${name}.png`), fileURLToPath(new URL(`../../../docs/editors/${name}.png`, import.meta.url)));
-  };
+export async function previews({ editor, page, panel, step, again, at, saved, figure, read, open, shot, manual, reload, configure, program, WRONG }) {
   const inText = () => page.evaluate(() => document.activeElement?.closest(".editor-instance .monaco-editor") !== null);
   /** Moves the cursor away from all parts, so that none is highlighted. */
   const rest = async () => {

@@ -31,6 +31,7 @@ for (const folder of [project, join(data, "User"), join(data, "Machine"), shots]
 for (const name of ["figure.svg", "hints.svg"]) copyFileSync(join(here, name), join(project, name));
 execFileSync(okoshi, ["new", "-q", "girl", "--template", "girl"], { cwd: project });
 copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
+copyFileSync(join(repository, "examples", "human.svg"), join(project, "human.svg"));
 
 const SETTINGS = {
   // They would contain local paths.
@@ -64,7 +65,7 @@ const settings = (path, more = {}) => {
 
 write(join(data, "User", "settings.json"), SETTINGS);
 prepare();
-pack(join(room, "okoshi.vsix"));
+pack(join(room, "okoshi.vsix"), okoshi);
 run(join(extension, "node_modules", ".bin", "vsce"), ["package", "--no-dependencies", "--allow-missing-repository", "--skip-license", "-o", join(room, "neighbour.vsix")], { cwd: join(here, "neighbour") });
 const found = await tools(room);
 settings("okoshi-that-is-not-there");
@@ -81,7 +82,15 @@ const wanted = process.env.ONLY?.split(",");
 
 // Clips do not play by themselves then, so that the model comes to rest.
 const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 1, reducedMotion: "reduce" });
+// The whole text of a drawing is read by copying it.
+await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
 const editor = new Editor(page);
+const shot = (name) => page.screenshot({ path: join(shots, `${name}.png`) });
+/** A screenshot that is a picture of the manual, which `OKOSHI_REWRITE=pictures` replaces. */
+const manual = async (name) => {
+  await shot(name);
+  if (process.env.OKOSHI_REWRITE?.split(",").includes("pictures")) copyFileSync(join(shots, `${name}.png`), join(repository, "docs", "editors", `${name}.png`));
+};
 
 try {
   /** The address of a window with a drawing. */
@@ -194,7 +203,7 @@ try {
       await mac.close();
     }
   });
-  await withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots });
+  await withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shot, manual, okoshi, project, room });
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {
   // If the browser itself has exited, there is nothing to take a screenshot of.

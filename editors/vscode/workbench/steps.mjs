@@ -2,9 +2,9 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { join } from "node:path";
+import { edits } from "./editing.mjs";
 import { neighbours } from "./neighbour.mjs";
-import { previews } from "./preview.mjs";
+import { Panel, previews } from "./preview.mjs";
 
 /** Line and column, from 1, of the `at`th character of the first occurrence of a text. */
 export function place(text, wanted, at = 0) {
@@ -16,8 +16,9 @@ export function place(text, wanted, at = 0) {
 
 const WRONG = "Head@Body$Shap round";
 
-export async function withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots }) {
+export async function withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shot, manual, okoshi, project, room }) {
   const figure = read();
+  const panel = new Panel(editor, page);
   const at = (wanted, offset, text = figure) => editor.caret(place(text, wanted, offset));
   /** The saved drawing, once it is as wanted. */
   const saved = (what, good) =>
@@ -101,7 +102,7 @@ export async function withServer({ editor, page, step, ready, configure, program
       page.evaluate(() => [...document.querySelectorAll(".view-line")].some((line) => line.textContent.includes("Color") && line.querySelector(".colorpicker-color-decoration"))),
     );
   });
-  await page.screenshot({ path: join(shots, "at-work.png") });
+  await shot("at-work");
   await step("inlay hints say what is inherited or automatic", async () => {
     await open("hints.svg");
     // Inlay hints at the expected places, and nowhere else.
@@ -129,7 +130,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await at("Origin start", 12);
     await editor.type(" Seg");
     const row = await editor.proposal("Segments");
-    await page.screenshot({ path: join(shots, "completion.png") });
+    await shot("completion");
     await row.waitFor();
     await editor.press("Enter");
     await saved("the keyword to be written", (text) => /Origin start Segments/.test(text));
@@ -182,7 +183,8 @@ export async function withServer({ editor, page, step, ready, configure, program
     await editor.press("Escape");
     await saved("a text for all parts", (text) => text.includes(">%Shape default -20 20 Scale 1.0</text>"));
   });
-  await previews({ editor, page, step, again, at, saved, figure, read, open, shots, reload, configure, program, WRONG });
+  await previews({ editor, page, panel, step, again, at, saved, figure, read, open, shot, manual, reload, configure, program, WRONG });
+  await edits({ editor, page, panel, step, open, read, configure, okoshi, project, room, manual });
   await step("on demand, drawings are checked when they are saved", async () => {
     await again();
     configure({ "okoshi.analyse": "onSave", "editor.renderFinalNewline": "off" });

@@ -1,7 +1,7 @@
 // Bundles the page into dist/: page.html, page.js and page.css, which need no other files.
 
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
@@ -10,12 +10,12 @@ import { licences } from "./licences.mjs";
 const here = join(dirname(fileURLToPath(import.meta.url)), "..");
 const dist = join(here, "dist");
 
-export async function bundle() {
-  mkdirSync(dist, { recursive: true });
+/** Bundles a script, and its style sheets if it has some, as NAME.js and NAME.css in a folder; `more` are further options of esbuild. */
+export async function script(name, source, folder, more = {}) {
   const { metafile } = await build({
     absWorkingDir: here,
-    entryPoints: { page: "src/main.ts" },
-    outdir: "dist",
+    entryPoints: { [name]: source },
+    outdir: folder,
     bundle: true,
     format: "iife",
     target: ["es2022", "chrome111", "firefox115", "safari16.4"],
@@ -25,12 +25,17 @@ export async function bundle() {
     charset: "utf8",
     metafile: true,
     logLevel: "warning",
+    ...more,
   });
-  const script = join(dist, "page.js");
-  const inputs = Object.entries(metafile.outputs["dist/page.js"].inputs);
-  const used = inputs.filter(([, { bytesInOutput }]) => bytesInOutput > 0).map(([name]) => name);
-  const notices = `This file contains these packages.\n${licences(here, used)}`.replaceAll("*/", "* /");
-  writeFileSync(script, `/*!\n${notices}*/\n${readFileSync(script, "utf8")}`);
+  const file = join(folder, `${name}.js`);
+  const inputs = Object.entries(metafile.outputs[relative(here, file).replaceAll("\\", "/")].inputs);
+  const notices = licences(here, inputs.filter(([, { bytesInOutput }]) => bytesInOutput > 0).map(([name]) => name)).replaceAll("*/", "* /");
+  if (notices !== "") writeFileSync(file, `/*!\nThis file contains these packages.\n${notices}*/\n${readFileSync(file, "utf8")}`);
+}
+
+export async function bundle() {
+  mkdirSync(dist, { recursive: true });
+  await script("page", "src/main.ts", dist);
   copyFileSync(join(here, "src", "page.html"), join(dist, "page.html"));
 }
 

@@ -77,16 +77,6 @@ export class Commands {
     this.viewer.setParallel(!this.viewer.view.isParallel);
   }
 
-  /** Whether the model has view-dependent nodes. */
-  get bends(): boolean {
-    return this.viewer.model?.bend.isEmpty === false;
-  }
-
-  /** Switches between the drawn look and true 3D. */
-  toggleBend(): void {
-    this.viewer.setBent(this.viewer.bent > 0 ? 0 : 1);
-  }
-
   nextShading(): void {
     const next = SHADINGS[(SHADINGS.indexOf(this.viewer.shading) + 1) % SHADINGS.length];
     if (next) this.viewer.setShading(next);

@@ -77,6 +77,8 @@ export interface ClipFacts {
   readonly limited: boolean;
   /** The exposure sheet: source frames, and for how many frames each is shown. */
   readonly exposure: readonly (readonly [source: number, frames: number])[];
+  /** The drawings that are chosen by hand: source frames, and for how many frames each is to be shown. */
+  readonly chosen: readonly (readonly [source: number, frames: number])[];
   /** The omitted source frames. */
   readonly omitted: readonly number[];
   /** The shown frames that repeat the pose before. */
@@ -140,6 +142,8 @@ export interface Build {
   readonly milliseconds: number;
   readonly model: string | null;
   readonly picture: string | null;
+  /** The address of the page of the drawing; null if nothing on it belongs to a model. */
+  readonly paper: string | null;
   readonly stale: boolean;
   /** Whether the model is only what can be built of a drawing with errors. */
   readonly incomplete: boolean;
@@ -151,6 +155,30 @@ export interface Build {
   readonly clips: readonly ClipFacts[];
   /** The address of the clips before they were performed and limited; null if none was. */
   readonly originals: string | null;
+  /** The address of other files of the drawing, without their endings; null if there are none. */
+  readonly exports: string | null;
+}
+
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** Left, top, right and bottom. */
+export type Box = readonly [number, number, number, number];
+
+/** The page of a drawing, in user units, y down. */
+export interface Paper {
+  /** Left, top, width and height. */
+  readonly page: Box;
+  /** The drawing as SVG. */
+  readonly picture: string;
+  /** The pictures that it links to and that are not in it: they are too large. */
+  readonly leftOut: readonly string[];
+  /** The shapes in paint order, as path data to be filled by the even-odd rule. */
+  readonly shapes: readonly { readonly part: string; readonly area: string }[];
+  /** The strings that are written on it, with their estimated boxes. */
+  readonly strings: readonly { readonly part: string; readonly box: Box }[];
 }
 
 /** A drawing to start from. */
@@ -173,7 +201,8 @@ export type FromHost =
   | { readonly type: "gone"; readonly drawing: string }
   | ({ readonly type: "starters" } & Offer)
   | { readonly type: "unbegun"; readonly why: string }
-  | { readonly type: "editing"; readonly key: string }
+  /** With `copy`, what is changed is a copy of the drawing, which is open in another program. */
+  | { readonly type: "editing"; readonly key: string; readonly copy: boolean }
   | { readonly type: "steps"; readonly drawing: string; readonly undo: string | null; readonly redo: string | null }
   | { readonly type: "light"; readonly drawing: string; readonly part: string | null };
 
@@ -237,7 +266,7 @@ export function read(data: unknown): FromHost | null {
     case "starters":
       return { type: "starters", key: text(raw["key"]), starters: list(raw["starters"]).map(readStarter) };
     case "editing":
-      return { type: "editing", key: text(raw["key"]) };
+      return { type: "editing", key: text(raw["key"]), copy: raw["copy"] === true };
     case "steps":
       return { type: "steps", drawing, undo: textOrNull(raw["undo"]), redo: textOrNull(raw["redo"]) };
     case "unbegun":
@@ -264,6 +293,7 @@ function readBuild(raw: Raw, kept: readonly Part[] = []): Build {
     milliseconds: number(raw["milliseconds"]),
     model: textOrNull(raw["model"]),
     picture: textOrNull(raw["picture"]),
+    paper: textOrNull(raw["paper"]),
     stale: raw["stale"] === true,
     incomplete: raw["incomplete"] === true,
     triangles: number(raw["triangles"]),
@@ -272,6 +302,22 @@ function readBuild(raw: Raw, kept: readonly Part[] = []): Build {
     parts: list(raw["parts"]).flatMap((part) => (Array.isArray(part) ? kept.slice(whole(part[0]), whole(part[0]) + whole(part[1])) : readPart(part))),
     clips: list(raw["clips"]).map(readClip),
     originals: textOrNull(raw["originals"]),
+    exports: textOrNull(raw["exports"]),
+  };
+}
+
+export function readPaper(value: unknown): Paper {
+  const raw = object(value);
+  const box = (value: unknown): Box => {
+    const [a, b, c, d] = list(value).map(number);
+    return [a ?? 0, b ?? 0, c ?? 0, d ?? 0];
+  };
+  return {
+    page: box(raw["page"]),
+    picture: text(raw["picture"]),
+    leftOut: list(raw["left_out"]).map(text),
+    shapes: list(raw["shapes"]).map((shape) => ({ part: text(list(shape)[0]), area: text(list(shape)[1]) })),
+    strings: list(raw["strings"]).map((string) => ({ part: text(list(string)[0]), box: box(list(string)[1]) })),
   };
 }
 
@@ -293,6 +339,7 @@ function readClip(value: unknown): ClipFacts {
     drawings: whole(raw["drawings"]),
     limited: raw["limited"] === true,
     exposure: list(raw["exposure"]).map((run) => [whole(list(run)[0]), whole(list(run)[1])]),
+    chosen: list(raw["chosen"]).map((run) => [whole(list(run)[0]), whole(list(run)[1])]),
     omitted: list(raw["omitted"]).map(whole),
     held: list(raw["held"]).map(whole),
     ssd: list(raw["ssd"]).map(number),

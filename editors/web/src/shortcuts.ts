@@ -8,6 +8,7 @@ import type { Viewer } from "./viewport/viewer";
 export interface Places {
   readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; followTravel(): void; onionSkin(): void; film(): void; readonly chart: { toggle(): void }; readonly performance: { toggle(): void } };
   readonly findings: { flip(): void };
+  readonly paper: { toggle(): void };
   readonly side: { focusTree(): void; focusSearch(): void };
   /** Shows all drawings, if there are several. */
   readonly gallery: () => void;
@@ -38,21 +39,66 @@ export class Keys {
   }
 }
 
+/** Whether a key is for the page: a field or an open dialog handles its own keys, buttons handle space and enter. */
+export function isForPage(event: KeyboardEvent): boolean {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return false;
+  // Also what is in a shadow root.
+  const [first] = event.composedPath();
+  const target = first instanceof Element ? first : null;
+  if (target?.closest("input, select, textarea, dialog, [contenteditable]")) return false;
+  return !(target?.closest("button, a") && (event.key === " " || event.key === "Enter"));
+}
+
+/** What keys do with the view, by their position on the keyboard, whatever Shift makes of them. */
+export const viewPlaces = (viewer: Viewer, { shiftKey }: KeyboardEvent): Acts => ({
+  Digit0: () => viewer.view.look("threeQuarter"),
+  Digit1: () => viewer.view.look(shiftKey ? "back" : "front"),
+  Digit3: () => viewer.view.look(shiftKey ? "otherSide" : "side"),
+  Digit7: () => viewer.view.look(shiftKey ? "bottom" : "top"),
+  Digit4: viewer.bends && (() => viewer.lookAsDrawn()),
+  Digit5: () => viewer.setParallel(!viewer.view.isParallel),
+});
+
+/** What they do with it by their names. */
+export const viewLetters = (viewer: Viewer): Acts => ({
+  ArrowLeft: () => viewer.view.orbit(-TURN, 0),
+  ArrowRight: () => viewer.view.orbit(TURN, 0),
+  ArrowUp: () => viewer.view.orbit(0, TURN),
+  ArrowDown: () => viewer.view.orbit(0, -TURN),
+  "+": () => viewer.view.zoom(ZOOM),
+  "=": () => viewer.view.zoom(ZOOM),
+  "-": () => viewer.view.zoom(1 / ZOOM),
+  Home: () => viewer.view.frame(),
+  b: viewer.bends && (() => viewer.toggleBend()),
+});
+
+/** What they do with clips. */
+export const clipLetters = (clips: Places["clips"]): Acts => ({
+  j: () => clips.step(-1),
+  k: () => clips.step(1),
+  c: () => clips.chart.toggle(),
+  i: () => clips.performance.toggle(),
+  o: () => clips.compare(),
+  v: () => clips.followTravel(),
+  n: () => clips.onionSkin(),
+  m: () => clips.film(),
+  " ": () => clips.toggle(),
+});
+
+/** The place of a key, the same for digits wherever they are. */
+export const placeOf = ({ code }: KeyboardEvent): string => code.replace("Numpad", "Digit");
+export const letterOf = ({ key }: KeyboardEvent): string => (key.length === 1 ? key.toLowerCase() : key);
+
 export function listenToKeys(viewer: Viewer, commands: Commands, exports: Exports, keys: Keys, places: Places, shows: () => boolean): void {
-  const { view } = viewer;
   addEventListener("keydown", (event) => {
     if (!event.defaultPrevented && shows() && steps(event)) return event.preventDefault();
-    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
-    const target = event.target instanceof Element ? event.target : null;
-    // A field or an open dialog handles its own keys; buttons handle space and enter.
-    if (target?.closest("input, select, textarea, dialog")) return;
+    if (!isForPage(event)) return;
     if (!keys.letters && event.key.length === 1 && event.key !== " ") return;
     if (event.key === "?") {
       event.preventDefault();
       return commands.help();
     }
     if (!shows()) return;
-    if (target?.closest("button, a") && (event.key === " " || event.key === "Enter")) return;
     // Wherever the key is: on some keyboards it is one of the digits with Shift.
     const act = event.key === "/" ? () => places.side.focusSearch() : byPlace(event) || byLetter(event);
     if (!act) return;
@@ -61,7 +107,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, exports: Export
   });
 
   /** Undo and redo. While a text is being typed they are about that text. */
-  function steps({ key, ctrlKey, metaKey, altKey, shiftKey, target }: KeyboardEvent): boolean {
+  function steps(event: KeyboardEvent): boolean {
+    const { key, ctrlKey, metaKey, altKey, shiftKey, target } = event;
     const { editing } = commands;
     if (!editing?.isOn || !(ctrlKey || metaKey) || altKey) return false;
     if (target instanceof HTMLInputElement && target.matches(":is([type=text], [type=number], [type=search])") && target.value !== target.defaultValue && !target.dataset["sent"]) return false;
@@ -72,34 +119,23 @@ export function listenToKeys(viewer: Viewer, commands: Commands, exports: Export
     return true;
   }
 
-  /** Keys by their position on the keyboard, whatever Shift makes of them. */
-  function byPlace({ code, shiftKey }: KeyboardEvent): Act {
+  function byPlace(event: KeyboardEvent): Act {
     const acts: Acts = {
-      Digit0: () => view.look("threeQuarter"),
-      Digit1: () => view.look(shiftKey ? "back" : "front"),
-      Digit3: () => view.look(shiftKey ? "otherSide" : "side"),
-      Digit7: () => view.look(shiftKey ? "bottom" : "top"),
-      Digit4: commands.bends && (() => viewer.lookAsDrawn()),
-      Digit5: () => commands.toggleParallel(),
-      Comma: commands.isPosing && (() => commands.turn(POSE, shiftKey)),
-      Period: commands.isPosing && (() => commands.turn(-POSE, shiftKey)),
+      ...viewPlaces(viewer, event),
+      Digit2: () => places.paper.toggle(),
+      Comma: commands.isPosing && (() => commands.turn(POSE, event.shiftKey)),
+      Period: commands.isPosing && (() => commands.turn(-POSE, event.shiftKey)),
     };
-    return acts[code.replace("Numpad", "Digit")];
+    return acts[placeOf(event)];
   }
 
-  function byLetter({ key, shiftKey }: KeyboardEvent): Act {
+  function byLetter(event: KeyboardEvent): Act {
     const { clips, findings, gallery, side } = places;
+    const { shiftKey } = event;
     const acts: Acts = {
-      ArrowLeft: () => view.orbit(-TURN, 0),
-      ArrowRight: () => view.orbit(TURN, 0),
-      ArrowUp: () => view.orbit(0, TURN),
-      ArrowDown: () => view.orbit(0, -TURN),
-      "+": () => view.zoom(ZOOM),
-      "=": () => view.zoom(ZOOM),
-      "-": () => view.zoom(1 / ZOOM),
+      ...viewLetters(viewer),
+      ...clipLetters(clips),
       f: shiftKey ? () => void commands.toggleFullScreen() : () => viewer.frameSelected(),
-      Home: () => view.frame(),
-      b: commands.bends && (() => commands.toggleBend()),
       l: () => viewer.stack.toggle(),
       z: () => commands.nextShading(),
       p: () => commands.togglePosing(),
@@ -110,20 +146,11 @@ export function listenToKeys(viewer: Viewer, commands: Commands, exports: Export
       a: () => commands.showAll(),
       e: () => findings.flip(),
       g: () => gallery(),
-      j: () => clips.step(-1),
-      k: () => clips.step(1),
       r: commands.recordPuppet,
       w: commands.editing?.isPossible && (() => commands.editing?.toggle()),
       F2: commands.editing?.isOn && (() => commands.editing?.rename()),
-      c: () => clips.chart.toggle(),
-      i: () => clips.performance.toggle(),
-      o: () => clips.compare(),
-      v: () => clips.followTravel(),
-      n: () => clips.onionSkin(),
-      m: () => clips.film(),
-      " ": () => clips.toggle(),
       Escape: () => commands.escape(),
     };
-    return acts[key.length === 1 ? key.toLowerCase() : key];
+    return acts[letterOf(event)];
   }
 }

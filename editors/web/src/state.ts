@@ -53,6 +53,8 @@ export class State {
   refusal = "";
   /** The host's key for changes; null if it takes none. */
   key: string | null = null;
+  /** Whether changes are made in a copy of the drawing, which is open in another program. */
+  isCopy = false;
   /** Gets the next part that is picked, in place of the selection. */
   picker: ((part: string) => void) | null = null;
   /** Whether the host has sent its list of drawings. */
@@ -109,6 +111,7 @@ export class State {
         return this.notify("starters");
       case "editing":
         this.key = message.key;
+        this.isCopy = message.copy;
         return this.notify("editing");
       case "steps": {
         const drawing = this.drawings.get(message.drawing);

@@ -2,9 +2,8 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
 import { join } from "node:path";
-import type { AxeResults } from "axe-core";
+import { found } from "./axe";
 import type { Page } from "playwright-core";
 import { CHROMIUM, shown, still } from "./browser";
 import { kick } from "./kick";
@@ -13,17 +12,9 @@ import { browse, build, example } from "./setup";
 import type { MockHost } from "./mock";
 import { SIZES } from "./sizes";
 
-const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const HUMAN = example("human");
 const okoshi = process.env["OKOSHI"] ?? "";
 const punch = okoshi && CHROMIUM ? await performed(okoshi, puppet('%Motion punch Perform "hands.json" Limited 2 12')) : null;
-
-/** What axe finds, as one line for each rule and element. */
-async function found(page: Page): Promise<string[]> {
-  if (!(await page.evaluate(() => "axe" in globalThis))) await page.evaluate(AXE);
-  const { violations } = await page.evaluate(() => (globalThis as unknown as { axe: { run(): Promise<AxeResults> } }).axe.run());
-  return violations.flatMap(({ id, nodes }) => nodes.map(({ target, failureSummary }) => `${id}: ${target.join(" ")} ${failureSummary ?? ""}`));
-}
 
 function prepare(host: MockHost): void {
   host.add("human.svg");

@@ -68,7 +68,7 @@ export async function still(page: Page): Promise<void> {
   await page.evaluate(async () => {
     const canvas = document.querySelector("canvas")!;
     const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
-    for (let last = ""; last !== (canvas.dataset["frames"] ?? "-"); ) {
+    for (let last = ""; last !== (canvas.dataset["frames"] ?? "-") || canvas.dataset["shadows"] === "late"; ) {
       last = canvas.dataset["frames"] ?? "-";
       for (let n = 0; n < 6; n++) await frame();
     }

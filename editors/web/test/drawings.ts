@@ -10,6 +10,8 @@ export interface Made {
   readonly model: Buffer | null;
   /** The clips before limiting. */
   readonly originals?: Buffer | null;
+  /** Other files of the drawing, by their endings. */
+  readonly exports?: Readonly<Record<string, Buffer>>;
   readonly picture: Buffer | null;
   readonly build: Record<string, unknown>;
 }

@@ -26,9 +26,19 @@ export class Edited {
 
   /** Waits until the file has exactly these bytes; what the page shows may be older. */
   async has(expected: string, what: string): Promise<void> {
-    const end = Date.now() + PATIENCE;
-    while (this.text() !== expected && Date.now() < end) await new Promise((resolve) => setTimeout(resolve, 20));
+    await this.wait(() => this.text() === expected);
     assert.equal(this.text(), expected, what);
+  }
+
+  /** Waits until something holds of the file. */
+  async until(holds: () => boolean, what: string): Promise<void> {
+    await this.wait(holds);
+    assert.ok(holds(), `${what}: ${this.text()}`);
+  }
+
+  private async wait(holds: () => boolean): Promise<void> {
+    const end = Date.now() + PATIENCE;
+    while (!holds() && Date.now() < end) await new Promise((resolve) => setTimeout(resolve, 20));
   }
 
   /** The form of a part. */

@@ -1,7 +1,8 @@
 // Clips that are chosen in the form of a part, with the real program: what a person does on the page, and the bytes of the file.
 
 import assert from "node:assert/strict";
-import { join } from "node:path";
+import { copyFileSync } from "node:fs";
+import { dirname, join } from "node:path";
 import { manual, picture, still } from "./browser";
 import { edit } from "./edited";
 import { example, FIGURE, source } from "./setup";
@@ -48,8 +49,7 @@ edit("a figure gets a clip, a speed, limited animation and another clip, and und
   await says(" Motion wave speed 2");
   await page.locator(".part-form[aria-busy=false]").waitFor();
   // Whoever is quick does not wait for the form to say what was changed last: nothing of that is lost.
-  const [inPlace, limited] = [page.getByLabel("in place"), page.getByLabel("limited animation")];
-  await inPlace.evaluate((one, other) => ((one as HTMLInputElement).click(), (other as HTMLInputElement).click()), await limited.elementHandle());
+  await page.evaluate(() => ["Motion -i", "Motion limited"].forEach((key) => document.querySelector<HTMLInputElement>(`[data-key="${key}"]`)!.click()));
   await says(" Motion -i wave speed 2 Limited 2 8");
   await edited.label("Limited: hold, as a number").fill("12");
   await page.keyboard.press("Enter");
@@ -108,3 +108,35 @@ edit("a clip that the drawing's text gives to the figure is changed in that text
   await clip.selectOption("=run");
   await edited.has(before.replace("Motion walk", "Motion run Limited 2 8"), "another clip");
 }, { drawing: example("girl"), viewport: { width: 1060, height: 720 }, smoothEdges: true });
+
+edit("a motion file beside the drawing is chosen, with its range and speed", async (edited) => {
+  const { page } = edited;
+  copyFileSync(join("..", "..", "examples", "motion", "kick.bvh"), join(dirname(edited.file), "kick.bvh"));
+  await page.getByRole("button", { name: "Edit" }).click();
+  await edited.select("Body");
+  const says = (words: string): Promise<void> => edited.has(BEFORE.replace(BODY, `${BODY} Motion ${words}`), words);
+  const type = async (which: string, number: string): Promise<void> => {
+    await edited.label(`Motion: ${which}, as a number`).fill(number);
+    await page.keyboard.press("Enter");
+  };
+  const clip = edited.label("Motion: clip");
+  assert.deepEqual(await clip.locator("optgroup option").allInnerTexts(), ["kick.bvh"]);
+  await clip.selectOption('"kick.bvh"');
+  await says('"kick.bvh"');
+  await edited.label("Motion: end").waitFor();
+  assert.equal(await clip.inputValue(), '"kick.bvh"');
+  await type("start", "0.5");
+  await says('"kick.bvh" from 0.5');
+  await type("end", "1.5");
+  await says('"kick.bvh" from 0.5 to 1.5');
+  await type("speed", "0.5");
+  await says('"kick.bvh" from 0.5 to 1.5 speed 0.5');
+  await page.getByLabel("in place").check();
+  await says('-i "kick.bvh" from 0.5 to 1.5 speed 0.5');
+  await page.waitForFunction(() => /^kick · 2\.0 s/.test(document.querySelector(".clip-choice option")?.textContent ?? ""));
+  await page.locator("section[data-attribute=Motion] h3").evaluate((one) => one.scrollIntoView({ block: "start" }));
+  await picture(page, "edit-file");
+  // What is said of a part of the file is of no other clip.
+  await clip.selectOption("=wave");
+  await says("-i wave speed 0.5");
+});

@@ -1,6 +1,7 @@
 // Handles over the model, with the real program: what a person drags, and the bytes of the file.
 
 import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { picture, shown, still } from "./browser";
 import { edit, type Edited } from "./edited";
@@ -133,3 +134,42 @@ edit("a finger drags a handle, and the view does not turn", async (edited) => {
   assert.match(edited.text(), /default -[\d.]+ [\d.]+ Bend 0/);
   assert.equal(await view(), before);
 }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
+for (const [kind, says, label] of [
+  ["inflate", /Shape inflate [\d.]+ Bend 0/, /^to both sides [\d.]+$/],
+  ["roundv", /Shape roundv -\d+ \d+ Bend 0/, /^back -\d+° · front \d+°$/],
+] as const) {
+  edit(`an arrow makes a part of the kind ${kind} thinner and thicker, and undo takes it back`, async (edited) => {
+    const before = BEFORE.replace("default -8 8 Bend 0", `${kind} Bend 0`);
+    writeFileSync(edited.file, before);
+    await shown(edited.page, 2);
+    const page = await arm(edited, "3");
+    const [front, back] = [await grip(page, "front"), await grip(page, "back")];
+    const out = Math.sign(front.x - back.x);
+    const drag = async (by: number): Promise<void> => {
+      const { x, y } = await grip(page, "front");
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      await page.mouse.move(x + by * out, y, { steps: 5 });
+    };
+    await drag(-12);
+    await page.waitForFunction(() => document.querySelector("canvas")!.dataset["tried"] !== "");
+    assert.match(await page.locator(".handle-label").innerText(), label);
+    await picture(page, `edit-handle-${kind}`);
+    await page.mouse.up();
+    await edited.until(() => says.test(edited.text()), "thinner");
+    const thin = edited.text();
+    await page.locator(".edit-words").filter({ hasText: /^Saved/ }).waitFor();
+    await page.waitForFunction(() => document.querySelector("canvas")!.dataset["tried"] === "");
+    // The arrow is where the part ends.
+    const nearer = await grip(page, "front");
+    assert.ok((front.x - nearer.x) * out > 4, "the arrow has come along");
+    await drag(8);
+    await page.mouse.up();
+    await edited.until(() => edited.text() !== thin, "thicker again");
+    for (const text of [thin, before]) {
+      await page.keyboard.press("Control+z");
+      await edited.has(text, "undone");
+    }
+  });
+}

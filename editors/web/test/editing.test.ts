@@ -476,3 +476,18 @@ edit("the offer to name the parts fits on a phone", async (edited) => {
   await picture(page, "edit-named-phone");
   assert.match(edited.text(), /="Head"/);
 }, { drawing: BARE, viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+
+edit(
+  "of a drawing that is open in Inkscape, a copy is changed, and the bar says how the changes come into the drawing",
+  async (edited) => {
+    const { page } = edited;
+    await page.getByRole("button", { name: "Edit" }).click();
+    await edited.select("Arm");
+    await page.locator(".edit-words").filter({ hasText: "When you are done, call Take In Changes in Inkscape" }).waitFor();
+    await edited.label("Name").fill("Wing");
+    await edited.label("Name").press("Enter");
+    await page.locator(".edit-words").filter({ hasText: "Changed in the copy" }).waitFor();
+    assert.equal(edited.text(), BEFORE.replace("Arm@Body", "Wing@Body"));
+  },
+  { arguments: ["--unsaved", "figure.svg"] },
+);

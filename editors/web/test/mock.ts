@@ -38,6 +38,8 @@ export class MockHost {
   silent = false;
   /** Addresses that return invalid files. */
   readonly broken = new Set<string>();
+  /** Addresses of models that newer ones replaced: the answer is empty, as the program's. */
+  readonly replaced = new Set<string>();
   /** What is offered while there are no drawings: names, and a picture of all of them. */
   offered: { readonly key: string; readonly names: readonly string[]; readonly picture: Buffer } | null = null;
   /** The requested addresses. */
@@ -79,12 +81,13 @@ export class MockHost {
   }
 
   /** Adds a build. One with errors keeps the last good model. */
-  built(id: string, { model, originals, picture, build }: Made): void {
+  built(id: string, { model, originals, exports, picture, build }: Made): void {
     const held = this.drawings.get(id)!;
     const number = ++this.builds;
     const before = held.build;
     if (model) this.files.set(`/builds/${number}.glb`, model);
     if (originals) this.files.set(`/builds/${number}.originals.glb`, originals);
+    for (const [ending, file] of Object.entries(exports ?? {})) this.files.set(`/exports/${number}${ending}`, file);
     if (picture) this.files.set(`/builds/${number}.png`, picture);
     held.gone = false;
     held.build = {
@@ -92,6 +95,7 @@ export class MockHost {
       revision: number,
       model: model ? `builds/${number}.glb` : (before?.["model"] ?? null),
       originals: originals ? `builds/${number}.originals.glb` : null,
+      exports: exports ? `exports/${number}` : null,
       picture: picture ? `builds/${number}.png` : (before?.["picture"] ?? null),
     };
     this.say({ type: "build", drawing: id, build: held.build, aFieldOfTheFuture: 1 });
@@ -170,8 +174,8 @@ export class MockHost {
     const type = TYPES[(page ?? pathname).split(".").at(-1) ?? ""] ?? "application/octet-stream";
     const send = () =>
       response
-        .writeHead(body ? 200 : 404, { "content-type": type, "content-security-policy": POLICY, "x-content-type-options": "nosniff", "cache-control": "no-store" })
-        .end(body ?? "");
+        .writeHead(this.replaced.has(pathname) ? 204 : body ? 200 : 404, { "content-type": type, "content-security-policy": POLICY, "x-content-type-options": "nosniff", "cache-control": "no-store" })
+        .end(this.replaced.has(pathname) ? "" : (body ?? ""));
     if (this.waiting && pathname.endsWith(".glb")) this.waiting.push(send);
     else send();
   }

@@ -316,3 +316,29 @@ browse("screenshots and the model are saved under the drawing's name", one(FIGUR
   assert.ok(second.clear > 0.5 && second.clear < 0.95);
   for (const { red } of [first, second]) assert.ok(red > 0.02, `${red} of the picture is red`);
 });
+
+const exported = { ".obj": Buffer.from("v 0 0 0\n"), ".svg": Buffer.from("<svg/>") };
+
+browse("OBJ and the puppet sheet are in the Export menu where the host makes them", one(FIGURE), async (page, host) => {
+  await shown(page);
+  const open = () => page.getByRole("button", { name: "Export" }).click();
+  const entries = () => page.getByRole("menuitem").locator("visible=true").allInnerTexts();
+  const take = async (name: string) => {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("menuitem", { name }).click()]);
+    return [download.suggestedFilename(), readFileSync(await download.path(), "utf8")];
+  };
+  await open();
+  const without = await entries();
+  assert.ok(without.length >= 4 && !without.some((text) => /OBJ|Puppet/.test(text)), without.join(", "));
+  // Keys reach what is shown, and nothing else.
+  await page.keyboard.press("End");
+  assert.match(await page.locator(":focus").innerText(), /Moving picture/);
+  await page.keyboard.press("Escape");
+  host.built("figure.svg", { ...build(FIGURE), exports: exported });
+  await shown(page, 2);
+  await open();
+  assert.equal((await entries()).length, without.length + 2);
+  assert.deepEqual(await take("3D model (OBJ)"), ["figure.obj", "v 0 0 0\n"]);
+  await open();
+  assert.deepEqual(await take("Puppet sheet (SVG)"), ["figure-puppet.svg", "<svg/>"]);
+});

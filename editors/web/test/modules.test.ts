@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { AnimationClip, BoxGeometry, Group, InterpolateDiscrete, Mesh, NumberKeyframeTrack, Object3D, Vector3 } from "three";
 import { Exports } from "../src/exports";
-import { toBase64, toBuffer } from "../src/host/code";
+import { toBase64 } from "../src/host/base64";
+import { toBuffer } from "../src/host/code";
 import type { Host } from "../src/host/host";
 import { figures, niceAbove } from "../src/panels/chart";
 import { cssColor, drivenBy } from "../src/panels/inspector";
@@ -68,6 +69,32 @@ test("a moving picture is saved under the names of drawing and clip, and what go
   assert.equal(exports.words, "There is no moving picture: the clip lasts 90 seconds");
   state.show("b");
   assert.equal(exports.words, "");
+});
+
+test("other files are saved under the name of the drawing, where there are any", async () => {
+  const state = new State();
+  const build = { revision: 1, model: "builds/7.glb", exports: "exports/7" };
+  const drawings = [{ id: "a", name: "dog.svg", folder: "" }, { id: "b", name: "b.svg", folder: "" }];
+  for (const message of [{ type: "drawings", drawings }, { type: "build", drawing: "a", build }, { type: "build", drawing: "b", build: { ...build, exports: null } }]) state.receive(read(message)!);
+  state.show("a");
+  const asked: string[] = [];
+  const saved: string[] = [];
+  const host = { file: async (address: string) => (asked.push(address), new Blob()), save: async (name: string) => void saved.push(name) };
+  const exports = new Exports({} as Viewer, state, host as unknown as Host);
+  const said: string[] = [];
+  exports.onWords(() => said.push(exports.words));
+  await exports.obj();
+  await exports.puppet();
+  assert.deepEqual([asked, saved], [["exports/7.obj", "exports/7.svg"], ["dog.obj", "dog-puppet.svg"]]);
+  assert.deepEqual(said, ["Making an OBJ file…", "", "Making a puppet sheet…", ""]);
+  host.file = async () => Promise.reject(new Error("the drawing has errors"));
+  await exports.puppet();
+  assert.equal(exports.words, "There is no puppet sheet: the drawing has errors");
+  state.show("b");
+  assert.equal(exports.files, null);
+  await exports.obj();
+  assert.equal(saved.length, 2);
+  assert.equal(new Exports({} as Viewer, state, { file: null } as unknown as Host).files, null);
 });
 
 test("a build may refer to parts of the build before, and to no other", () => {
@@ -152,7 +179,7 @@ test("typing goes to the next name that begins so, and round", () => {
 test("what is hidden is hidden with all that hangs on it, and can be shown alone", () => {
   const state = new State();
   state.receive({ type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] });
-  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [part("Body", null), part("Arm", "Body"), part("Hand", "Arm"), part("nail", "Hand", "sub")], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, paper: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [part("Body", null), part("Arm", "Body"), part("Hand", "Arm"), part("nail", "Hand", "sub")], clips: [], originals: null, exports: null } });
   state.show("a");
   state.setHidden("Arm", true);
   assert.deepEqual([...state.hidden].sort(), ["Arm", "Hand", "nail"]);
@@ -298,8 +325,8 @@ test("a drawing keeps its state when the list is sent again", () => {
   const state = new State();
   const listed = [{ id: "a", name: "a.svg", folder: "" }];
   state.receive({ type: "drawings", drawings: listed });
-  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [part("A", null)], clips: [], originals: null } });
-  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, paper: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [part("A", null)], clips: [], originals: null, exports: null } });
+  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, paper: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [], clips: [], originals: null, exports: null } });
   state.receive({ type: "drawings", drawings: [...listed, { id: "b", name: "b.svg", folder: "" }] });
   assert.deepEqual(state.list.map(({ id, build }) => [id, build?.revision]), [["a", 1], ["b", undefined]]);
   state.receive({ type: "gone", drawing: "a" });
@@ -309,7 +336,7 @@ test("a drawing keeps its state when the list is sent again", () => {
 test("a build belongs to its connection, even if that is reported open later", () => {
   const state = new State();
   const listed = { type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] } as const;
-  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [], clips: [], originals: null } } as const;
+  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, paper: null, stale: false, incomplete: false, triangles: 1, size: null, findings: [], parts: [], clips: [], originals: null, exports: null } } as const;
   const isOfNow = () => state.find("a")?.connection === state.connection;
   state.setLink("open");
   state.receive(listed);
@@ -325,7 +352,7 @@ test("a build belongs to its connection, even if that is reported open later", (
 });
 
 const facts = (more: Partial<ClipFacts>): ClipFacts => ({
-  name: "kick", figure: "Body", file: "kick.bvh", seconds: 0.5, fps: 24, frames: 12, drawings: 0, limited: true, exposure: [], omitted: [], held: [],
+  name: "kick", figure: "Body", file: "kick.bvh", seconds: 0.5, fps: 24, frames: 12, drawings: 0, limited: true, exposure: [], chosen: [], omitted: [], held: [],
   ssd: Array.from({ length: 12 }, (_, at) => at), ssdStep: 1, joints: new Map(), unmatched: [], performance: null, ...more,
 });
 

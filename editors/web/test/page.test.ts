@@ -308,7 +308,7 @@ browse("names and strings of drawings are shown as text, never as markup", (host
   await page.locator(".tree-item").first().click();
   await page.locator(".inspector", { hasText: "<img src=x onerror=" }).waitFor();
   await pass(page);
-  assert.equal(await page.locator("img:not(.card img)").count(), 0);
+  assert.equal(await page.locator("img:not(.card img, .paper img)").count(), 0);
   assert.doesNotMatch(await page.title(), /^hacked/);
   assert.match(await page.locator(".inspector").innerText(), /<img src=x onerror=/);
 });
@@ -413,3 +413,15 @@ browse("the picture of the manual", one(example("clockwork-dragon")), async (pag
   for (let i = 0; i < data.length; i += 4) colours.add((data[i]! << 16) | (data[i + 1]! << 8) | data[i + 2]!);
   assert.ok(colours.size > 3000, `${colours.size} colours`);
 }, { viewport: { width: 1180, height: 720 }, smoothEdges: true });
+
+browse("of a model that a newer one replaced, nothing is said until the page reads of that", one(FIGURE), async (page, host) => {
+  await shown(page, 1);
+  host.replaced.add("/builds/2.glb");
+  const answered = page.waitForResponse((response) => response.url().includes("/builds/2.glb"));
+  host.built("figure.svg", build(FIGURE, (text) => text.replace("-8 8", "-8 9")));
+  await (await answered).finished();
+  await pass(page);
+  assert.equal(await page.getByText("could not be shown").count(), 0);
+  host.built("figure.svg", build(FIGURE, (text) => text.replace("-8 8", "-8 10")));
+  await shown(page, 3);
+});

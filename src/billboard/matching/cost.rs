@@ -6,6 +6,7 @@ use typed_index_collections::{TiSlice, TiVec};
 use crate::billboard::place::Frame;
 use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::geometry::{bounds, shoelace};
+use crate::math;
 
 /// Colours farther apart than this cannot be the same surface (Tc of equation 4.2).
 pub(super) const COLOR_DISTANCE: f64 = 0.3;
@@ -210,7 +211,7 @@ impl Turn {
             return 0.0;
         }
         let apart = (a.at - b.at).abs().dot(self.weights);
-        (-apart - relative(a.area, b.area)).exp()
+        math::exp(-apart - relative(a.area, b.area))
     }
 
     /// The cost of a pair, without colours that exclude each other: 0 for a perfect one.

@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::billboard::region::Direction;
+use crate::math;
 
 /// Directions closer than this tell no depth, degrees.
 const LEAST_ANGLE: f64 = 0.5;
@@ -10,7 +11,7 @@ const LEAST_ANGLE: f64 = 0.5;
 /// The angle between two directions, degrees.
 pub(crate) fn angle(a: Direction, b: Direction) -> f64 {
     let (a, b) = (a.axes()[2], b.axes()[2]);
-    a.cross(b).length().atan2(a.dot(b)).to_degrees()
+    math::atan2(a.cross(b).length(), a.dot(b)).to_degrees()
 }
 
 /// The point of a view's screen, at a depth towards the viewer, in the character's space.

@@ -1,5 +1,6 @@
 //! Contours by arc length.
 
+use crate::math;
 use glam::DVec2;
 
 /// Turns from this angle on are corners, radians.
@@ -128,6 +129,6 @@ impl Contour {
             here - self.point(at - CORNER_WINDOW),
             self.point(at + CORNER_WINDOW) - here,
         );
-        before.perp_dot(after).atan2(before.dot(after))
+        math::atan2(before.perp_dot(after), before.dot(after))
     }
 }

@@ -1,5 +1,6 @@
 //! Which place of one contour belongs to which of another.
 
+use crate::math;
 use glam::{DMat2, DVec2};
 
 use super::contour::{Contour, Ends};
@@ -203,7 +204,7 @@ impl Samples {
                 .map(|place| (at(place + window) - at(place - window)).normalize_or_zero())
                 .collect(),
             turns: (places.iter())
-                .map(|place| DVec2::from_angle(contour.turn(*place)))
+                .map(|place| math::direction(contour.turn(*place)))
                 .collect(),
             places,
         }

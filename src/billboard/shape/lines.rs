@@ -1,5 +1,6 @@
 //! Drawn lines as meshes that keep their width.
 
+use crate::math;
 use glam::DVec2;
 
 use super::Morph;
@@ -160,7 +161,7 @@ impl Join {
     /// Positive to the left, radians.
     fn turn(&self) -> f64 {
         let [before, after] = self.along;
-        before.perp_dot(after).atan2(before.dot(after))
+        math::atan2(before.perp_dot(after), before.dot(after))
     }
 }
 
@@ -229,9 +230,9 @@ fn sides(
         let indices = (0..join.count).map(|i| (join.first + i) % count);
         let total: usize = indices.clone().map(|i| sections[i]).sum();
         let normal = join.along[0].perp();
-        let half_turn = (turn / 2.0).cos().max(1.0 / MAX_MITER);
-        let miter = (half / half_turn).min(half.hypot(join.beside));
-        let inner = DVec2::from_angle(turn / 2.0).rotate(normal) * miter;
+        let half_turn = math::cos(turn / 2.0).max(1.0 / MAX_MITER);
+        let miter = (half / half_turn).min(math::hypot(half, join.beside));
+        let inner = math::direction(turn / 2.0).rotate(normal) * miter;
         let mut number = 0;
         for point in indices {
             for section in &mut of_point[point] {
@@ -240,7 +241,7 @@ fn sides(
                     [place + inner, place - inner]
                 } else {
                     let share = number as f64 / (total - 1) as f64;
-                    let outer = DVec2::from_angle(turn * share).rotate(normal) * half;
+                    let outer = math::direction(turn * share).rotate(normal) * half;
                     // The outer side is the right one where the line turns left.
                     if turn > 0.0 {
                         [place + inner, place - outer]
@@ -267,7 +268,7 @@ fn sides(
 /// Cross-sections of a half disc, from its tip on.
 fn round_end(place: DVec2, along: DVec2, half: f64) -> [[DVec2; 2]; END_ANGLES.len()] {
     END_ANGLES.map(|angle| {
-        let (sin, cos) = (angle * std::f64::consts::PI).sin_cos();
+        let (sin, cos) = math::sin_cos(angle * std::f64::consts::PI);
         let middle = place + along * (half * sin);
         let side = along.perp() * (half * cos);
         [middle + side, middle - side]

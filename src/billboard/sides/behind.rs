@@ -10,10 +10,11 @@ use typed_index_collections::{TiSlice, TiVec};
 use super::grid::{Grid, OPAQUE, is_alike};
 use super::{Side, Views, mirror, opposite, within_half_turn};
 use crate::billboard::matching::{Track, TrackId};
-use crate::billboard::place::{TrackPosition, angle};
+use crate::billboard::place::{Frame, TrackPosition, angle};
 use crate::billboard::region::{Direction, RegionId, View};
 use crate::billboard::turn;
-use crate::geometry::{Outline, union};
+use crate::geometry::{Outline, area, offset, union};
+use crate::math;
 use crate::scene::ViewId;
 
 /// What is within others and covers a smaller share of the silhouette is a detail.
@@ -30,6 +31,8 @@ const FROM_FRONT: f64 = 0.49;
 const ASIDE: f64 = 2.0;
 /// A view that is nearer than this to another one, degrees, adds nothing to it.
 const NEAR: f64 = 20.0;
+/// How far the border of what is covered stays behind that which covers it, heights.
+const INSET: f64 = 0.01;
 /// How far apart regions are in depth, heights.
 const GAP: f64 = 0.002;
 
@@ -212,14 +215,8 @@ fn framed_by(view: &View, around: &Around) -> Option<RegionId> {
 impl Views {
     /// The views whose silhouettes are seen from behind, and from where: in directions that no view shows.
     pub(super) fn without_back(&self) -> Vec<(ViewId, Direction)> {
-        let cosine = |view: &ViewId| {
-            self.drawings.views[*view]
-                .view
-                .direction
-                .theta
-                .to_radians()
-                .cos()
-        };
+        let cosine =
+            |view: &ViewId| math::cos(self.drawings.views[*view].view.direction.theta.to_radians());
         let mut drawn = self
             .drawings
             .views
@@ -262,9 +259,9 @@ impl Views {
 
     /// Adds what is seen from behind of a view's silhouette.
     pub(super) fn add_behind(&mut self, of: ViewId, direction: Direction, backs: &BacksOfTracks) {
-        let axis = self.drawings.frames[of].center.x;
+        let Frame { center, height } = self.drawings.frames[of];
         let own = &self.drawings.views[of];
-        let mut view = mirror::drawn_view(own, axis, direction);
+        let mut view = mirror::drawn_view(own, center.x, direction);
         let mut regions: TiVec<TrackId, Option<RegionId>> = self
             .drawings
             .tracks
@@ -292,9 +289,16 @@ impl Views {
             let outlines = [own, of_cover].map(|region| Outline::clone(&region.outline));
             let color = of_cover.color;
             view.view.regions[*cover].outline = Arc::new(union(&outlines));
-            view.view.regions[*region].color = color;
+            let inner = offset(&outlines[0], -INSET * height);
             let drawn = &mut view.drawn[*region];
-            (drawn.part, drawn.line, drawn.open_line) = (None, None, None);
+            if region < cover && area(&inner) > 0.0 {
+                // What is painted under its cover, as a face under hair, goes out of sight behind it, and keeps its paint until then.
+                view.view.regions[*region].outline = Arc::new(inner);
+            } else {
+                view.view.regions[*region].color = color;
+                drawn.part = None;
+            }
+            (drawn.line, drawn.open_line) = (None, None);
         }
         self.add(Side::Behind(of), view, of);
         let added = regions.into_iter();

@@ -27,6 +27,7 @@ use crate::diagnostic::Diagnostic;
 use crate::geometry::bounds;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
+use crate::math;
 use crate::memo::Memo;
 use crate::scene::ViewId;
 use behind::Backs;
@@ -149,11 +150,11 @@ impl Views {
     fn one_sided(&self) -> Vec<ViewId> {
         let theta = |view: &ViewId| self.drawings.views[*view].view.direction.theta;
         let from_side = |view: &ViewId| {
-            let (sin, _) = theta(view).to_radians().sin_cos();
+            let (sin, _) = math::sin_cos(theta(view).to_radians());
             sin.abs() > 1e-6
         };
         let views: Vec<ViewId> = self.drawings.views.keys().filter(from_side).collect();
-        let left = |view: &ViewId| theta(view).to_radians().sin() > 0.0;
+        let left = |view: &ViewId| math::sin(theta(view).to_radians()) > 0.0;
         let first = views.first().map(left);
         if views.iter().all(|view| Some(left(view)) == first) {
             views

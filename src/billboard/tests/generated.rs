@@ -15,7 +15,9 @@ use typed_index_collections::{TiSlice, TiVec};
 pub(in crate::billboard) use body::character;
 
 use crate::billboard::region::{Direction, Region, RegionId, View};
-use crate::geometry::{FillRule, Outline, Ring, area, bounds, intersect, resolve_overlaps, union};
+use crate::geometry::{
+    FillRule, Outline, Ring, area, bounds, convex_hull, intersect, resolve_overlaps, union,
+};
 
 /// The seeds of the characters that were looked at while the rules were written.
 pub(in crate::billboard) const FITTED: Range<u64> = 0..200;
@@ -210,7 +212,7 @@ impl Screen {
                     let sign = |bit: usize| if i & bit == 0 { -1.0 } else { 1.0 };
                     self.point(solid, DVec3::new(sign(1), sign(2), sign(4)))
                 };
-                hull((0..8).map(corner).collect())
+                convex_hull((0..8).map(corner).collect())
             }
         };
         resolve_overlaps(vec![ring], FillRule::NonZero)
@@ -336,25 +338,4 @@ fn tangents(normal: DVec3) -> [DVec3; 2] {
     };
     let right = up.cross(normal).normalize();
     [right, normal.cross(right)]
-}
-
-/// The convex hull (Andrew's monotone chain).
-fn hull(mut points: Vec<DVec2>) -> Ring {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let chain = |points: &mut dyn Iterator<Item = DVec2>| {
-        let mut chain: Ring = Vec::new();
-        for p in points {
-            while let [.., a, b] = chain[..]
-                && (b - a).perp_dot(p - b) <= 0.0
-            {
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut ring = chain(&mut points.iter().copied());
-    ring.extend(chain(&mut points.iter().rev().copied()));
-    ring
 }

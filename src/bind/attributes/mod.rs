@@ -14,8 +14,8 @@ pub(crate) use marks::{FollowedName, PartMark};
 #[cfg(test)]
 pub(in crate::bind) use motions::PerformanceEffects;
 pub(crate) use motions::{
-    Camerawork, ClipLimits, ClipRequest, MotionSource, MotionTurn, PerformanceRequest, SignedAxis,
-    TurnRequest,
+    Camerawork, ClipLimits, ClipRequest, HeldRequest, MotionSource, MotionTurn, PerformanceRequest,
+    SignedAxis, TurnRequest,
 };
 
 use typed_index_collections::{TiSlice, TiVec};

@@ -6,7 +6,7 @@ use super::SetBy;
 use crate::bind::bindings::{Bindings, DrawingString, PartId};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
-use crate::lang::value::{Setting, Value};
+use crate::lang::value::{HeldDrawing, Setting, Value};
 use crate::source::{Span, Text};
 
 use crate::lang::value::Motion;
@@ -29,6 +29,8 @@ pub struct ClipRequest<'a> {
     pub is_loop: bool,
     /// The `Limited` of this clip.
     pub limits: Option<ClipLimits>,
+    /// The `Held` of this clip.
+    pub held: Option<HeldRequest>,
     /// The `Perform` of this clip.
     pub performance: Option<PerformanceRequest<'a>>,
     /// The place of the setting.
@@ -51,6 +53,15 @@ pub struct ClipLimits {
     pub omit: usize,
     /// How many frames to hold.
     pub hold: usize,
+    /// The place of the setting.
+    pub span: Span,
+}
+
+/// Drawings that are chosen by hand, as a string asks for them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct HeldRequest {
+    /// The drawings in the order of the motion, each with its place.
+    pub drawings: Vec<(HeldDrawing, Span)>,
     /// The place of the setting.
     pub span: Span,
 }
@@ -140,9 +151,33 @@ impl<'a> PerformanceRequest<'a> {
     }
 }
 
+impl HeldRequest {
+    /// The value of a `Held` in a string.
+    fn of(setting: &Setting, string: &DrawingString) -> Option<Self> {
+        let Value::Held(drawings) = &setting.value else {
+            return None;
+        };
+        let attribute = string.annotation.attribute_at(&setting.range);
+        let place = |index: usize| {
+            let [frame, frames] = attribute?.arguments.get(2 * index..2 * index + 2)? else {
+                return None;
+            };
+            Some(frame.range.start..frames.range.end)
+        };
+        let placed = drawings.iter().enumerate().map(|(index, drawing)| {
+            let range = place(index).unwrap_or_else(|| setting.range.clone());
+            (*drawing, string.text.span(range))
+        });
+        Some(Self {
+            drawings: placed.collect(),
+            span: string.text.span(setting.range.clone()),
+        })
+    }
+}
+
 impl ClipLimits {
     /// The value of a `Limited`, which the table allows whole numbers only.
-    fn of(limited: &Setting, span: Span) -> Option<Self> {
+    pub(in crate::bind) fn of(limited: &Setting, span: Span) -> Option<Self> {
         match limited.value {
             Value::Pair([omit, hold]) => Some(Self {
                 omit: omit as usize,
@@ -187,6 +222,10 @@ impl Bindings {
                     limits: setting.limited.as_ref().and_then(|limited| {
                         ClipLimits::of(limited, string.text.span(limited.range.clone()))
                     }),
+                    held: setting
+                        .held
+                        .as_ref()
+                        .and_then(|held| HeldRequest::of(held, string)),
                     performance: setting
                         .performance
                         .as_ref()
@@ -205,6 +244,13 @@ impl Bindings {
         let source = self.setting(part, Keyword::Limited)?;
         let limits = ClipLimits::of(source.setting, self.span_of(&source))?;
         Some((source.from, limits))
+    }
+
+    /// The `Held` that applies to all clips of a part's figure, likewise.
+    pub fn held_of_clips(&self, part: PartId) -> Option<(SetBy, HeldRequest)> {
+        let source = self.setting(part, Keyword::Held)?;
+        let held = HeldRequest::of(source.setting, &self.strings[source.string])?;
+        Some((source.from, held))
     }
 
     /// The word of the `Facing` that applies to a part's figure, likewise.

@@ -384,8 +384,8 @@ impl NamedBodies {
             search.queue.push(Reverse(Way {
                 doubt,
                 steps: steps.saturating_add(through + brushed),
-                // Areas are not negative, so their bits are in their order.
-                shared: Reverse(shared.max(0.0).to_bits()),
+                // Areas are not negative, so their bits are in their order. No area may be -0, of which `max` makes either zero.
+                shared: Reverse((shared.max(0.0) + 0.0).to_bits()),
                 to,
                 from,
             }));

@@ -28,6 +28,7 @@ use super::names::OwnName;
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{Measure, Outline, measure_along};
 use crate::index::par_keys;
+use crate::math;
 use crate::memo::{Bits, Long, Memo};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
@@ -339,7 +340,7 @@ fn axes(
 
 /// The measures of an outline along an axis, degrees counter-clockwise from the drawing's right.
 fn measure_turned(outline: &Outline, degrees: f64) -> Option<Measure> {
-    let (sin, cos) = degrees.to_radians().sin_cos();
+    let (sin, cos) = math::sin_cos(degrees.to_radians());
     let measure = measure_along(outline, DVec2::new(cos, -sin))?;
     Some(Measure {
         certain: true,

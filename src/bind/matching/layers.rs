@@ -10,6 +10,7 @@ use crate::index::index_type;
 use crate::lang;
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
+use crate::source::Text;
 use crate::svg::{Drawing, GroupId, PaintKey, ShapeId};
 use crate::threads::GRAIN;
 
@@ -25,7 +26,7 @@ pub enum LayerKind {
     Tiles,
     /// A character as seen from one side: shapes in the group are its regions, not parts.
     View,
-    /// A key pose of a figure. No effect yet.
+    /// A key pose of a figure: what is drawn in the group are copies of parts, not shapes of the drawing.
     Pose,
     /// Tiles of one height, in a map.
     Level,
@@ -80,11 +81,18 @@ impl LayerKind {
 
     /// The kind of layer that a string makes of its group, if it does.
     pub(in crate::bind) fn of(annotation: &Annotation) -> Option<Self> {
-        let Annotation::Part(part) = annotation else {
-            return None;
+        let attributes = match annotation {
+            Annotation::Part(part) => &part.attributes,
+            // The copies say whose pose it is: it needs no name.
+            Annotation::Legend(attributes) => {
+                let mut keywords = attributes.iter().map(|attribute| attribute.keyword);
+                let is_pose = keywords.any(|keyword| keyword == Keyword::Pose);
+                return is_pose.then_some(Self::Pose);
+            }
+            _ => return None,
         };
         let is_set = |keyword| {
-            let mut attributes = part.attributes.iter();
+            let mut attributes = attributes.iter();
             attributes.any(|attribute| {
                 let is_of_prop = keyword == Keyword::Stand && !attribute.arguments.is_empty();
                 attribute.keyword == keyword && !is_of_prop
@@ -93,6 +101,37 @@ impl LayerKind {
         let kind = KINDS.iter().find(|(keyword, _)| is_set(*keyword));
         kind.map(|(_, kind)| *kind)
     }
+}
+
+/// Whether a text makes a pose layer of the group that holds it; `is_desc` says whether it is a description.
+pub fn makes_pose_layer(text: &Text, is_desc: bool) -> bool {
+    if is_desc && !lang::describes(text.as_str()) {
+        return false;
+    }
+    let container = if is_desc {
+        lang::Container::Desc
+    } else {
+        lang::Container::Text
+    };
+    LayerKind::of(&lang::parse(text, container).0) == Some(LayerKind::Pose)
+}
+
+/// Whether the strings, as they are now, make the same pose layers as when the drawing was read.
+pub(crate) fn has_same_pose_layers(drawing: &Drawing) -> bool {
+    let labels = drawing.labels.iter();
+    let labels = labels.filter(|(label, _)| makes_pose_layer(&label.text, false));
+    let mut made: Vec<GroupId> = labels.map(|(_, group)| *group).collect();
+    let groups = drawing.groups.iter_enumerated();
+    made.extend(groups.filter_map(|(index, group)| {
+        let desc = group.element.desc.as_ref()?;
+        makes_pose_layer(desc, true).then_some(index)
+    }));
+    made.retain(|group| *group != GroupId::ROOT);
+    let mut known = drawing.poses.layers.clone();
+    made.sort_unstable();
+    made.dedup();
+    known.sort_unstable();
+    made == known
 }
 
 /// Whether each group is a layer whose pictures are read pixel by pixel, or in one.
@@ -148,9 +187,6 @@ pub(super) fn find(
     let mut layer: TiVec<GroupId, Option<LayerId>> = ti_vec![None; drawing.groups.len()];
     let mut layers: TiVec<LayerId, Layer> = TiVec::new();
     for (index, string) in strings.iter_enumerated() {
-        let Annotation::Part(annotation) = &string.annotation else {
-            continue;
-        };
         let Some(kind) = LayerKind::of(&string.annotation) else {
             continue;
         };
@@ -178,7 +214,10 @@ pub(super) fn find(
         if kind.encloses() {
             layer[group] = Some(layers.next_key());
         }
-        let name = annotation.name.as_ref().map(|name| name.text.clone());
+        let name = match &string.annotation {
+            Annotation::Part(part) => part.name.as_ref().map(|name| name.text.clone()),
+            _ => None,
+        };
         let named_by = match string.holder {
             StringHolder::Shape(shape) => &drawing.shapes[shape].element,
             _ => &drawing.groups[group].element,
@@ -307,6 +346,11 @@ impl Bindings {
         }
         spread(drawing, &mut of_group);
         of_group
+    }
+
+    /// The pose layers, each with its index.
+    pub fn pose_layers(&self) -> impl Iterator<Item = (LayerId, &Layer)> {
+        self.layers.of_kind(LayerKind::Pose)
     }
 
     /// The views of characters, each with its index.

@@ -69,7 +69,8 @@ impl ReadString {
 /// Whether a string belongs to a part, rather than to a group or to the whole drawing.
 pub(in crate::bind) fn wants_part(annotation: &Annotation) -> bool {
     match annotation {
-        Annotation::Unused | Annotation::Legend(_) => true,
+        Annotation::Unused => true,
+        Annotation::Legend(_) => LayerKind::of(annotation).is_none(),
         Annotation::Part(part) => {
             let mut attributes = part.attributes.iter();
             // A string with `Walk` belongs to a line, the path.

@@ -3,7 +3,7 @@
 use crate::bind::attributes::PartAttributes;
 use crate::bind::bindings::{DrawingString, PartKind};
 use crate::bind::hierarchy::Tree;
-use crate::bind::matching::Matched;
+use crate::bind::matching::{LayerKind, Matched};
 use crate::bind::reports::misplaced::is_of_props;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
@@ -11,18 +11,23 @@ use crate::lang::keyword::Keyword;
 use crate::source::Span;
 use crate::svg::Drawing;
 
-/// Reports `Limited`, `Bone`, `Carry`, `Swing` and `Perform`, each once, in a drawing without a motion. In strings of props, which never move,
+/// Reports `Limited`, `Held`, `Bone`, `Carry`, `Swing` and `Perform`, each once, in a drawing without a motion. In strings of props, which never move,
 /// they are reported elsewhere.
 pub(super) fn without_motion(
     drawing: &Drawing,
     matched: &Matched,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    if matched.asks_for_motion() {
+    let is_posed = matched
+        .layers
+        .iter()
+        .any(|layer| layer.kind == LayerKind::Pose);
+    if is_posed || matched.asks_for_motion() {
         return;
     }
     for keyword in [
         Keyword::Limited,
+        Keyword::Held,
         Keyword::Bone,
         Keyword::Carry,
         Keyword::Swing,

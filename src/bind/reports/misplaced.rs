@@ -8,7 +8,7 @@ use crate::lang::keyword::Keyword;
 use crate::svg::Drawing;
 
 /// The attributes of parts that say how they move.
-const MOVE: [Keyword; 10] = [
+const MOVE: [Keyword; 11] = [
     Keyword::Bone,
     Keyword::Carry,
     Keyword::Bend,
@@ -18,6 +18,7 @@ const MOVE: [Keyword; 10] = [
     Keyword::Follow,
     Keyword::Motion,
     Keyword::Limited,
+    Keyword::Held,
     Keyword::Perform,
 ];
 

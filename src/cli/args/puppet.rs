@@ -48,7 +48,7 @@ fn page(text: &str) -> Result<DVec2, String> {
         (80.0..=2000.0).contains(&side).then_some(side)
     };
     match text.to_lowercase().as_str() {
-        "a4" => Ok(DVec2::new(210.0, 297.0)),
+        "a4" => Ok(crate::puppet::A4),
         "letter" => Ok(DVec2::new(215.9, 279.4)),
         _ => sides
             .and_then(|(width, height)| Some(DVec2::new(side(width)?, side(height)?)))

@@ -14,6 +14,7 @@ use super::shapes::Shape;
 use super::{Cover, node_depths::quantile};
 use crate::bind::{Garment, Part, PartId, Seen};
 use crate::geometry::Outline;
+use crate::math;
 use crate::solid::{Girth, Profile, Section};
 
 /// The number of sections.
@@ -287,6 +288,6 @@ fn waist(girth: &Girth) -> Option<[f64; 2]> {
 fn limit(girth: &mut Girth, most: f64) {
     for section in girth.sections.iter_mut().flatten() {
         let share = section.depth / most;
-        section.depth /= (1.0 + share.powf(TURN)).powf(1.0 / TURN);
+        section.depth /= math::powf(1.0 + math::powf(share, TURN), 1.0 / TURN);
     }
 }

@@ -17,6 +17,7 @@ use super::{Arrangement, BackSkin, Behind, Layers, NodeDepth};
 use crate::bind::{PartId, VehiclePart};
 use crate::figure::PartFrames;
 use crate::geometry::Frame;
+use crate::math;
 use crate::scene::WorldTransform;
 use crate::solid::{Body, Girth, Lay, LayForm, Pile, RecentHeights, Solid, Toes};
 
@@ -270,7 +271,7 @@ impl Lifting<'_> {
         let stroke = context.drawing.shapes[part.shape].stroke.as_ref();
         let radius = stroke.map_or(0.0, |stroke| stroke.width() / 2.0);
         let deviation = CORD_DEVIATION * context.invisible / radius;
-        let step = 2.0 * (1.0 - deviation.clamp(1e-3, 1.0)).acos();
+        let step = 2.0 * math::acos(1.0 - deviation.clamp(1e-3, 1.0));
         ((PI / step).ceil() as u32).max(CORD_SEGMENTS)
     }
 
@@ -282,7 +283,7 @@ impl Lifting<'_> {
         let height = shape.height();
         let factor = toes.reach / height;
         (height > 0.0 && factor > 1.0).then(|| Toes {
-            down: DVec2::from_angle(-node.angle).rotate(-DVec2::Y),
+            down: math::direction(-node.angle).rotate(-DVec2::Y),
             // Frames have y up.
             between: toes
                 .down
@@ -611,5 +612,6 @@ impl Lifting<'_> {
 
 /// From the frame of a node to the plane of the drawing, y up, model units.
 fn to_plane(node: &Frame, scale: f64) -> DAffine2 {
-    DAffine2::from_translation(node.origin * scale) * DAffine2::from_angle(node.angle)
+    DAffine2::from_translation(node.origin * scale)
+        * DAffine2::from_mat2(math::rotation(node.angle))
 }

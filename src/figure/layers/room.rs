@@ -1,5 +1,6 @@
 //! Room to turn: how far an arm that is drawn over the trunk lies in front of it, so that it can swing without sinking in.
 
+use crate::math;
 use glam::DVec2;
 
 use super::super::FigureContext;
@@ -141,7 +142,7 @@ impl Limb<'_> {
             .filter(|(point, _)| self.front_of_trunk(*point).is_some());
         let share = over.count() as f64 / (points.len() as f64).max(1.0);
         let turns = (-SWING..=SWING).step_by(STEP);
-        let turns = turns.map(|degrees| DVec2::from_angle(f64::from(degrees).to_radians()));
+        let turns = turns.map(|degrees| math::direction(f64::from(degrees).to_radians()));
         let missing = |turn: DVec2| {
             let missing = points.iter().filter_map(|(point, own)| {
                 let turned = self.joint + turn.rotate(point - self.joint);

@@ -19,6 +19,10 @@ pub fn check(
     after: &Analysis,
     change: &Change,
 ) -> Result<Option<String>, Refusal> {
+    if matches!(change, Change::Write { .. } | Change::Apply { .. }) {
+        // What is typed is wrong until it is whole; that other strings stay as they are is in the nature of the edits.
+        return is_readable(before, after).map(|()| None);
+    }
     no_worse(before, after)?;
     if *change == Change::NameParts {
         // All that has no name may come to hang elsewhere, and pairs of limbs in one shape become two parts.
@@ -105,9 +109,7 @@ fn parent_of(analysis: &Analysis, part: &Part) -> Option<(PartId, ShapeId)> {
 /// # Errors
 /// If it has one.
 pub(crate) fn no_worse(before: &Analysis, after: &Analysis) -> Result<(), Refusal> {
-    if before.is_sound() && !after.is_sound() {
-        return Err(Refusal::new("the drawing could not be read any more"));
-    }
+    is_readable(before, after)?;
     let errors = |analysis: &Analysis| -> Vec<String> {
         let found = analysis.diagnostics().iter();
         let errors = found.filter(|found| found.severity() == Severity::Error);
@@ -119,6 +121,14 @@ pub(crate) fn no_worse(before: &Analysis, after: &Analysis) -> Result<(), Refusa
     }
     if new.len() > old.len() {
         return Err(Refusal::new("there would be one more error"));
+    }
+    Ok(())
+}
+
+/// Whether a drawing can still be read.
+fn is_readable(before: &Analysis, after: &Analysis) -> Result<(), Refusal> {
+    if before.is_sound() && !after.is_sound() {
+        return Err(Refusal::new("the drawing could not be read any more"));
     }
     Ok(())
 }

@@ -25,6 +25,8 @@ pub struct MotionForm {
     pub summary: &'static str,
     /// The words for clips that come along, each with a line about it.
     pub choices: Vec<[&'static str; 2]>,
+    /// The motion files that a clip can play, as the drawing names them.
+    pub files: Vec<String>,
     /// Its clips, in the order of the strings.
     pub clips: Vec<ClipForm>,
     /// One that is not there yet.
@@ -40,6 +42,10 @@ pub struct ClipForm {
     pub arguments: String,
     /// The word of a clip that comes along; empty for the one that fits. `None` for a file, and for clips that play in turn.
     pub word: Option<String>,
+    /// The file that it plays; `None` for all others.
+    pub file: Option<String>,
+    /// The axis of the file that points up, as it is written.
+    pub up: Option<String>,
     /// Its name, as it is written.
     pub name: Option<String>,
     /// `own` if a string of the figure says it, `default` for a string for all figures.
@@ -50,10 +56,42 @@ pub struct ClipForm {
     pub flags: Vec<Switch>,
     /// How long it plays.
     pub seconds: ArgumentField,
+    /// Where in the file it begins.
+    pub start: ArgumentField,
+    /// Where in the file it ends.
+    pub end: ArgumentField,
     /// How fast it plays.
     pub speed: ArgumentField,
     /// Its limited animation.
     pub limited: Field,
+    /// The drawings that are chosen by hand.
+    pub held: Field,
+    /// The clip in the model; `None` if the figure does not play it.
+    pub plays: Option<PlayedClip>,
+}
+
+/// A clip in the model.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct PlayedClip {
+    /// Its name, which clips of other figures may have too.
+    pub name: String,
+    /// The part that it moves as the figure's root. The motion decides: the hips may be another part than the one that carries the figure.
+    pub root: String,
+}
+
+/// What a change says of a clip: the words behind its `Motion`, its `Limited` and its `Held`.
+#[derive(Clone, Copy)]
+pub(super) struct ClipWords<'a> {
+    pub motion: &'a str,
+    pub limited: Option<&'a str>,
+    pub held: Option<&'a str>,
+}
+
+impl<'a> ClipWords<'a> {
+    /// What belongs to the `Motion`, in the order in which it is written.
+    fn belonging(self) -> [(Keyword, Option<&'a str>); 2] {
+        [(Keyword::Limited, self.limited), (Keyword::Held, self.held)]
+    }
 }
 
 /// A `Motion` in a string.
@@ -159,15 +197,17 @@ impl Analysis {
                 .iter()
                 .map(|word| [word.name, word.summary])
                 .collect(),
+            files: vec![],
             clips: motions
                 .iter()
-                .map(|written| self.clip_form(figure.root, Some(written)))
+                .map(|written| self.clip_form(&figure, Some(written)))
                 .collect(),
-            new: self.clip_form(figure.root, None),
+            new: self.clip_form(&figure, None),
         })
     }
 
-    fn clip_form(&self, root: PartId, written: Option<&Written<'_>>) -> ClipForm {
+    fn clip_form(&self, figure: &FigureGroup, written: Option<&Written<'_>>) -> ClipForm {
+        let root = figure.root;
         let strings = &self.bindings().strings;
         let attribute = written.map(|written| {
             let attributes = strings[written.string].annotation.attributes();
@@ -183,15 +223,33 @@ impl Analysis {
             MotionSource::Fitting => Some(String::new()),
             MotionSource::File(_) => None,
         });
+        let file = only.and_then(|turn| match &turn.source {
+            MotionSource::File(file) => Some(file.clone()),
+            MotionSource::BuiltIn(_) | MotionSource::Fitting => None,
+        });
+        let up = only.and_then(|turn| turn.up).map(|up| {
+            let sign = if up.negative { '-' } else { '+' };
+            format!("{sign}{}", ["x", "y", "z"][up.axis])
+        });
         let speed = only.map(|turn| turn.speed).filter(|speed| *speed != 1.0);
         let seconds = only.and_then(|turn| turn.seconds);
-        let limited = self.limited_of(root, written);
+        let requested = written.map(|written| {
+            strings[written.string]
+                .text
+                .span(written.setting.range.clone())
+        });
+        let mut clips = self.compiled.clips.iter();
+        let played = clips
+            .find(|clip| Some(clip.requested_at) == requested && figure.parts.contains(&clip.root));
+        let said = |keyword| self.field(root, keyword, self.said_of_clip(root, written, keyword));
         ClipForm {
             words: attribute.map(|(string, attribute)| self.words_of(string, attribute, true)),
             arguments: attribute.map_or_else(String::new, |(string, attribute)| {
                 self.words_of(string, attribute, false)
             }),
             word,
+            file,
+            up,
             name: motion
                 .and_then(|motion| motion.clip.as_deref())
                 .map(|name| quoted_if_needed(name, NamePlace::Argument)),
@@ -202,8 +260,15 @@ impl Analysis {
                 attribute.map(|(_, attribute)| attribute),
             ),
             seconds: self.number(root, "seconds", seconds, None),
+            start: self.number(root, "start", only.and_then(|turn| turn.from), None),
+            end: self.number(root, "end", only.and_then(|turn| turn.to), None),
             speed: self.number(root, "factor", speed, Some(1.0)),
-            limited: self.field(root, Keyword::Limited, limited),
+            limited: said(Keyword::Limited),
+            held: said(Keyword::Held),
+            plays: played.map(|clip| PlayedClip {
+                name: clip.name.clone(),
+                root: self.bindings().parts[clip.root].name.clone(),
+            }),
         }
     }
 
@@ -215,21 +280,29 @@ impl Analysis {
         }
     }
 
-    /// The `Limited` of a clip, also if it applies to all of them.
-    fn limited_of(&self, root: PartId, written: Option<&Written<'_>>) -> Option<Said> {
-        let own =
-            written.and_then(|written| Some((written.string, written.setting.limited.as_ref()?)));
-        if let Some((string, limited)) = own {
+    /// The `Limited` or `Held` of a clip, also if it applies to all of them.
+    fn said_of_clip(
+        &self,
+        root: PartId,
+        written: Option<&Written<'_>>,
+        keyword: Keyword,
+    ) -> Option<Said> {
+        let own = written.and_then(|written| {
+            let own = match keyword {
+                Keyword::Held => &written.setting.held,
+                _ => &written.setting.limited,
+            };
+            Some((written.string, own.as_ref()?))
+        });
+        if let Some((string, own)) = own {
             return Some(Said {
-                value: limited.text.clone(),
+                value: own.text.clone(),
                 from: "own",
                 string: Some(string),
             });
         }
         let resolved = self.bindings().resolved(self.drawing(), root);
-        let found = resolved
-            .into_iter()
-            .find(|one| one.keyword == Keyword::Limited)?;
+        let found = resolved.into_iter().find(|one| one.keyword == keyword)?;
         Some(Said {
             value: found.value,
             // It is of all clips, and cannot be taken away from one.
@@ -255,12 +328,12 @@ impl Analysis {
         }
     }
 
-    /// Writes a clip of a part's figure: its `Motion` and its `Limited`; with `None`, takes it away.
+    /// Writes a clip of a part's figure: its `Motion` and what belongs to it; with `None`, takes it away.
     pub(super) fn set_clip(
         &self,
         name: &str,
         clip: usize,
-        wanted: Option<(&str, Option<&str>)>,
+        wanted: Option<ClipWords<'_>>,
         place: Place,
     ) -> Result<Vec<Edit>, Refusal> {
         let part = self.part_to_change(name)?;
@@ -272,16 +345,15 @@ impl Analysis {
         let change = |place| Change::Clip {
             part: name.to_owned(),
             clip,
-            motion: wanted.map(|(motion, _)| motion.to_owned()),
-            limited: wanted.and_then(|(_, limited)| limited.map(str::to_owned)),
+            motion: wanted.map(|words| words.motion.to_owned()),
+            limited: wanted.and_then(|words| words.limited.map(str::to_owned)),
+            held: wanted.and_then(|words| words.held.map(str::to_owned)),
             place,
         };
         let motions = self.motions(&figure);
         let Some(written) = motions.get(clip) else {
             return match wanted {
-                Some((motion, limited)) if clip == motions.len() => {
-                    self.add_clip(figure.root, motion, limited)
-                }
+                Some(words) if clip == motions.len() => self.add_clip(figure.root, words),
                 Some(_) => Err(Refusal::new(format!(
                     "the figure of `{name}` has no clip of this number any more"
                 ))),
@@ -295,7 +367,7 @@ impl Analysis {
         let attributes = string.annotation.attributes();
         let attribute = &attributes[written.at];
         let belonging = self.belonging(written);
-        let Some((motion, limited)) = wanted else {
+        let Some(words) = wanted else {
             let goes = |at: usize| at == written.at || belonging.contains(&at);
             if let Some(label) = self.label_of_only(written, &goes) {
                 return Ok(vec![Edit {
@@ -310,41 +382,41 @@ impl Analysis {
             );
         };
         let text = string.text.as_str();
-        let wanted = self.wanted(Keyword::Motion, motion)?;
+        let wanted = self.wanted(Keyword::Motion, words.motion)?;
         let mut pieces = self.changed(text, attribute, &wanted, place, &change)?;
-        let mut limits = belonging.iter().copied();
-        let last = limits.rfind(|at| attributes[*at].keyword == Keyword::Limited);
-        match (last, limited) {
-            (None, None) => {}
-            (None, Some(limited)) => {
-                let words = self.wanted(Keyword::Limited, limited)?.words;
-                let end = attribute.range.end;
-                pieces.push((end..end, format!(" Limited {words}")));
+        // Where what is not there yet is written: behind what is written before it.
+        let mut end = attribute.range.end;
+        for (keyword, said) in words.belonging() {
+            let is_own = |at: usize| belonging.contains(&at) && attributes[at].keyword == keyword;
+            let last = belonging.iter().copied().rfind(|at| is_own(*at));
+            match (last, said) {
+                (None, None) => {}
+                (None, Some(said)) => {
+                    let words = self.wanted(keyword, said)?.words;
+                    pieces.push((end..end, format!(" {} {words}", keyword.name())));
+                }
+                (Some(at), Some(said)) => {
+                    let wanted = self.wanted(keyword, said)?;
+                    pieces.extend(self.changed(text, &attributes[at], &wanted, place, &change)?);
+                }
+                (Some(_), None) => {
+                    pieces.extend::<Vec<Piece>>(without(&string.annotation, is_own));
+                }
             }
-            (Some(at), Some(limited)) => {
-                let wanted = self.wanted(Keyword::Limited, limited)?;
-                pieces.extend(self.changed(text, &attributes[at], &wanted, place, &change)?);
-            }
-            (Some(_), None) => {
-                let is_limited = |at: usize| {
-                    belonging.contains(&at) && attributes[at].keyword == Keyword::Limited
-                };
-                pieces.extend::<Vec<Piece>>(without(&string.annotation, is_limited));
-            }
+            end = last.map_or(end, |at| attributes[at].range.end);
         }
+        pieces.sort_by_key(|(range, _)| range.start);
         self.rewritten(written.string, &joined(pieces), Means::Clips)
     }
 
     /// Adds a clip to the string of the part that carries a figure.
-    fn add_clip(
-        &self,
-        root: PartId,
-        motion: &str,
-        limited: Option<&str>,
-    ) -> Result<Vec<Edit>, Refusal> {
-        let mut words = self.wanted(Keyword::Motion, motion)?.words;
-        if let Some(limited) = limited {
-            words += &format!(" Limited {}", self.wanted(Keyword::Limited, limited)?.words);
+    fn add_clip(&self, root: PartId, said: ClipWords<'_>) -> Result<Vec<Edit>, Refusal> {
+        let mut words = self.wanted(Keyword::Motion, said.motion)?.words;
+        for (keyword, said) in said.belonging() {
+            if let Some(said) = said {
+                let own = self.wanted(keyword, said)?.words;
+                words += &format!(" {} {own}", keyword.name());
+            }
         }
         match self.bindings().parts[root].string {
             Some(string) => {
@@ -425,6 +497,7 @@ fn parameter(name: &str) -> Option<(&'static str, Bounds)> {
 /// All that a `Motion` says.
 fn said(setting: &Setting) -> String {
     let text = |setting: &Option<Box<Setting>>| setting.as_ref().map(|one| one.text.clone());
-    let (limited, performed) = (text(&setting.limited), text(&setting.performance));
-    format!("{} {limited:?} {performed:?}", setting.text)
+    let [limited, held, performed] =
+        [&setting.limited, &setting.held, &setting.performance].map(text);
+    format!("{} {limited:?} {held:?} {performed:?}", setting.text)
 }

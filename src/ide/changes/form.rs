@@ -11,6 +11,7 @@ use crate::lang::keyword::kinds::{self, KINDS};
 use crate::lang::keyword::signature::{Bounds, Form, Parameter, Restriction, Takes, Usual};
 use crate::lang::keyword::{Keyword, Row};
 use crate::lang::{Container, parse};
+use crate::math;
 use crate::source::Text;
 
 /// What can be changed about a part.
@@ -132,6 +133,17 @@ pub enum Control {
     Text,
     /// Names, each in quotes if it is more than one word.
     Names,
+}
+
+impl PartForm {
+    /// The form, in which clips can also play these motion files.
+    #[must_use]
+    pub fn with_motion_files(mut self, files: Vec<String>) -> Self {
+        if let Some(motion) = &mut self.motion {
+            motion.files = files;
+        }
+        self
+    }
 }
 
 impl Analysis {
@@ -300,7 +312,7 @@ impl Analysis {
             },
             (Keyword::Axis, _) => {
                 let axis = part.node_measure().axis;
-                (-axis.y).atan2(axis.x).to_degrees()
+                math::atan2(-axis.y, axis.x).to_degrees()
             }
             (Keyword::Origin, None) => part.origin.to_array()[at.min(1)],
             (Keyword::Alpha, _) => self.bindings().material_factors(drawing, index).color[3],
@@ -475,7 +487,7 @@ fn nice(number: f64) -> f64 {
     if !(number.is_finite() && number > 0.0) {
         return 1.0;
     }
-    let power = 10f64.powi(number.log10().floor() as i32);
+    let power = 10f64.powi(math::log10(number).floor() as i32);
     let digit = [1.0, 2.0, 5.0]
         .into_iter()
         .find(|digit| number <= digit * power * (1.0 + 1e-9));

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::Change;
 use crate::diagnostic::{Edit, applied};
-use crate::source::Span;
+use crate::source::{Change as Stretch, Span};
 
 /// How many bytes of texts a history keeps; the oldest steps are forgotten first.
 const MAX_BYTES: usize = 64 << 20;
@@ -72,6 +72,22 @@ impl History {
         while self.done.len() > MAX_STEPS || self.done.len() > 1 && bytes(&self.done) > MAX_BYTES {
             self.done.remove(0);
         }
+    }
+
+    /// Makes the last step one with what was done after it, up to this text of the drawing.
+    pub fn go_on(&mut self, change: Change, now: &str) {
+        let Some(last) = self.done.pop() else { return };
+        self.undone.clear();
+        let before = applied(&last.after, &last.inverse);
+        let stretch = Stretch::between(&before, now);
+        if stretch.is_empty() {
+            return;
+        }
+        let edit = Edit {
+            span: Span::new(stretch.start, stretch.old_end),
+            text: now[stretch.start..stretch.new_end].to_owned(),
+        };
+        self.add(Step::new(change, &before, &[edit]));
     }
 
     /// The step that would be undone next.

@@ -6,32 +6,43 @@
 
 mod check;
 mod clips;
+mod elements;
 mod form;
 mod given;
 mod history;
 mod open_groups;
 mod place;
+mod poses;
 mod same;
+mod session;
 mod settings;
 mod strings;
 mod taken;
 #[cfg(test)]
 mod tests;
 mod unnamed;
+mod written;
 
 pub use check::check;
-pub(crate) use check::no_worse;
+use check::no_worse;
+pub(crate) use form::PartForm;
 pub use history::{History, Step, rebased};
+pub use poses::PartTurn;
+pub(crate) use session::{Action, Done, Reading, Session, Steps};
 pub(crate) use unnamed::Suggestion;
 
 pub(super) use given::{as_description, string_for};
 
+use clips::ClipWords;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Analysis, Subject, Which};
 use crate::bind::{PartId, PartKind};
 use crate::diagnostic::Edit;
 use crate::lang::keyword::Keyword;
+
+/// So much of a text is in the title of what was written.
+const MOST_LETTERS: usize = 40;
 
 /// A change of a drawing. Parts are called as in `inspect`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -93,9 +104,17 @@ pub enum Change {
         /// The arguments of its own `Limited`, if it has one.
         #[serde(default)]
         limited: Option<String>,
+        /// The arguments of its own `Held`, likewise.
+        #[serde(default)]
+        held: Option<String>,
         /// [`Place::Own`] also changes it for the other figures that play it.
         #[serde(default)]
         place: Place,
+    },
+    /// The pose of a figure becomes its next key pose, in a layer of its own behind everything else.
+    KeepPose {
+        /// The parts that are turned. All others of their figures are as they are drawn.
+        turns: Vec<PartTurn>,
     },
     /// A variable of the drawing gets a number.
     Variable {
@@ -103,6 +122,28 @@ pub enum Change {
         name: String,
         /// Its value.
         value: f64,
+    },
+    /// A text is written otherwise. Whoever types it may make mistakes: it is made also if the drawing has more errors then.
+    Write {
+        /// Where it begins in the drawing, in bytes.
+        start: usize,
+        /// What it was.
+        was: String,
+        /// What it becomes: one line.
+        text: String,
+        /// What is written with the same number is undone at once.
+        typing: u64,
+    },
+    /// Something that an editor offers is done: a fix, or another way to write a string.
+    Apply {
+        /// Where the text begins at which it was offered, in bytes.
+        start: usize,
+        /// The text.
+        was: String,
+        /// Where in it, in bytes.
+        at: usize,
+        /// What it is called.
+        title: String,
     },
 }
 
@@ -148,7 +189,11 @@ impl Change {
             | Self::Hang { part, .. }
             | Self::LeaveOut { part }
             | Self::Clip { part, .. } => Some(part),
-            Self::NameParts | Self::Variable { .. } => None,
+            Self::NameParts
+            | Self::KeepPose { .. }
+            | Self::Variable { .. }
+            | Self::Write { .. }
+            | Self::Apply { .. } => None,
         }
     }
 
@@ -178,7 +223,10 @@ impl Change {
                 motion: Some(motion),
                 ..
             } => format!("Motion {motion}").trim_end().to_owned(),
+            Self::KeepPose { .. } => "a key pose".to_owned(),
             Self::Variable { name, .. } => format!("the number {name}"),
+            Self::Write { text, .. } => format!("the string {}", shortened(text)),
+            Self::Apply { title, .. } => title.clone(),
         }
     }
 }
@@ -230,12 +278,27 @@ pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal>
             clip,
             motion,
             limited,
+            held,
             place,
         } => {
-            let wanted = motion.as_deref().map(|motion| (motion, limited.as_deref()));
+            let wanted = motion.as_deref().map(|motion| ClipWords {
+                motion,
+                limited: limited.as_deref(),
+                held: held.as_deref(),
+            });
             analysis.set_clip(part, *clip, wanted, *place)?
         }
+        Change::KeepPose { turns } => analysis.keep_pose(turns)?,
         Change::Variable { name, value } => analysis.set_variable(name, *value)?,
+        Change::Write {
+            start, was, text, ..
+        } => analysis.write_text(*start, was, text)?,
+        Change::Apply {
+            start,
+            was,
+            at,
+            title,
+        } => analysis.apply(*start, was, *at, title)?,
     };
     edits.sort_by_key(|edit| edit.span);
     edits.dedup();
@@ -272,7 +335,7 @@ pub fn can_set(keyword: Keyword) -> bool {
     );
     let is_of_clips = matches!(
         keyword,
-        Keyword::Motion | Keyword::Limited | Keyword::Perform
+        Keyword::Motion | Keyword::Limited | Keyword::Held | Keyword::Perform
     );
     let in_part = crate::lang::keyword::AttributeString::Part;
     keyword.row().allowed.permits(in_part)
@@ -335,6 +398,16 @@ impl Analysis {
             .filter(|other| other.element.span == span && span.start < span.end);
         alike.count() != 1
     }
+}
+
+/// The beginning of a text, for a title.
+fn shortened(text: &str) -> String {
+    let mut letters = text.chars();
+    let mut short: String = letters.by_ref().take(MOST_LETTERS).collect();
+    if letters.next().is_some() {
+        short.push('…');
+    }
+    short
 }
 
 /// A kind of part for people.

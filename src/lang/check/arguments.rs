@@ -75,9 +75,9 @@ impl Checker<'_> {
         let mut values = vec![];
         let mut valid = true;
         for (index, argument) in arguments.iter().enumerate() {
-            let parameter = match form.parameters.get(index).or(form.parameters.last()) {
-                Some(parameter) if index < form.max_arguments() => parameter,
-                _ => {
+            let parameter = match form.parameter_index(index) {
+                Some(index) => &form.parameters[index],
+                None => {
                     let ends = self.too_many(callee, &arguments[index..]);
                     let enough = form.accepts(values.len());
                     return (valid && ends && enough).then_some(values);
@@ -334,7 +334,8 @@ impl Checker<'_> {
     }
 
     fn too_few(&mut self, callee: Callee<'_>, form: &Form, arguments: &[Argument]) {
-        let missing = form.parameters.get(arguments.len());
+        let missing = form.parameter_index(arguments.len());
+        let missing = missing.map(|index| &form.parameters[index]);
         let end = arguments
             .last()
             .map_or(callee.range.end, |last| last.range.end);

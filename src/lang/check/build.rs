@@ -11,8 +11,8 @@ use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, kinds};
 use crate::lang::parameter::form_by_first_argument;
 use crate::lang::value::{
-    Camerawork, Ground, KindArguments, Mark, Origin, Performance, PerformanceEffects, Shape,
-    SignedAxis, Value,
+    Camerawork, Ground, HeldDrawing, KindArguments, Mark, Origin, Performance, PerformanceEffects,
+    Pose, Shape, SignedAxis, Value,
 };
 
 impl Checker<'_> {
@@ -40,6 +40,8 @@ impl Checker<'_> {
         let values = self.match_arguments(callee, form, &attribute.arguments)?;
         let value = match attribute.keyword {
             Keyword::Perform => Value::Performance(performance(attribute, &values)?),
+            Keyword::Held => Value::Held(self.held(attribute, &values)?),
+            Keyword::Pose => Value::Pose(pose(attribute, &values)?),
             keyword => value_of(keyword, &values)?,
         };
         if let Value::Axes(axes) = &value {
@@ -120,6 +122,40 @@ impl Checker<'_> {
         self.diagnostics
             .push(diagnostic.help("use each of x, y and z once: `%Axes +x +y +z`"));
         None
+    }
+
+    /// The drawings of `Held`: each once, in the order of the motion.
+    fn held(
+        &mut self,
+        attribute: &Attribute,
+        values: &[ArgumentValue],
+    ) -> Option<Vec<HeldDrawing>> {
+        let mut held: Vec<HeldDrawing> = vec![];
+        for (values, arguments) in values.chunks(2).zip(attribute.arguments.chunks(2)) {
+            let [ArgumentValue::Number(frame), ArgumentValue::Number(frames)] = values else {
+                return None;
+            };
+            let (frame, frames) = (*frame as usize, *frames as usize);
+            if let Some(before) = held.last().filter(|before| before.frame >= frame) {
+                let range = &arguments.first()?.range;
+                let message = match before.frame == frame {
+                    true => format!("`Held` lists the drawing {frame} twice"),
+                    false => format!(
+                        "`Held` lists the drawing {frame} behind the drawing {}, which comes later",
+                        before.frame
+                    ),
+                };
+                let diagnostic = self.diagnostic(Code::OutOfRange, range, message);
+                self.diagnostics.push(
+                    diagnostic.help(
+                        "write each drawing once, in the order of the motion: `Held 7 3 12 0`",
+                    ),
+                );
+                return None;
+            }
+            held.push(HeldDrawing { frame, frames });
+        }
+        Some(held)
     }
 
     /// Left-handed axes would mirror the figure.
@@ -326,6 +362,21 @@ fn performance(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Perfor
         },
         emphasized,
         keys: <[usize; 2]>::try_from(keys).ok(),
+    })
+}
+
+fn pose(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Pose> {
+    let (ArgumentValue::Number(seconds), others) = values.split_first()? else {
+        return None;
+    };
+    let clip = match others {
+        [ArgumentValue::Text(clip)] => Some(clip.clone()),
+        _ => None,
+    };
+    Some(Pose {
+        seconds: *seconds,
+        clip,
+        is_loop: has_flag(attribute, 'l'),
     })
 }
 

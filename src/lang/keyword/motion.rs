@@ -33,11 +33,15 @@ static OF_FILES: [Parameter; 7] = [
     choice("from", &vocabulary::FROM, "where it begins"),
     number(
         "start",
-        Bounds::NOT_NEGATIVE,
+        Bounds::NOT_NEGATIVE.usually(Usual::Between(0., 10.)),
         "in seconds of the file, which begins at 0",
     ),
     choice("to", &vocabulary::TO, "where it ends"),
-    number("end", Bounds::POSITIVE, "in seconds of the file"),
+    number(
+        "end",
+        Bounds::POSITIVE.usually(Usual::Between(0., 10.)),
+        "in seconds of the file",
+    ),
     SPEED_WORD,
     FACTOR,
 ];
@@ -53,6 +57,18 @@ static FRAMES: [Parameter; 2] = [
         "hold",
         Bounds::COUNT.usually(Usual::Between(0., 60.)),
         "frames to hold",
+    ),
+];
+static DRAWING: [Parameter; 2] = [
+    number(
+        "frame",
+        Bounds::new(1., 1e6, Restriction::Integer),
+        "a drawing: a frame of the motion, counted from 1",
+    ),
+    number(
+        "frames",
+        Bounds::COUNT,
+        "for how many frames it stands; 0 leaves it out",
     ),
 ];
 const TRACK: Parameter = parameter(
@@ -258,6 +274,25 @@ pub(super) static LIMITED: Row = Row {
     ..Row::ROW
 };
 
+pub(super) static HELD: Row = Row {
+    forms: &[Form::new(&DRAWING, &[2]).listed()],
+    allowed: Allowed::PartAndDrawing,
+    default: "as `Limited` says",
+    summary: "drawings of a clip that are chosen by hand, and how long each stands",
+    long: "A list of drawings, in their order: a frame of the motion, and for how many frames its \
+           drawing stands. 0 leaves the drawing out, and the one before it stands for longer. \
+           What stands for longer covers the drawings behind it; behind one that stands for \
+           less, the next begins sooner. The clip is as long as before.\n\n\
+           All other drawings stand as `Limited` says, or for a frame each without it. A \
+           drawing that `Limited` leaves out or covers is back if it is in the list. On the \
+           page of `okoshi preview` drawings are dragged, and nobody counts frames.\n\n\
+           Behind a `Motion`, `Held` belongs to that clip: `Motion walk Held 7 3 12 0`. \
+           Elsewhere it applies to all clips of the figure, or of the drawing in a `%` string, \
+           that have no `Held` of their own.",
+    example: "%Held 7 3 12 0",
+    ..Row::ROW
+};
+
 pub(super) static SIZE: Row = Row {
     forms: &[Form::one(&number(
         "factor",
@@ -284,17 +319,34 @@ pub(super) static WALK: Row = Row {
     ..Row::PLANNED
 };
 
-pub(super) static POSE: Row = Row {
-    forms: &[Form::one(&number(
+static POSE_PARAMETERS: [Parameter; 2] = [
+    number(
         "seconds",
-        Bounds::NOT_NEGATIVE,
-        "when the pose is reached",
-    ))],
-    summary: "makes the string's layer a key pose",
-    long: "Copy the figure to a layer of its own and move its parts there: that is the figure's \
-           pose at the given second.",
+        Bounds::new(0., 3600., Restriction::None).usually(Usual::Between(0., 4.)),
+        "when the pose is reached, from the beginning of the clip",
+    ),
+    parameter(
+        "clip",
+        Takes::Text,
+        "the name of the clip, `poses` if none is given",
+    ),
+];
+
+pub(super) static POSE: Row = Row {
+    forms: &[Form::new(&POSE_PARAMETERS, &[1, 2])],
+    flags: &[flag('l', "the clip is a loop: it ends with its first pose")],
+    summary: "makes the string's layer a key pose: copies of parts, moved to where they are then",
+    long: "Draw key poses as in a cartoon: add a layer, clone the parts that move into it (in Inkscape, \
+           Alt+D and Shift+Page Up, or Keep pose on the page of `okoshi preview`), turn the clones, and write \
+           this string into the layer. Nothing in it is built, and it may be hidden or half transparent.\n\n\
+           Each part is turned about its joint as its copy is turned; a part on which nothing \
+           but others hang also moves. A part without a copy keeps the pose of the layer before. Several layers \
+           play in their order, from bottom to top, smoothly from one pose to the next. The clip begins with the pose \
+           at 0 seconds, or with the drawing itself.\n\n\
+           The name of a part before `$` says whose poses they are. It may be missing, \
+           as the copies say so, too.",
     example: "Boy$Pose 1.5",
-    ..Row::PLANNED
+    ..Row::ROW
 };
 
 pub(super) static PERFORM: Row = Row {

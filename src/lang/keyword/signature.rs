@@ -199,6 +199,29 @@ impl Form {
         }
     }
 
+    /// The form as a list: its parameters again and again.
+    pub(super) const fn listed(self) -> Self {
+        Self {
+            repeats: true,
+            ..self
+        }
+    }
+
+    /// Whether it is a list of its parameters.
+    pub fn is_list(&self) -> bool {
+        self.repeats && self.options.is_empty()
+    }
+
+    /// The index of the parameter that argument `index` is for. The last of several names stands for all further arguments. `None`
+    /// after the last parameter.
+    pub fn parameter_index(&self, index: usize) -> Option<usize> {
+        let last = self.parameters.len().checked_sub(1)?;
+        (index < self.max_arguments()).then(|| match self.is_list() {
+            true => index % self.parameters.len(),
+            false => index.min(last),
+        })
+    }
+
     /// Its parameters and those of its options, in the order in which they are printed.
     pub fn all(&self) -> impl Iterator<Item = &'static Parameter> + Clone {
         self.parameters.iter().chain(self.options)
@@ -216,12 +239,16 @@ impl Form {
                 takes: Takes::Names,
                 ..
             }) => usize::MAX,
+            Some(_) if self.is_list() => usize::MAX,
             _ => self.counts.last().copied().unwrap_or(0),
         }
     }
 
     /// Whether `count` arguments may be given.
     pub fn accepts(&self, count: usize) -> bool {
+        if self.is_list() {
+            return count > 0 && count.is_multiple_of(self.parameters.len());
+        }
         self.counts.contains(&count) || (self.max_arguments() == usize::MAX && count > 0)
     }
 

@@ -84,10 +84,10 @@ fn w305_zero_thickness() {
 #[test]
 fn w310_not_built_yet() {
     check(
-        "Boy$Pose 1.5",
+        "Boy$Walk 40",
         r#"
-            Boy$Pose 1.5
-                ^^^^ W310: `Pose` has no effect in this version (read and checked, but not supported yet)
+            Boy$Walk 40
+                ^^^^ W310: `Walk` has no effect in this version (read and checked, but not supported yet)
               help: leave it in for a later version, or delete it
         "#,
     );

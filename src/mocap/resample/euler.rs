@@ -3,6 +3,7 @@
 
 use glam::{DMat3, DQuat};
 
+use crate::math;
 use crate::mocap::{Axis, Channel, Clip, Joint};
 
 /// If the sine or cosine of the second angle is below this, the first and the third rotate about the same line (gimbal lock)
@@ -52,23 +53,23 @@ impl AxisOrder {
         } else {
             (-sign * at(j, k), at(k, k))
         };
-        let alpha = if y.hypot(x) < GIMBAL_LOCK {
+        let alpha = if math::hypot(y, x) < GIMBAL_LOCK {
             before.to_radians()
         } else {
-            y.atan2(x)
+            math::atan2(y, x)
         };
-        let (sin, cos) = alpha.sin_cos();
+        let (sin, cos) = math::sin_cos(alpha);
         let row_j = |column: usize| cos * at(j, column) + sign * sin * at(k, column);
         let row_k = |column: usize| cos * at(k, column) - sign * sin * at(j, column);
         let (beta, gamma) = if self.proper {
             (
-                (-sign * row_k(i)).atan2(at(i, i)),
-                (-sign * row_j(k)).atan2(row_j(j)),
+                math::atan2(-sign * row_k(i), at(i, i)),
+                math::atan2(-sign * row_j(k), row_j(j)),
             )
         } else {
             (
-                (sign * at(i, k)).atan2(row_k(k)),
-                (sign * row_j(i)).atan2(row_j(j)),
+                math::atan2(sign * at(i, k), row_k(k)),
+                math::atan2(sign * row_j(i), row_j(j)),
             )
         };
         [alpha, beta, gamma].map(f64::to_degrees)
@@ -202,12 +203,12 @@ impl RotationTrack {
 fn slerp(from: DQuat, to: DQuat, t: f64) -> DQuat {
     let to = if from.dot(to) < 0.0 { -to } else { to };
     // The angle from the chords by arc tangent: the arc cosine of the dot product loses half the digits near 1.
-    let angle = 2.0 * (to - from).length().atan2((to + from).length());
-    let sin = angle.sin();
+    let angle = 2.0 * math::atan2((to - from).length(), (to + from).length());
+    let sin = math::sin(angle);
     if sin < 1e-9 {
         return (from * (1.0 - t) + to * t).normalize();
     }
-    (from * (((1.0 - t) * angle).sin() / sin) + to * ((t * angle).sin() / sin)).normalize()
+    (from * (math::sin((1.0 - t) * angle) / sin) + to * (math::sin(t * angle) / sin)).normalize()
 }
 
 /// The equivalent angle difference of the shorter way, degrees: −180…180.

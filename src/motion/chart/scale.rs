@@ -1,5 +1,7 @@
 //! Positions of frames and speeds in the picture.
 
+use crate::math;
+
 use std::ops::Range;
 
 /// The edges of the curve's area.
@@ -43,7 +45,7 @@ impl Scale {
 pub(super) fn step(least: f64) -> f64 {
     // Dividing by smaller numbers would overflow.
     let least = if least > 1e-280 { least } else { 1.0 };
-    let power = 10_f64.powi(least.log10().floor() as i32);
+    let power = 10_f64.powi(math::log10(least).floor() as i32);
     let steps = [1.0, 2.0, 5.0].map(|step| step * power);
     let next = steps.into_iter().find(|step| *step >= least * (1.0 - 1e-9));
     next.unwrap_or(10.0 * power)

@@ -383,3 +383,13 @@ fn an_error_ends_a_film() {
     assert!(matches!(ended, Err(RenderError::Broken)));
     assert_eq!(seen, 7);
 }
+
+#[test]
+fn a_film_is_the_same_without_other_threads() {
+    let model = model(&walker("LINEAR"));
+    let film = Film::new(&model, &model.clips()[0], [0.0, 3.0]).unwrap();
+    let times = [0.0, 0.5, 1.0, 2.5];
+    let images = drawn(&film, &wide(100), &times);
+    let alone = crate::threads::without_others(|| drawn(&film, &wide(100), &times));
+    assert!(images == alone);
+}

@@ -1,5 +1,7 @@
 //! Colours that are easy to tell apart, as many as are needed.
 
+use crate::math;
+
 /// The golden angle, degrees: hues that are this far apart never come close to each other soon.
 const GOLDEN_ANGLE: f64 = 137.507_764;
 /// The hue of the first colour, degrees.
@@ -36,7 +38,7 @@ pub(super) fn numbered(number: usize) -> [u8; 3] {
 /// Linear sRGB of a colour in Oklch, the polar form of Oklab (Ottosson, *A perceptual color space for image processing*, 2020):
 /// lightness, chroma, and hue in degrees. Colours outside of sRGB have channels outside of 0 to 1.
 fn linear([lightness, chroma, hue]: [f64; 3]) -> [f64; 3] {
-    let (b, a) = hue.to_radians().sin_cos();
+    let (b, a) = math::sin_cos(hue.to_radians());
     let (a, b) = (chroma * a, chroma * b);
     let l = (lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b).powi(3);
     let m = (lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b).powi(3);
@@ -53,7 +55,7 @@ fn encoded(channel: f64) -> f64 {
     if channel <= 0.003_130_8 {
         12.92 * channel
     } else {
-        1.055 * channel.powf(1.0 / 2.4) - 0.055
+        1.055 * math::powf(channel, 1.0 / 2.4) - 0.055
     }
 }
 

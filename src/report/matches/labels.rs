@@ -1,5 +1,6 @@
 //! Where the numbers of regions are written: in the regions if they fit, else beside them with a line that leads there.
 
+use crate::math;
 use resvg::tiny_skia::{Color, Mask, Paint, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 use super::digits;
@@ -82,7 +83,7 @@ impl Labels {
                 continue;
             };
             let text = number(*track);
-            let diagonal = digits::width(&text, 1.0).hypot(1.0) / 2.0;
+            let diagonal = math::hypot(digits::width(&text, 1.0), 1.0) / 2.0;
             let height = ((middle.room - ROOM) / diagonal).min(DIGITS);
             if height < LEAST_DIGITS {
                 beside.push((*track, middle));
@@ -163,7 +164,7 @@ impl Labels {
     fn free_place(&self, text: &str, region: Middle, boxes: &[NumberBox]) -> Option<[f32; 2]> {
         let directions = (0..DIRECTIONS).map(|index| {
             let turn = index as f32 / DIRECTIONS as f32 * std::f32::consts::TAU;
-            turn.sin_cos()
+            math::sin_cos(turn)
         });
         let places = DISTANCES.iter().flat_map(|distance| {
             let far = region.room + distance;

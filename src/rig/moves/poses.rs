@@ -8,6 +8,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 use super::roles::{Role, Roles};
 use crate::clips::BuiltIn;
 use crate::labels::FigurePartId;
+use crate::math;
 use crate::smoothing::ease;
 
 /// A wheel takes so many frames to turn once.
@@ -79,11 +80,14 @@ pub(super) fn offset(which: BuiltIn, roles: &Roles, travel: f64, time: f64) -> D
     let (up, ahead) = match which {
         BuiltIn::Drive => {
             let bounces = 2.0 * turns(roles).0 as f64;
-            (0.003 * height * (1.0 - (bounces * time * TAU).cos()), 0.0)
+            (
+                0.003 * height * (1.0 - math::cos(bounces * time * TAU)),
+                0.0,
+            )
         }
         // The body rises while the wings go down.
         BuiltIn::Fly => (-0.04 * height * beat(time), 0.0),
-        BuiltIn::Swim => (0.02 * height * (time * TAU).sin(), 0.0),
+        BuiltIn::Swim => (0.02 * height * math::sin(time * TAU), 0.0),
         BuiltIn::Hop => {
             let air = ((time - STANDING) / (1.0 - STANDING)).clamp(0.0, 1.0);
             (
@@ -91,7 +95,7 @@ pub(super) fn offset(which: BuiltIn, roles: &Roles, travel: f64, time: f64) -> D
                 travel * (air - time),
             )
         }
-        BuiltIn::Float => (0.05 * height * (time * TAU).sin(), 0.0),
+        BuiltIn::Float => (0.05 * height * math::sin(time * TAU), 0.0),
         _ => (0.0, 0.0),
     };
     DVec3::Y * up + roles.forward * ahead
@@ -99,7 +103,7 @@ pub(super) fn offset(which: BuiltIn, roles: &Roles, travel: f64, time: f64) -> D
 
 /// The wings: 1 up, −1 down, two beats a cycle.
 fn beat(time: f64) -> f64 {
-    (2.0 * time * TAU).cos()
+    math::cos(2.0 * time * TAU)
 }
 
 /// The point about which the root turns.
@@ -112,9 +116,9 @@ pub(super) fn pivot(which: BuiltIn, roles: &Roles) -> DVec2 {
 
 /// How the root turns.
 pub(super) fn body(which: BuiltIn, roles: &Roles, time: f64) -> DQuat {
-    let wave = (time * TAU).sin();
+    let wave = math::sin(time * TAU);
     match which {
-        BuiltIn::Fly => pitch(roles, 3.0 * (2.0 * time * TAU).sin()),
+        BuiltIn::Fly => pitch(roles, 3.0 * math::sin(2.0 * time * TAU)),
         BuiltIn::Swim => yaw(-swing_of_body(roles) * wave),
         // It leans back before it leaves the ground, forward as it lands.
         BuiltIn::Hop => {
@@ -127,10 +131,10 @@ pub(super) fn body(which: BuiltIn, roles: &Roles, time: f64) -> DQuat {
             };
             pitch(roles, lean)
         }
-        BuiltIn::Float => roll(2.5 * (time * TAU).cos()),
+        BuiltIn::Float => roll(2.5 * math::cos(time * TAU)),
         BuiltIn::Sway if roles.is_potted => DQuat::IDENTITY,
         BuiltIn::Sway => {
-            roll(2.5 * wave) * DQuat::from_rotation_x((1.0 * (time * TAU).cos()).to_radians())
+            roll(2.5 * wave) * math::rotation_x((1.0 * math::cos(time * TAU)).to_radians())
         }
         _ => DQuat::IDENTITY,
     }
@@ -204,36 +208,37 @@ pub(super) fn turn(
             let (turns, largest) = turns(roles);
             // The distance over the radius, radians.
             let angle = turns as f64 * TAU * largest * time / actor.radius.max(f64::MIN_POSITIVE);
-            DQuat::from_axis_angle(left(roles), angle)
+            math::rotation_around(left(roles), angle)
         }
         (BuiltIn::Fly, Role::Wing) => flap(roles, part, time, piece),
         (BuiltIn::Fly, Role::Leg) if actor.depth == 0 => pitch(roles, 35.0 * size),
         (BuiltIn::Fly, Role::Tail) => {
             let late = 0.06 * piece.late();
-            pitch(roles, 6.0 * size * (2.0 * (time - late) * TAU).sin())
+            pitch(roles, 6.0 * size * math::sin(2.0 * (time - late) * TAU))
         }
         (BuiltIn::Swim, Role::Tail) => {
             let angle = 24.0 / (1.0 + 0.5 * actor.depth as f64);
-            yaw(size * angle * ((time - 0.15 - 0.12 * depth) * TAU).sin())
+            yaw(size * angle * math::sin((time - 0.15 - 0.12 * depth) * TAU))
         }
         (BuiltIn::Swim, Role::Fin | Role::Wing) => {
-            let angle = 14.0 * size * actor.side * ((time - 0.1 * depth) * TAU).sin();
-            DQuat::from_axis_angle(roles.forward, angle.to_radians())
+            let angle = 14.0 * size * actor.side * math::sin((time - 0.1 * depth) * TAU);
+            math::rotation_around(roles.forward, angle.to_radians())
         }
         (BuiltIn::Float, _) => {
             let outward = 1.0_f64.copysign(actor.span.x);
             let late = 0.14 * depth;
             // All of them spread and close together, and each waves a little for itself.
-            let pulse = 9.0 * ((time + 0.25 - late) * TAU).sin() * outward;
-            let wave = 8.0 * ((time - late - actor.lag) * TAU).sin();
-            let out = 7.0 * ((time - late - 2.0 * actor.lag) * TAU).cos();
-            roll(size * (pulse + wave)) * DQuat::from_rotation_x((size * out).to_radians())
+            let pulse = 9.0 * math::sin((time + 0.25 - late) * TAU) * outward;
+            let wave = 8.0 * math::sin((time - late - actor.lag) * TAU);
+            let out = 7.0 * math::cos((time - late - 2.0 * actor.lag) * TAU);
+            roll(size * (pulse + wave)) * math::rotation_x((size * out).to_radians())
         }
         (BuiltIn::Sway, _) => {
             let late = 0.08 * (depth + 1.0) + 0.25 * actor.lag;
-            let angle = 5.0 * ((time - late) * TAU).sin() + 1.5 * ((2.0 * time - late) * TAU).sin();
-            let out = 4.0 * ((time - late) * TAU).cos();
-            roll(size * angle) * DQuat::from_rotation_x((size * out).to_radians())
+            let angle =
+                5.0 * math::sin((time - late) * TAU) + 1.5 * math::sin((2.0 * time - late) * TAU);
+            let out = 4.0 * math::cos((time - late) * TAU);
+            roll(size * angle) * math::rotation_x((size * out).to_radians())
         }
         _ => DQuat::IDENTITY,
     }
@@ -260,7 +265,7 @@ fn flap(roles: &Roles, part: FigurePartId, time: f64, piece: Piece) -> DQuat {
         false => 16.0 * piece.size * beat(time - late),
     };
     // forward × left = up, so what points to the left rises.
-    let raise = DQuat::from_axis_angle(roles.forward, (angle * actor.side).to_radians());
+    let raise = math::rotation_around(roles.forward, (angle * actor.side).to_radians());
     if !is_first || !roles.facing.facing.is_profile() {
         return raise;
     }
@@ -287,15 +292,15 @@ fn left(roles: &Roles) -> DVec3 {
 
 /// Tips what points up to the front.
 fn pitch(roles: &Roles, degrees: f64) -> DQuat {
-    DQuat::from_axis_angle(left(roles), degrees.to_radians())
+    math::rotation_around(left(roles), degrees.to_radians())
 }
 
 /// Turns about the vertical.
 fn yaw(degrees: f64) -> DQuat {
-    DQuat::from_rotation_y(degrees.to_radians())
+    math::rotation_y(degrees.to_radians())
 }
 
 /// Turns in the drawing plane.
 fn roll(degrees: f64) -> DQuat {
-    DQuat::from_rotation_z(degrees.to_radians())
+    math::rotation_z(degrees.to_radians())
 }

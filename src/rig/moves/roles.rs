@@ -100,6 +100,16 @@ pub(in crate::rig) struct Roles {
 }
 
 impl Roles {
+    /// What a part is.
+    pub(in crate::rig) fn label(&self, part: FigurePartId) -> Option<Label> {
+        self.labels.get(part)?.clone()
+    }
+
+    /// Where the figure looks.
+    pub(in crate::rig) fn facing(&self) -> FoundFacing {
+        self.facing.clone()
+    }
+
     /// The roles of a figure's parts.
     pub(in crate::rig) fn find(figure: &Figure, root: FigurePartId) -> Self {
         let labeled = label_drawn(figure);

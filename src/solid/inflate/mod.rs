@@ -24,6 +24,7 @@ use super::layers::{MIN_THICKNESS, steps_per_half_turn};
 use super::stack::PlacementTransform;
 use super::{Options, Placement};
 use crate::geometry::Outline;
+use crate::math;
 use crate::scene::Surface;
 
 /// The smallest height over an inner point, relative to depths and to the highest point, that `f32` can distinguish from 0.
@@ -173,7 +174,7 @@ fn boxed(height: f64, most: f64) -> f64 {
     if height <= 0.0 || most <= 0.0 {
         return 0.0;
     }
-    most * (1.0 + (most / height).powf(EDGE)).powf(-1.0 / EDGE)
+    most * math::powf(1.0 + math::powf(most / height, EDGE), -1.0 / EDGE)
 }
 
 /// The largest height over an outline whose bounding box has these half extents, drawing units.

@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 
 use super::discs::{Disc, Discs};
 use crate::geometry::{Outline, bounds, bounds_of, perimeter};
+use crate::math;
 
 /// The largest number of points added along borders, and of columns.
 pub(super) const MAX_COLUMNS: usize = 1 << 13;
@@ -144,7 +145,7 @@ fn border(
     let mut last = DVec2::INFINITY;
     for i in 0..n {
         let (before, after) = (directions[(i + n - 1) % n], directions[i]);
-        let turn = before.perp_dot(after).atan2(before.dot(after));
+        let turn = math::atan2(before.perp_dot(after), before.dot(after));
         if turn > CONVEX {
             continue;
         }
@@ -166,7 +167,7 @@ fn border(
             } else {
                 k as f64 / count as f64
             };
-            let inward = DVec2::from_angle(turn * part).rotate(before).perp();
+            let inward = math::direction(turn * part).rotate(before).perp();
             let disc = discs.disc(ring[i], inward, neighbor);
             if disc.radius > corners[i].radius {
                 corners[i] = disc;
@@ -245,7 +246,7 @@ pub(super) fn inside(columns: &[Column], layers: usize, most: f64, points: &mut 
     };
     let mut taken = Taken::new(low, high, cell);
     for layer in 1..=layers {
-        let angles = |own: usize| (quarter * layer as f64 / own as f64).sin_cos();
+        let angles = |own: usize| math::sin_cos(quarter * layer as f64 / own as f64);
         let usual = angles(layers);
         for (column, own) in columns.iter().zip(&counts) {
             if layer > *own {

@@ -12,6 +12,7 @@ use super::MIN_HEIGHT;
 use super::mesh::Mesh;
 use super::points::{Column, MAX_COLUMNS, Points, inside, thin};
 use crate::geometry::{Outline, perimeter};
+use crate::math;
 
 /// The distance between points along straight stretches, in widths of the line.
 const ALONG: f64 = 4.0;
@@ -58,7 +59,7 @@ fn border(ring: &[DVec2], radius: f64, apart: f64, all: &mut Points, columns: &m
         .collect();
     let turn = |i: usize| {
         let (before, after) = (directions[(i + n - 1) % n], directions[i]);
-        before.perp_dot(after).atan2(before.dot(after))
+        math::atan2(before.perp_dot(after), before.dot(after))
     };
     let turns: Vec<f64> = (0..n).map(turn).collect();
     let column = |foot: DVec2, inward: DVec2| Column {
@@ -74,7 +75,7 @@ fn border(ring: &[DVec2], radius: f64, apart: f64, all: &mut Points, columns: &m
         all.points.push(ring[i]);
         if turns[i] < CORNER && ring[i].distance(last_foot) >= CROWDED * radius {
             last_foot = ring[i];
-            let half = DVec2::from_angle(turns[i] / 2.0);
+            let half = math::direction(turns[i] / 2.0);
             columns.push(column(
                 ring[i],
                 half.rotate(directions[(i + n - 1) % n]).perp(),

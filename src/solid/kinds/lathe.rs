@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::Kind;
 use crate::geometry::Outline;
+use crate::math;
 use crate::scene::Surface;
 use crate::solid::Options;
 use crate::solid::lathe::{lathe, sweep_angle};
@@ -31,7 +32,7 @@ impl Kind for Lathe {
 
     fn depths(&self, half: DVec2, _: &Options) -> Option<[f64; 2]> {
         let side = (sweep_angle(self.degrees) / 2.0).to_radians();
-        Some([half.x * side.cos().min(0.0), half.x])
+        Some([half.x * math::cos(side).min(0.0), half.x])
     }
 
     fn triangles(&self, outline: &Outline, _: DVec2, options: &Options) -> u64 {

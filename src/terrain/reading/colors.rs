@@ -1,5 +1,6 @@
 //! Finds the kind of tile that a colour means, as a person names it: by hue, lightness and chroma.
 
+use crate::math;
 use crate::svg::oklab;
 use crate::terrain::Tile;
 
@@ -88,7 +89,10 @@ pub(super) fn named(color: [u8; 3]) -> Option<Named> {
         return Some(Named::Tile(*tile));
     }
     let [lightness, a, b] = oklab(color);
-    let (hue, chroma) = (b.atan2(a).to_degrees().rem_euclid(360.0), a.hypot(b));
+    let (hue, chroma) = (
+        math::atan2(b, a).to_degrees().rem_euclid(360.0),
+        math::hypot(a, b),
+    );
     let holds = |range: &[f64; 2], value: f64| range[0] <= value && value < range[1];
     let found = NAMES.iter().find(|colors| {
         holds(&colors.hue, hue)

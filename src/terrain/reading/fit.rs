@@ -4,6 +4,7 @@
 //! fits, and their mean is the offset of the grid. Sizes are tried one after the other (a periodogram; Lomb, *Least-squares frequency
 //! analysis of unequally spaced data*, 1976).
 
+use crate::math;
 use glam::DVec2;
 
 use super::grid::Grid;
@@ -98,7 +99,7 @@ impl Borders {
         let (mut sum, mut weight) = (0.0, 0.0);
         for axis in &self.axes {
             let [along, across, all] = sums(axis, |at| at * frequency);
-            sum += along.hypot(across);
+            sum += math::hypot(along, across);
             weight += all;
         }
         sum / weight

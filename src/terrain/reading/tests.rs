@@ -19,7 +19,13 @@ const COLORS: [&str; 5] = [GREEN, "#8d6e63", "#42a5f5", "#e53935", "#f5deb3"];
 fn read_with(svg: &str, files: MemoryResolver) -> (Vec<Layer>, Vec<String>) {
     let svg =
         format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">{svg}</svg>"#);
-    let (drawing, mut diagnostics) = svg::read(&svg, 0.001, &files, &bind::in_layers_of_pixels);
+    let (drawing, mut diagnostics) = svg::read(
+        &svg,
+        0.001,
+        &files,
+        &bind::in_layers_of_pixels,
+        &bind::makes_pose_layer,
+    );
     let bindings = bind::bind(&drawing, &Memo::none(), &mut diagnostics);
     let layers = read(&drawing, &bindings, &files, &Memo::none(), &mut diagnostics);
     // Heights are tested elsewhere.

@@ -1,5 +1,6 @@
 //! Roofs: triangular prisms on the walls of houses.
 
+use crate::math;
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -199,7 +200,7 @@ impl Roof<'_> {
         let house = self.house;
         let depth = f64::from(house.depth);
         let rise = self.factor * depth;
-        let slope = (depth / 2.0).hypot(rise);
+        let slope = math::hypot(depth / 2.0, rise);
         let [near_left, near_right, far_right, far_left] = eaves(house);
         let line = |from: [i32; 3], to: [i32; 3]| {
             let mut points = vec![from];
@@ -225,7 +226,7 @@ impl Roof<'_> {
                 continue;
             }
             let inset = self.inset()[end];
-            let length = rise.hypot(inset);
+            let length = math::hypot(rise, inset);
             // Of a roof without height, a gable has no area.
             let [out, up] = if length > 0.0 {
                 [out * rise / length, inset / length]

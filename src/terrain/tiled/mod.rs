@@ -357,7 +357,7 @@ fn parsed<T>(
 
 /// A link in a file, as it is from the drawing's folder.
 fn beside(file: &str, link: &str) -> String {
-    let (folder, _) = crate::resolver::folder_and_ending(file);
+    let (folder, _) = crate::resolver::folder_and_name(file);
     match crate::resolver::relative(link) {
         Ok(_) => format!("{folder}{link}"),
         // The resolver says what is wrong with it.

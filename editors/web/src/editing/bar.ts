@@ -46,11 +46,11 @@ export class EditBar {
   private now(): string {
     const { editing, state } = this;
     if (editing.isPicking) return `Click what ${state.selected ?? "it"} hangs on. Esc: give up`;
-    if (editing.busy) return editing.saves ? "Saving…" : "Changing…";
+    if (editing.busy) return editing.words.doing;
     if (editing.refusal) return "Nothing was changed";
     if (editing.said !== "") return editing.said;
     if (state.selected === null) return "Click a part to change it";
-    return editing.saves ? "Changes are saved in the drawing" : "Changes are made in the text";
+    return editing.words.where;
   }
 
   private drawRefusal(): void {

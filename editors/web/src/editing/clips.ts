@@ -2,8 +2,11 @@
 
 import { Plus, RotateCcw } from "lucide";
 import { fill, h, icon, inCode } from "../dom";
-import { fieldControls, numberControl, type Sending, type Trying } from "./controls";
-import type { Change, ClipForm, Field, MotionForm } from "./messages";
+import { fieldControls, numberControl, type Trying } from "./controls";
+import { clipDraft, within, type Draft } from "./draft";
+import { readHeld } from "./drawings";
+import type { Argument, Change, ClipForm, Field, MotionForm } from "./messages";
+import { saying, silent } from "./values";
 
 /** What a clip is limited to when that is switched on: drawings to leave out, and frames to hold. */
 const LIMITS = "2 8";
@@ -19,64 +22,78 @@ export interface ClipActions {
 }
 
 /** A section for each clip, and what adds one. */
-export function clipFields(part: string, { clips, new: fresh, choices, summary }: MotionForm, actions: ClipActions): HTMLElement[] {
+export function clipFields(part: string, motion: MotionForm, actions: ClipActions): HTMLElement[] {
+  const { clips } = motion;
   const isFirst = clips.length === 0;
-  const sections = clips.map((clip, at) => section(part, clip, at, choices, summary, actions));
-  if (isFirst || actions.adds) return [...sections, section(part, fresh, clips.length, choices, summary, actions)];
+  const sections = clips.map((_, at) => section(part, motion, at, actions));
+  if (isFirst || actions.adds) return [...sections, section(part, motion, clips.length, actions)];
   const add = h("button", { class: "button framed", attributes: { type: "button", "data-key": "Motion add" }, on: { click: () => actions.add() } }, icon(Plus), "Add a clip");
   return [...sections, h("p", { class: "form-add" }, add)];
 }
 
-function section(part: string, clip: ClipForm, at: number, choices: MotionForm["choices"], summary: string, actions: ClipActions): HTMLElement {
+/** What says a clip in the drawing. */
+export function clipChange(part: string, at: number, { words, limited, held }: ClipForm): Change {
+  const own = ({ from, value }: Field): string | null => (words !== null && from === "own" ? value : null);
+  return { change: "clip", part, clip: at, motion: words, limited: own(limited), held: own(held) };
+}
+
+function section(part: string, motion: MotionForm, at: number, actions: ClipActions): HTMLElement {
+  const { summary } = motion;
   const title = at === 0 ? "Motion" : `Motion ${at + 1}`;
-  const change = (motion: string | null, limited: string | null): Change => ({ change: "clip", part, clip: at, motion, limited });
-  // A change says all of a clip. Those that are made before the form shows the last one go on from what was said last.
-  let said = AS_WRITTEN;
-  let limits = clip.limited.from === "own" ? clip.limited.value : null;
+  const draft = clipDraft(motion, at);
+  const clip = draft.now();
+  const change = (clip: ClipForm): Change => clipChange(part, at, clip);
   const set = (different: Different): void => {
-    said = joined(said, different);
-    actions.make(change(words(clip, said), limits));
+    draft.say(changed(draft.now(), different));
+    actions.make(change(draft.now()));
   };
-  const attempt = (different: Different): void => actions.attempt(change(words(clip, joined(said, different)), limits));
-  const now = (): string | null => (said === AS_WRITTEN ? clip.words : words(clip, said));
-  const limit = (limited: string | null): void => {
-    limits = limited;
-    actions.make(change(now(), limits));
+  const attempt = (different: Different): void => actions.attempt(change(changed(draft.now(), different)));
+  const limits = within(draft, "limited");
+  const limit = (): void => actions.make(change(draft.now()));
+  const tryLimit = (value: string): void => actions.attempt(change({ ...draft.now(), limited: { ...limits.now(), from: "own", value } }));
+  const leave = (): void => {
+    draft.say({ ...draft.now(), words: null, word: null, file: null });
+    actions.make(change(draft.now()));
   };
-  const tryLimit = (limited: string): void => actions.attempt(change(now(), limited));
-  const leave = (): void => actions.make(change(null, null));
   const head = h("div", { class: "field-head" }, h("h3", {}, title), ...origin(clip, title, leave));
   const place = h("section", { class: "field", attributes: { "data-attribute": "Motion", "aria-label": title } }, head);
-  fill(place, head, h("p", { class: "muted field-note" }, ...inCode(`${summary.charAt(0).toUpperCase()}${summary.slice(1)}.`)), choice(clip, title, choices, set, leave), ...(clip.words === null ? [] : [...details(clip, title, set, attempt), ...limiting(clip, title, limit, tryLimit)]));
+  fill(place, head, h("p", { class: "muted field-note" }, ...inCode(`${summary.charAt(0).toUpperCase()}${summary.slice(1)}.`)), choice(clip, title, motion, set, leave), ...(clip.words === null ? [] : [...details(clip, title, set, attempt), ...limiting(limits, title, limit, tryLimit), ...chosen(within(draft, "held"), title, limit)]));
   return place;
 }
 
 /** Which clip it is. */
-function choice(clip: ClipForm, title: string, choices: MotionForm["choices"], set: (different: Different) => void, leave: () => void): HTMLElement {
+function choice(clip: ClipForm, title: string, { choices, files }: MotionForm, set: (different: Different) => void, leave: () => void): HTMLElement {
   const select = h("select", { class: "select", attributes: { "aria-label": `${title}: clip`, "data-key": `${title} clip` } });
   const option = (value: string, text: string): HTMLElement => h("option", { attributes: { value } }, text);
-  const now = clip.words === null ? "none" : clip.word === null ? "other" : `=${clip.word}`;
+  const { words, word, file } = clip;
+  const isOther = words !== null && word === null && file === null;
+  // A file that is elsewhere, or missing, is one to choose, too.
+  const all = file === null || files.includes(file) ? files : [file, ...files];
+  const now = words === null ? "none" : isOther ? "other" : file === null ? `=${word}` : `"${file}"`;
   fill(
     select,
     option("none", "none"),
-    clip.words !== null && clip.word === null && option("other", clip.arguments),
+    isOther && option("other", clip.arguments),
     option("=", "the one that fits the figure"),
     ...choices.map(([word, about]) => option(`=${word}`, `${word} — ${about.replaceAll("`", "")}`)),
+    all.length > 0 && h("optgroup", { attributes: { label: "Motion files" } }, ...all.map((file) => option(`"${file}"`, file))),
   );
   select.value = now;
   select.addEventListener("change", () => {
-    if (select.value === "none") leave();
-    else if (select.value !== "other") set({ word: select.value.slice(1) });
+    const { value } = select;
+    if (value === "none") leave();
+    else if (value.startsWith("=")) set({ word: value.slice(1) });
+    else if (value.startsWith('"')) set({ file: value.slice(1, -1) });
   });
   return select;
 }
 
-/** What is said of a clip. A file, or clips that play in turn, are written in the drawing. */
+/** What is said of a clip. Clips that play in turn are written in the drawing. */
 function details(clip: ClipForm, title: string, set: (different: Different) => void, attempt: (different: Different) => void): HTMLElement[] {
-  const number = (which: "seconds" | "speed"): HTMLElement[] => {
+  const number = (which: Numbers): HTMLElement[] => {
     const argument = clip[which];
     const { takes } = argument;
-    if (takes.type !== "number" || clip.word === null) return [];
+    if (takes.type !== "number") return [];
     const controls = numberControl(takes, argument, `${title}: ${which}`, `${title} ${which}`, (value) => set({ [which]: value }), (value) => attempt({ [which]: value }), () => set({ [which]: "" }));
     return [h("div", { class: "argument" }, h("span", { class: "argument-name", title: argument.summary }, which), ...controls, h("span", { class: "muted argument-note" }, ...inCode(argument.summary)))];
   };
@@ -86,19 +103,43 @@ function details(clip: ClipForm, title: string, set: (different: Different) => v
     box.addEventListener("change", () => set({ flags: { [letter]: box.checked } }));
     return h("label", { class: "switch" }, box, h("span", {}, ...inCode(summary)));
   });
-  return [...number("seconds"), ...number("speed"), ...flags];
+  const numbers: readonly Numbers[] = clip.word !== null ? ["seconds", "speed"] : clip.file !== null ? ["start", "end", "speed"] : [];
+  return [...numbers.flatMap(number), ...flags];
 }
 
 /** Its limited animation. */
-function limiting(clip: ClipForm, title: string, limit: Sending, attempt: Trying): HTMLElement[] {
-  const { limited } = clip;
+function limiting(draft: Draft<Field>, title: string, limit: () => void, attempt: Trying): HTMLElement[] {
+  const limited = draft.now();
   const own = limited.from === "own";
   const box = h("input", { attributes: { type: "checkbox", "data-key": `${title} limited` } });
   box.checked = own;
-  box.addEventListener("change", () => limit(box.checked ? (limited.value ?? LIMITS) : null));
+  box.addEventListener("change", () => {
+    const now = draft.now();
+    const which = Math.max(now.chosen ?? 0, 0);
+    const numbers = (now.value ?? LIMITS).split(" ");
+    draft.say(box.checked ? saying(now, which, numbers, new Set()) : { ...silent(now), from: "default" });
+    limit();
+  });
   const about = own || limited.value === null ? limited.summary : `limited in its own way: \`Limited ${limited.value}\` is for all clips`;
-  const field: Field = { ...limited, attribute: title === "Motion" ? "Limited" : title.replace("Motion", "Limited") };
-  return [h("label", { class: "switch" }, box, h("span", {}, ...inCode(about))), ...(own ? fieldControls(field, limit, attempt) : [])];
+  const named: Draft<Field> = {
+    now: () => ({ ...draft.now(), attribute: title.replace("Motion", "Limited") }),
+    say: (next) => draft.say({ ...next, attribute: limited.attribute }),
+  };
+  return [h("label", { class: "switch" }, box, h("span", {}, ...inCode(about))), ...(own ? fieldControls(named, limit, attempt) : [])];
+}
+
+/** Its drawings that are chosen by hand, above the timeline. */
+function chosen(draft: Draft<Field>, title: string, send: () => void): HTMLElement[] {
+  const { from, value } = draft.now();
+  if (from !== "own" || value === null) return [];
+  const count = readHeld(value).size;
+  const forget = (): void => {
+    draft.say({ ...silent(draft.now()), from: "builtin" });
+    send();
+  };
+  const words = count === 1 ? "One drawing is chosen by hand" : `${count} drawings are chosen by hand`;
+  const reset = h("button", { class: "button reset", title: "Let no drawing stand as it was dragged", attributes: { type: "button", "aria-label": `Reset ${title.replace("Motion", "Held")}`, "data-key": `${title} held` }, on: { click: forget } }, icon(RotateCcw), "Reset");
+  return [h("div", { class: "field-origin" }, h("span", { class: "muted field-from", title: `Held ${value}` }, words), reset)];
 }
 
 function origin(clip: ClipForm, title: string, leave: () => void): HTMLElement[] {
@@ -108,28 +149,44 @@ function origin(clip: ClipForm, title: string, leave: () => void): HTMLElement[]
   return [said, reset];
 }
 
-/** What differs from the words of a clip. Numbers are left out if they are empty. */
-interface Different {
+type Numbers = "seconds" | "start" | "end" | "speed";
+
+/** What is changed about a clip. Numbers are left out if they are empty. */
+interface Different extends Readonly<Partial<Record<Numbers, string>>> {
   readonly word?: string;
-  readonly seconds?: string;
-  readonly speed?: string;
+  readonly file?: string;
   readonly flags?: Readonly<Record<string, boolean>>;
 }
 
-/** Nothing: the words stay as they are written. */
-const AS_WRITTEN: Different = {};
-
-/** What differs after one more change. */
-const joined = (before: Different, more: Different): Different => ({ ...before, ...more, flags: { ...before.flags, ...more.flags } });
-
-/** The words behind `Motion`. */
-export function words(clip: ClipForm, { word, seconds, speed, flags: switched }: Different): string {
-  const letters = clip.flags.filter(({ letter, on }) => switched?.[letter] ?? on).map(({ letter }) => letter);
-  const flags = letters.length > 0 ? `-${letters.join("")}` : "";
-  // What comes from a file stays as it is written, unless another clip takes its place.
-  if (clip.words !== null && clip.word === null && word === undefined) return join(flags, clip.arguments);
-  const fast = speed ?? clip.speed.value ?? "";
-  return join(flags, word ?? clip.word ?? "", seconds ?? clip.seconds.value ?? "", fast === "" || Number(fast) === 1 ? "" : `speed ${fast}`, clip.name ?? "");
+/** A clip with something changed. */
+function changed(clip: ClipForm, { word, file, flags: switched, ...numbers }: Different): ClipForm {
+  const flags = clip.flags.map((flag) => ({ ...flag, on: switched?.[flag.letter] ?? flag.on }));
+  const letters = flags.filter(({ on }) => on).map(({ letter }) => letter);
+  const dashed = letters.length > 0 ? `-${letters.join("")}` : "";
+  const isOther = word !== undefined || file !== undefined;
+  // Clips that play in turn stay as they are written, unless another one takes their place.
+  if (clip.words !== null && clip.word === null && clip.file === null && !isOther) return { ...clip, flags, words: join(dashed, clip.arguments) };
+  // What is said of a part of a file is of no other clip. A file ends in one way.
+  const gone = isOther ? { start: "", end: "" } : numbers.end ? { seconds: "" } : {};
+  const says = { ...numbers, ...gone };
+  const number = (which: Numbers): Argument => ({ ...clip[which], value: says[which] === undefined ? clip[which].value : says[which] || null });
+  const next = {
+    ...clip,
+    flags,
+    word: isOther ? (word ?? null) : clip.word,
+    file: isOther ? (file ?? null) : clip.file,
+    up: isOther ? null : clip.up,
+    seconds: number("seconds"),
+    start: number("start"),
+    end: number("end"),
+    speed: number("speed"),
+  };
+  if (next.word === null && next.file === null) next.word = "";
+  const value = (before: string, which: Numbers): string => (next[which].value === null ? "" : join(before, next[which].value));
+  const speed = Number(next.speed.value ?? 1) === 1 ? "" : value("speed", "speed");
+  const ofFile = [`"${next.file}"`, clip.name ?? "", next.up ?? "", value("", "seconds"), value("from", "start"), value("to", "end"), speed];
+  const said = next.file === null ? join(next.word ?? "", value("", "seconds"), speed, clip.name ?? "") : join(...ofFile);
+  return { ...next, arguments: said, words: join(dashed, said) };
 }
 
 const join = (...words: readonly string[]): string => words.filter((word) => word !== "").join(" ");

@@ -1,12 +1,15 @@
 // Editing: what is changed here is written into the drawing. It is off until a person turns it on.
 
-import type { Host } from "../host/host";
+import type { ChangeWords, Host } from "../host/host";
 import type { Attempt } from "../viewport/loading";
 import type { State } from "../state";
-import { readForm, readRefusal, type Change, type PartForm, type Refusal } from "./messages";
+import { readForm, readRefusal, type Change, type KeepPose, type PartForm, type Refusal } from "./messages";
 
 /** mode: turned on or off, or no longer possible · done: something was changed, undone or refused · picking: a part is asked for, or no longer */
 export type EditingTopic = "mode" | "done" | "picking";
+
+/** What becomes of changes that are made in a copy of a drawing that is open in Inkscape. */
+const IN_COPY: ChangeWords = { doing: "Changing…", done: "Changed in the copy", where: "When you are done, call Take In Changes in Inkscape" };
 
 export class Editing {
   private on = false;
@@ -24,6 +27,8 @@ export class Editing {
   private trying = false;
   /** How many changes are on their way. */
   private sending = 0;
+  /** How many changes were sent so far. */
+  sent = 0;
   private readonly listeners = new Map<EditingTopic, (() => void)[]>();
   /** Changes are made one after the other. */
   private last: Promise<unknown> = Promise.resolve();
@@ -47,9 +52,9 @@ export class Editing {
     return this.host.post !== null && this.state.key !== null && this.state.current !== null;
   }
 
-  /** Whether changes are saved at once. */
-  get saves(): boolean {
-    return this.host.saves;
+  /** What becomes of changes, in words. */
+  get words(): ChangeWords {
+    return this.state.isCopy ? IN_COPY : this.host.changes;
   }
 
   get isOn(): boolean {
@@ -85,11 +90,14 @@ export class Editing {
     return this.state.steps.redo;
   }
 
-  /** Makes a change in a part's form; `true` if it was made. The part stays selected, and the form is its own, also under another name. */
-  async make(form: PartForm, change: Change): Promise<boolean> {
+  /** Makes a change in a part's form; `true` if it was made. If the part `isSelected`, it stays so, and the form is its own, also under another name. */
+  async make(form: PartForm, change: Change, isSelected = true): Promise<boolean> {
+    // What it looks like is asked for before the drawing is written, read and built: that takes twice as long.
+    if (change.change === "set" || change.change === "reset") this.attempt(form, change);
     // By the name that it has once all changes before this one are made.
     return this.send(() => ({ make: { ...change, part: form.part } }), (part) => {
       if (change.change === "name" && part !== null) form.part = part;
+      return isSelected;
     });
   }
 
@@ -99,8 +107,10 @@ export class Editing {
     const { attempt } = this.host;
     if (!this.on || current === null || key === null || !attempt) return;
     this.trying = true;
+    const { last } = this;
     this.tries(async (shows) => {
-      await this.last;
+      // By the name that the part has once all changes before this one are made.
+      await last;
       return attempt(key, { drawing: current, revision: this.state.drawing?.build?.revision ?? 0, change: { ...change, part: form.part }, shows });
     });
   }
@@ -115,6 +125,12 @@ export class Editing {
   /** Makes a change that the program has offered. */
   async choose(change: unknown): Promise<boolean> {
     return this.send(() => ({ make: change }));
+  }
+
+  /** Makes a pose the next key pose. Editing is turned on, so that it can be undone. */
+  async keep(pose: KeepPose): Promise<boolean> {
+    if (!this.isOn) this.toggle();
+    return this.choose(pose);
   }
 
   undo(): void {
@@ -150,10 +166,11 @@ export class Editing {
     return this.state.picker !== null;
   }
 
-  private send(what: () => unknown, done: (part: string | null) => void = () => {}): Promise<boolean> {
+  private send(what: () => unknown, selects: (part: string | null) => boolean = () => true): Promise<boolean> {
     this.sending++;
+    this.sent++;
     const sent = this.last
-      .then(() => this.sendNow(what(), done))
+      .then(() => this.sendNow(what(), selects))
       .then((made) => {
         this.sending--;
         // What was made is shown until its build comes.
@@ -168,7 +185,7 @@ export class Editing {
     return sent;
   }
 
-  private async sendNow(what: unknown, done: (part: string | null) => void): Promise<boolean> {
+  private async sendNow(what: unknown, selects: (part: string | null) => boolean): Promise<boolean> {
     const { current, key, drawing } = this.state;
     if (!this.on || current === null || key === null || !this.host.post) return false;
     this.busy = true;
@@ -179,10 +196,10 @@ export class Editing {
     this.busy = false;
     if (answer.ok) {
       const { part, note } = (answer.body ?? {}) as { part?: unknown; note?: unknown };
-      const said = this.saves ? "Saved" : "Changed in the text";
+      const { done: said } = this.words;
       this.said = typeof note === "string" ? `${said}. ${note}` : said;
-      done(typeof part === "string" ? part : null);
-      if (typeof part === "string" && current === this.state.current) this.state.select(part);
+      const isSelected = selects(typeof part === "string" ? part : null);
+      if (isSelected && typeof part === "string" && current === this.state.current) this.state.select(part);
     } else {
       this.said = "";
       this.refusal = readRefusal(answer.body);

@@ -5,8 +5,11 @@ import { button, fill, h, icon, inCode } from "../dom";
 import type { State } from "../state";
 import { clipFields } from "./clips";
 import { fieldControls, SETTLED, type Sending, type Trying } from "./controls";
+import { fieldDraft } from "./draft";
 import type { Editing } from "./editing";
 import type { Change, Field, PartForm } from "./messages";
+import { redraw } from "./redraw";
+import { silent } from "./values";
 
 /** Attributes that are shown without being asked for. */
 const FIRST: readonly string[] = ["Color", "Shape", "Offset"];
@@ -16,10 +19,12 @@ export class FormPanel {
   readonly element = h("form", { class: "part-form", hidden: true, attributes: { "aria-label": "Change the selected part", autocomplete: "off" } });
   /** The form that is shown. */
   private form: PartForm | null = null;
+  /** The form that was drawn last, if none of its controls was given up since. */
+  private drawn: PartForm | null = null;
   /** Counts what was asked for: an answer that is late is dropped. */
   private asked = 0;
-  /** Whether something is being typed or dragged; then the form is not drawn again. */
-  private held = false;
+  /** The control in which something is being typed or dragged; then the form is not drawn again. */
+  private held: HTMLInputElement | null = null;
   /** Whether the name gets the focus as soon as it is there. */
   private names = false;
   /** The attribute that gets it. */
@@ -29,7 +34,6 @@ export class FormPanel {
   private adds = "";
   /** Fields that a person opened. */
   private readonly opened = new Set<string>();
-  private readonly name = h("input", { class: "text-field", attributes: { type: "text", "aria-label": "Name", "data-key": "name", spellcheck: "false", autocomplete: "off" } });
 
   /** Called with the form that is shown, or none; set by the page. */
   shown: (form: PartForm | null) => void = () => {};
@@ -37,22 +41,25 @@ export class FormPanel {
   constructor(private readonly editing: Editing, private readonly state: State) {
     this.element.addEventListener("submit", (event) => event.preventDefault());
     this.element.addEventListener("input", ({ target }) => {
-      if (target instanceof HTMLInputElement && target.type !== "checkbox") this.held = true;
+      if (target instanceof HTMLInputElement && target.type !== "checkbox") this.held = target;
     });
     this.element.addEventListener("change", () => this.release());
     this.element.addEventListener(SETTLED, () => this.release());
-    // Only when the focus is where it goes can it stay there.
-    this.element.addEventListener("focusout", () => void setTimeout(() => this.release()));
+    // Only when the focus is where it goes can it stay there. It may have left a control whose place another one took, in which one types already.
+    this.element.addEventListener("focusout", () => void setTimeout(() => {
+      if (this.held === null || this.held !== document.activeElement) this.release();
+    }));
     this.element.addEventListener("keydown", (event) => {
       const { target } = event;
       // What was typed, and not sent, is given up.
-      if (event.key !== "Escape" || !(target instanceof HTMLInputElement) || !this.held) return;
+      if (event.key !== "Escape" || !(target instanceof HTMLInputElement) || this.held === null) return;
       event.preventDefault();
-      this.held = false;
+      this.held = null;
+      this.drawn = null;
+      forget(target);
       this.editing.giveUp();
       this.draw();
     });
-    this.name.addEventListener("change", () => this.call());
     editing.listen(["mode"], () => this.load());
     // What was refused is shown as it is.
     editing.listen(["done"], () => {
@@ -60,7 +67,8 @@ export class FormPanel {
     });
     editing.listen(["picking"], () => this.draw());
     state.on(["selection", "current"], () => {
-      this.held = this.names = false;
+      this.held = null;
+      this.names = false;
       this.goal = "";
       editing.giveUp();
       // Until its own form is there, nobody changes another part by mistake. Whoever is in the form has renamed the part.
@@ -93,7 +101,7 @@ export class FormPanel {
   }
 
   private release(): void {
-    this.held = false;
+    this.held = null;
     this.editing.giveUp();
     if (this.late) this.draw();
   }
@@ -107,33 +115,33 @@ export class FormPanel {
       return this.draw();
     }
     this.element.setAttribute("aria-busy", "true");
+    const { sent } = this.editing;
     void this.editing.form(selected).then((form) => {
       if (asked !== this.asked) return;
+      // It says nothing of what was changed since it was asked for.
+      if (sent !== this.editing.sent) return this.load();
       this.element.setAttribute("aria-busy", "false");
-      this.form = form;
-      this.shown(form);
+      this.form = form && this.form?.part === form.part ? goOn(this.form, form) : form;
+      this.shown(this.form);
       this.draw();
     });
   }
 
   private draw(): void {
-    if (this.held) return void (this.late = true);
+    if (this.held !== null) return void (this.late = true);
     this.late = false;
     const { form } = this;
     this.element.hidden = form === null;
     this.element.inert = form !== null && this.element.inert && form.part !== this.state.selected;
     this.element.dataset["formOf"] = form?.part ?? "";
     if (!form) return void fill(this.element);
-    const active = document.activeElement;
-    const key = active instanceof HTMLElement && this.element.contains(active) ? active.dataset["key"] : undefined;
-    // All that was selected stays so, also if the text is another one now.
-    const selected = active instanceof HTMLInputElement && active.type === "text" && active.value !== "" && active.selectionStart === 0 && active.selectionEnd === active.value.length;
     const isFirst = (field: Field): boolean => FIRST.includes(field.attribute);
     const rest = form.fields.filter((field) => !isFirst(field));
     const first = FIRST.flatMap((attribute) => form.fields.filter((field) => field.attribute === attribute));
     const carries = form.motion?.figure === form.part;
-    fill(
+    redraw(
       this.element,
+      this.drawn === form,
       ...(form.node ? [this.naming(form), this.parents(form)] : []),
       ...first.map((field) => this.field(form, field)),
       ...(carries ? this.clips(form) : []),
@@ -142,34 +150,31 @@ export class FormPanel {
       ...rest.map((field) => this.folded(form, field)),
       form.node && this.leaving(form),
     );
+    this.drawn = form;
     if (this.names && form.node && form.part === this.state.selected) {
       this.names = false;
-      this.name.focus();
-      return this.name.select();
+      const name = this.element.querySelector<HTMLInputElement>("[data-key=name]");
+      name?.focus();
+      return name?.select();
     }
     if (this.goal !== "" && form.part === this.state.selected) {
       const field = this.element.querySelector<HTMLElement>(`[data-attribute="${this.goal}"]`);
       this.goal = "";
       if (field instanceof HTMLDetailsElement) field.open = true;
       field?.scrollIntoView({ block: "nearest" });
-      return field?.querySelector<HTMLElement>("input, select, [role=radio][tabindex='0']")?.focus({ preventScroll: true });
+      field?.querySelector<HTMLElement>("input, select, [role=radio][tabindex='0']")?.focus({ preventScroll: true });
     }
-    if (key === undefined) return;
-    const again = [...this.element.querySelectorAll<HTMLElement>("[data-key]")].find((one) => one.dataset["key"] === key);
-    again?.focus({ preventScroll: true });
-    if (selected && again instanceof HTMLInputElement) again.select();
   }
 
   private naming(form: PartForm): HTMLElement {
-    this.name.value = form.named ? form.part : "";
-    this.name.placeholder = form.named ? "" : `${form.part}: type a name`;
-    return h("label", { class: "form-row" }, h("span", { class: "form-label" }, "Name"), this.name);
+    const input = h("input", { class: "text-field", attributes: { type: "text", "aria-label": "Name", "data-key": "name", spellcheck: "false", autocomplete: "off", placeholder: form.named ? "" : `${form.part}: type a name` } });
+    input.value = form.named ? form.part : "";
+    input.addEventListener("change", () => this.call(form, input.value.trim()));
+    return h("label", { class: "form-row" }, h("span", { class: "form-label" }, "Name"), input);
   }
 
-  private call(): void {
-    const { form } = this;
-    const name = this.name.value.trim();
-    if (!form || name === "" || (name === form.part && form.named)) return void this.draw();
+  private call(form: PartForm, name: string): void {
+    if (name === "" || (name === form.part && form.named)) return void this.draw();
     void this.editing.make(form, { change: "name", part: form.part, name });
   }
 
@@ -244,8 +249,13 @@ export class FormPanel {
     const from = FROM[field.from] ?? field.from;
     const said = h("span", { class: "muted field-from", ...(field.string === null ? {} : { title: field.string }) }, from);
     if (field.from !== "own") return [said];
-    const reset = h("button", { class: "button reset", title: `Take ${field.attribute} away: ${field.default}`, attributes: { type: "button", "aria-label": `Reset ${field.attribute}`, "data-key": `${field.attribute} reset` }, on: { click: () => void this.editing.make(form, { change: "reset", part: form.part, attribute: field.attribute }) } }, icon(RotateCcw), "Reset");
-    return [said, reset];
+    const draft = fieldDraft(form, field);
+    const reset = (): void => {
+      draft.say(silent(draft.now()));
+      void this.editing.make(form, { change: "reset", part: form.part, attribute: field.attribute });
+    };
+    const taking = h("button", { class: "button reset", title: `Take ${field.attribute} away: ${field.default}`, attributes: { type: "button", "aria-label": `Reset ${field.attribute}`, "data-key": `${field.attribute} reset` }, on: { click: reset } }, icon(RotateCcw), "Reset");
+    return [said, taking];
   }
 
   private inside(form: PartForm, field: Field): HTMLElement[] {
@@ -253,8 +263,23 @@ export class FormPanel {
     const send: Sending = (value) => void this.editing.make(form, value === null ? { change: "reset", part: form.part, attribute: field.attribute } : set(value));
     const attempt: Trying = (value) => this.editing.attempt(form, set(value));
     const shared = field.shared.length > 0 ? [h("p", { class: "muted field-note" }, `Shared with ${named(field.shared)}.`)] : [];
-    return [h("p", { class: "muted field-note" }, ...inCode(sentence(field.summary))), ...shared, ...fieldControls(field, send, attempt)];
+    return [h("p", { class: "muted field-note" }, ...inCode(sentence(field.summary))), ...shared, ...fieldControls(fieldDraft(form, field), send, attempt)];
   }
+}
+
+/** A form with what the program says of it now. What is being typed goes on in the form of the same part, and its clips in those of the same figure. */
+function goOn(form: PartForm, next: PartForm): PartForm {
+  const motion = form.motion && next.motion ? Object.assign(form.motion, next.motion) : next.motion;
+  return Object.assign(form, next, { motion });
+}
+
+/** Lets a control forget that it was typed in: browsers say so when it loses the focus or leaves the page, and it would be sent. */
+function forget(control: HTMLInputElement): void {
+  const stop = (event: Event): void => event.stopImmediatePropagation();
+  addEventListener("change", stop, { capture: true });
+  control.blur();
+  removeEventListener("change", stop, { capture: true });
+  control.focus({ preventScroll: true });
 }
 
 const sentence = (text: string): string => `${text.charAt(0).toUpperCase()}${text.slice(1)}.`;

@@ -6,9 +6,10 @@ import { fill, h, svg } from "../dom";
 import type { State } from "../state";
 import { isOverlay } from "../viewport/model";
 import type { Viewer } from "../viewport/viewer";
+import { fieldDraft } from "./draft";
 import type { Editing } from "./editing";
-import type { Field, NumberControl, PartForm, PlaceForm, Variant } from "./messages";
-import { digits, flagsOf, withValue, words } from "./values";
+import type { Change, Field, NumberControl, PartForm, PlaceForm, Variant } from "./messages";
+import { digits, flagsOf, saying, withValue } from "./values";
 
 type Point = readonly [x: number, y: number];
 type Kind = "front" | "back" | "offset" | "joint";
@@ -29,12 +30,14 @@ const TITLES: Readonly<Record<Kind, string>> = {
   joint: "Joint: drag to where the part turns",
 };
 
-/** A value that a drag would set. */
+/** What a drag would make of a field, with the words for it. */
 interface Dragged {
-  readonly attribute: string;
+  readonly field: Field;
   readonly value: string;
   readonly label: string;
 }
+
+const dragged = (field: Field, label: string): Dragged => ({ field, value: field.value ?? "", label });
 
 interface Handle {
   readonly kind: Kind;
@@ -160,7 +163,7 @@ export class Handles {
       const inWorld = (local: Vector3): Vector3 => local.applyMatrix4(node.matrixWorld);
       for (const [kind, side] of [["front", 1], ["back", -1]] as const) {
         const found = shown(inWorld(middle.clone().addScaledVector(axis, side * half)), front);
-        const depths = this.depths(form, kind);
+        const depths = this.depths(form, kind, half / place.meters);
         if (!found || !depths || far(found.perUnit) * reach < SEEN) continue;
         const [ux, uy] = unit(found.perUnit);
         const from: Point = [found.at[0] + side * ux * 4, found.at[1] + side * uy * 4];
@@ -188,10 +191,11 @@ export class Handles {
           const [across, high] = [((mx * b[1] - my * b[0]) / area) * fine, ((a[0] * my - a[1] * mx) / area) * fine];
           const at: Point = [place.joint[0] + across, place.joint[1] - high];
           const near = place.points.find(({ at: [x, y] }) => far([(x - at[0]) * a[0] - (y - at[1]) * b[0], (x - at[0]) * a[1] - (y - at[1]) * b[1]]) < SNAP);
-          if (near) return { attribute: "Origin", value: near.word, label: `joint: ${near.word}` };
+          const says = (value: string, label: string): Dragged => dragged({ ...origin, value, from: "own" }, `joint: ${label}`);
+          if (near) return says(near.word, near.word);
           const step = 1 / Math.max(far(a), 1e-6);
           const [x, y] = at.map((one) => digits(one, Math.min(step, 1)));
-          return { attribute: "Origin", value: `${x} ${y}`, label: `joint: ${x}, ${y}` };
+          return says(`${x} ${y}`, `${x}, ${y}`);
         };
         all.push({ kind: "joint", at: right.at, from: right.at, drag });
       }
@@ -199,20 +203,44 @@ export class Handles {
     return all;
   }
 
-  /** What a movement in depth makes of the back and the front; null for kinds that have none. */
-  private depths(form: PartForm, kind: "front" | "back"): ((by: number, alone: boolean) => Dragged | null) | null {
+  /** What a movement in depth makes of the back and the front, which are so far from the middle between them; null for kinds that have none. */
+  private depths(form: PartForm, kind: "front" | "back", half: number): ((by: number, alone: boolean) => Dragged | null) | null {
     const shape = form.fields.find(({ attribute }) => attribute === "Shape");
-    const variant = shape?.variants[shape.chosen ?? -1];
-    const [back, front] = [depthOf(variant, "z0"), depthOf(variant, "z1")];
-    if (!shape || !variant || !back || !front) return null;
-    return (by, alone) => {
-      const moved = { back: alone ? (kind === "back" ? by : 0) : kind === "back" ? by : -by, front: alone ? (kind === "front" ? by : 0) : kind === "front" ? by : -by };
-      const low = digits(back.now + moved.back, back.takes.step);
-      const high = digits(front.now + moved.front, front.takes.step);
-      // It is not turned inside out.
+    const chosen = shape?.chosen ?? -1;
+    const variant = shape?.variants[chosen];
+    if (!shape || !variant) return null;
+    const moves = (by: number, alone: boolean) => ({ back: kind === "back" ? by : alone ? 0 : -by, front: kind === "front" ? by : alone ? 0 : -by });
+    const says = (values: string[], label: string): Dragged => dragged(saying(shape, chosen, values, flagsOf(shape)), label);
+    /** Two arguments, of which the first is smaller: it is not turned inside out. */
+    const two = (back: Depth, low: string, front: Depth, high: string, unit: string): Dragged | null => {
       if (Number(low) >= Number(high)) return null;
       const both = { ...variant, arguments: variant.arguments.map((argument, at) => (at === back.at ? { ...argument, value: low } : argument)) };
-      return { attribute: "Shape", value: words(shape, variant, withValue(both, front.at, high), flagsOf(shape)), label: `back ${low} · front ${high}` };
+      return says(withValue(both, front.at, high), `back ${low}${unit} · front ${high}${unit}`);
+    };
+    const height = depthOf(variant, "h");
+    if (height) {
+      // It comes out as far on either side.
+      return (by) => {
+        const high = digits(Math.max((variant.arguments[height.at]?.value === null ? half : height.now) + (kind === "front" ? by : -by), height.takes.step), height.takes.step);
+        return says(withValue(variant, height.at, high), `to both sides ${high}`);
+      };
+    }
+    const [z0, z1] = [depthOf(variant, "z0"), depthOf(variant, "z1")];
+    if (z0 && z1) {
+      return (by, alone) => {
+        const { back, front } = moves(by, alone);
+        return two(z0, digits(z0.now + back, z0.takes.step), z1, digits(z1.now + front, z1.takes.step), "");
+      };
+    }
+    // Of a rounding, angles say how much of it is kept.
+    const [a0, a1] = [depthOf(variant, "a0"), depthOf(variant, "a1")];
+    if (!a0 || !a1) return null;
+    const radius = (2 * half) / (sine(a1.now) - sine(a0.now));
+    if (!(radius > 0)) return null;
+    const angle = ({ now, takes }: Depth, by: number): string => (by === 0 ? String(now) : digits(degrees(sine(now) + by / radius), Math.max(takes.step, 1)));
+    return (by, alone) => {
+      const { back, front } = moves(by, alone);
+      return two(a0, angle(a0, back), a1, angle(a1, front), "°");
     };
   }
 
@@ -223,7 +251,7 @@ export class Handles {
     const now = Number(variant.arguments[0]?.value ?? takes.start ?? 0);
     return (by) => {
       const value = digits(now + by, takes.step);
-      return { attribute: "Offset", value: words(field, variant, [value], flagsOf(field)), label: `offset ${value}` };
+      return dragged(saying(field, 0, [value], flagsOf(field)), `offset ${value}`);
     };
   }
 
@@ -249,7 +277,7 @@ export class Handles {
     this.label.textContent = dragged.label;
     const { offsetWidth } = this.label;
     this.label.style.transform = `translate(${Math.min(event.clientX - left + 16, this.viewer.canvas.clientWidth - offsetWidth - 6)}px, ${Math.max(event.clientY - top - 34, 6)}px)`;
-    this.editing.attempt(press.form, { change: "set", part: press.form.part, attribute: dragged.attribute, value: dragged.value });
+    this.editing.attempt(press.form, setting(press.form, dragged));
   }
 
   private up(event: PointerEvent): void {
@@ -257,7 +285,9 @@ export class Handles {
     if (!press || event.pointerId !== press.id) return;
     const { now, form } = press;
     this.stop();
-    if (now) void this.editing.make(form, { change: "set", part: form.part, attribute: now.attribute, value: now.value });
+    if (!now) return;
+    fieldDraft(form, now.field).say(now.field);
+    void this.editing.make(form, setting(form, now));
   }
 
   private giveUp(): void {
@@ -276,10 +306,22 @@ export class Handles {
   }
 }
 
+const setting = (form: PartForm, { field, value }: Dragged): Change => ({ change: "set", part: form.part, attribute: field.attribute, value });
+
+const sine = (degrees: number): number => Math.sin((degrees * Math.PI) / 180);
+const degrees = (sine: number): number => (Math.asin(Math.min(Math.max(sine, -1), 1)) * 180) / Math.PI;
+
+/** An argument that says how far a part reaches, as it is. */
+interface Depth {
+  readonly at: number;
+  readonly now: number;
+  readonly takes: NumberControl;
+}
+
 /** The number of an argument as it is, written or not. */
-function depthOf(variant: Variant | undefined, name: string): { readonly at: number; readonly now: number; readonly takes: NumberControl } | null {
-  const at = variant?.arguments.findIndex((argument) => argument.name === name) ?? -1;
-  const argument = variant?.arguments[at];
+function depthOf(variant: Variant, name: string): Depth | null {
+  const at = variant.arguments.findIndex((argument) => argument.name === name);
+  const argument = variant.arguments[at];
   if (!argument || argument.takes.type !== "number") return null;
   const now = argument.value === null ? argument.takes.start : Number(argument.value);
   return now === null || !Number.isFinite(now) ? null : { at, now, takes: argument.takes };

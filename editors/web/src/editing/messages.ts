@@ -8,7 +8,13 @@ export type Change =
   | { readonly change: "hang"; readonly part: string; readonly parent: string | null }
   | { readonly change: "leave-out"; readonly part: string }
   /** Without a motion the clip is taken away; the number after that of the last clip adds one. */
-  | { readonly change: "clip"; readonly part: string; readonly clip: number; readonly motion: string | null; readonly limited: string | null };
+  | { readonly change: "clip"; readonly part: string; readonly clip: number; readonly motion: string | null; readonly limited: string | null; readonly held: string | null };
+
+/** A change that keeps a pose: the parts that are turned, by degrees from how they are drawn, counter-clockwise. */
+export interface KeepPose {
+  readonly change: "keep-pose";
+  readonly turns: readonly { readonly part: string; readonly degrees: number }[];
+}
 
 /** A change that can be made instead of one that was refused. It goes back as it came. */
 export interface Choice {
@@ -77,24 +83,37 @@ export interface ClipForm {
   readonly arguments: string;
   /** The word of a clip that comes along, empty for the one that fits; null for all others. */
   readonly word: string | null;
+  /** The file that it plays; null for all others. */
+  readonly file: string | null;
+  /** The axis of the file that points up, as it is written. */
+  readonly up: string | null;
   /** Its name, as it is written. */
   readonly name: string | null;
   readonly from: string;
   readonly string: string | null;
   readonly flags: Field["flags"];
   readonly seconds: Argument;
+  /** Where in the file it begins and ends. */
+  readonly start: Argument;
+  readonly end: Argument;
   readonly speed: Argument;
   readonly limited: Field;
+  /** Drawings that are chosen by hand. */
+  readonly held: Field;
+  /** The clip in the model: its name, and the part that it moves as the figure's root; null if it does not play. */
+  readonly plays: { readonly name: string; readonly root: string } | null;
 }
 
-/** The clips of a figure. */
+/** The clips of a figure, as they were said last. */
 export interface MotionForm {
   /** The part that carries the figure. */
   readonly figure: string;
   readonly summary: string;
   readonly choices: readonly (readonly [word: string, summary: string])[];
-  readonly clips: readonly ClipForm[];
-  readonly new: ClipForm;
+  /** Motion files beside the drawing. */
+  readonly files: readonly string[];
+  clips: readonly ClipForm[];
+  new: ClipForm;
 }
 
 /** Where a part is in the model. Directions are those in the frame of its node, points those of the drawing, y down. */
@@ -108,7 +127,7 @@ export interface PlaceForm {
   readonly points: readonly { readonly word: string; readonly at: readonly [number, number] }[];
 }
 
-/** What can be changed about a part. */
+/** What can be changed about a part, as it was said last. */
 export interface PartForm {
   /** Its name, which may become another one while the form is shown. */
   part: string;
@@ -118,7 +137,7 @@ export interface PartForm {
   readonly node: boolean;
   readonly parent: string | null;
   readonly parents: readonly string[];
-  readonly fields: readonly Field[];
+  fields: readonly Field[];
   /** The clips of its figure; null if it is in none. */
   readonly motion: MotionForm | null;
   /** Null for a part that has no node of its own. */
@@ -183,6 +202,7 @@ function readMotion(raw: Raw): MotionForm {
     figure: text(raw["figure"]),
     summary: text(raw["summary"]),
     choices: list(raw["choices"]).map(readWord),
+    files: list(raw["files"]).map(text),
     clips: list(raw["clips"]).map(readClip),
     new: readClip(raw["new"]),
   };
@@ -194,13 +214,19 @@ function readClip(value: unknown): ClipForm {
     words: textOrNull(raw["words"]),
     arguments: text(raw["arguments"]),
     word: textOrNull(raw["word"]),
+    file: textOrNull(raw["file"]),
+    up: textOrNull(raw["up"]),
     name: textOrNull(raw["name"]),
     from: text(raw["from"]),
     string: textOrNull(raw["string"]),
     flags: readFlags(raw["flags"]),
     seconds: readArgument(raw["seconds"]),
+    start: readArgument(raw["start"]),
+    end: readArgument(raw["end"]),
     speed: readArgument(raw["speed"]),
     limited: readField(raw["limited"]),
+    held: readField(raw["held"]),
+    plays: raw["plays"] == null ? null : { name: text(object(raw["plays"])["name"]), root: text(object(raw["plays"])["root"]) },
   };
 }
 

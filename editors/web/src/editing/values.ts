@@ -3,11 +3,25 @@
 import { cssColor } from "../panels/inspector";
 import type { Argument, Field, Variant } from "./messages";
 
+/** A key that is held down makes one change, this long after it is let go, in milliseconds. */
+export const PAUSE = 350;
+
 /** The words of a field with a variant, its arguments and its flags. */
-export function words(field: Field, variant: Variant, values: readonly string[], on: ReadonlySet<string>): string {
+function words(field: Field, variant: Variant, values: readonly string[], on: ReadonlySet<string>): string {
   const letters = field.flags.filter(({ letter }) => on.has(letter)).map(({ letter }) => letter);
   return [letters.length > 0 ? `-${letters.join("")}` : "", variant.word ?? "", ...values].filter((word) => word !== "").join(" ");
 }
+
+/** A field that says something: with one of its variants, arguments of it, and flags. */
+export function saying(field: Field, chosen: number, values: readonly string[], on: ReadonlySet<string>): Field {
+  const variant = field.variants[chosen];
+  const variants = field.variants.map((one, at) => ({ ...one, arguments: one.arguments.map((argument, index) => ({ ...argument, value: at === chosen ? (values[index] ?? null) : null })) }));
+  const flags = field.flags.map((flag) => ({ ...flag, on: on.has(flag.letter) }));
+  return { ...field, value: variant ? words(field, variant, values, on) : null, from: "own", flags, variants, chosen };
+}
+
+/** A field of which nothing is said. */
+export const silent = (field: Field): Field => ({ ...saying(field, -1, [], new Set()), from: "builtin", chosen: null });
 
 /** The flags that a field has now. */
 export const flagsOf = (field: Field): ReadonlySet<string> => new Set(field.flags.filter(({ on }) => on).map(({ letter }) => letter));

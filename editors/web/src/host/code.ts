@@ -1,6 +1,7 @@
 // The host of a VS Code webview: everything goes by posted messages.
 
 import { read, type FromHost, type ToHost } from "../protocol";
+import { toBase64 } from "./base64";
 import type { Answer, Attempted, Host, Link } from "./host";
 
 export interface CodeApi {
@@ -15,8 +16,14 @@ export class CodeHost implements Host {
   /** Webviews are not given cameras. */
   readonly openCamera = null;
   readonly film = null;
+  readonly file = null;
+  readonly share = null;
+  readonly player = null;
   readonly showsFindings = true;
-  readonly saves = false;
+  readonly changes = { doing: "Changing…", done: "Changed in the text", where: "Changes are made in the text" };
+  /** An editor has the drawing already. */
+  readonly invitation = { toStarters: "", alone: "" };
+  readonly jumps = true;
   /** Requests about changes, by number. */
   private readonly asked = new Map<number, (answer: Answer) => void>();
   private questions = 0;
@@ -111,11 +118,4 @@ export function toBuffer(bytes: unknown): ArrayBuffer | null {
   if (ArrayBuffer.isView(bytes)) return new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength).slice().buffer;
   if (typeof bytes !== "string") return null;
   return Uint8Array.from(atob(bytes), (one) => one.charCodeAt(0)).buffer;
-}
-
-export function toBase64(bytes: Uint8Array): string {
-  let binary = "";
-  // In chunks: the number of arguments of a call is limited.
-  for (let at = 0; at < bytes.length; at += 8192) binary += String.fromCharCode(...bytes.subarray(at, at + 8192));
-  return btoa(binary);
 }

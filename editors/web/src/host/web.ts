@@ -1,7 +1,9 @@
 // The host over HTTP: messages through a WebSocket, models and pictures by GET.
 
 import { Messages, type FromHost, type ToHost } from "../protocol";
+import { download } from "./download";
 import type { Answer, Attempted, Host, Link } from "./host";
+import { Replaced } from "./replaced";
 
 /** Delays between attempts to connect, in milliseconds. */
 const FIRST_PAUSE = 200;
@@ -11,7 +13,12 @@ const PATIENCE = 10000;
 
 export class WebHost implements Host {
   readonly showsFindings = false;
-  readonly saves = true;
+  readonly changes = { doing: "Saving…", done: "Saved", where: "Changes are saved in the drawing" };
+  readonly invitation = {
+    toStarters: "A click writes it into this folder, to draw on in Inkscape. Drawings saved in the folder appear here, too.",
+    alone: "Drawings saved in the folder appear here.",
+  };
+  readonly jumps = true;
   private socket: WebSocket | undefined;
   private pause = FIRST_PAUSE;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -43,6 +50,7 @@ export class WebHost implements Host {
       request.responseType = "arraybuffer";
       request.onload = () => {
         if (request.status === 200) resolve(request.response as ArrayBuffer);
+        else if (request.status === 204) reject(new Replaced());
         else reject(new Error(`the server answered ${request.status}`));
       };
       request.onerror = () => reject(new Error("the server did not answer"));
@@ -54,21 +62,17 @@ export class WebHost implements Host {
     return address;
   }
 
-  async save(name: string, content: Blob): Promise<void> {
-    const address = URL.createObjectURL(content);
-    const link = document.createElement("a");
-    link.href = address;
-    link.download = name;
-    link.click();
-    // The browser reads the blob after the click; it has started within a minute.
-    setTimeout(() => URL.revokeObjectURL(address), 60_000);
-  }
+  readonly save = download;
 
   readonly film = async (model: string, clip: number | null, view: readonly [number, number]): Promise<Blob> => {
     // Moving pictures have the numbers of their models.
     const address = model.replace(/^builds\/(\d+)\.glb$/, "films/$1.gif");
     const asked = `view=${view.map((angle) => angle.toFixed(2)).join(",")}`;
-    const response = await fetch(clip === null ? `${address}?${asked}` : `${address}?clip=${clip}&${asked}`);
+    return this.file(clip === null ? `${address}?${asked}` : `${address}?clip=${clip}&${asked}`);
+  };
+
+  readonly file = async (address: string): Promise<Blob> => {
+    const response = await fetch(address);
     if (response.ok) return response.blob();
     throw new Error(response.status === 404 ? "the drawing was built again meanwhile; try once more" : (await response.text()) || `the server answered ${response.status}`);
   };
@@ -84,6 +88,8 @@ export class WebHost implements Host {
     return response.status === 200 && address !== null ? { address, bytes: await response.arrayBuffer() } : null;
   };
 
+  readonly share = null;
+  readonly player = null;
   readonly openCamera = (): WebSocket => new WebSocket(socketAddress("camera"));
 
   private posted(what: string, key: string, request: unknown): Promise<Response> {

@@ -2,7 +2,6 @@
 
 import { Map } from "lucide";
 import { button, fill, h, setHidden } from "../dom";
-import type { Commands } from "../commands";
 import type { Viewer } from "../viewport/viewer";
 
 export class BendBar {
@@ -13,7 +12,7 @@ export class BendBar {
     attributes: { type: "range", min: 0, max: 1, step: 0.01, "aria-label": "From true 3D to the drawn look", "aria-keyshortcuts": "B" },
   });
 
-  constructor(private readonly viewer: Viewer, private readonly commands: Commands) {
+  constructor(private readonly viewer: Viewer) {
     fill(
       this.element,
       h("span", { class: "bend-end", attributes: { "aria-hidden": "true" } }, "True 3D"),
@@ -28,7 +27,7 @@ export class BendBar {
 
   private follow(): void {
     const { bent } = this.viewer;
-    setHidden(this.element, !this.commands.bends, this.viewer.canvas);
+    setHidden(this.element, !this.viewer.bends, this.viewer.canvas);
     this.slider.value = String(bent);
     this.slider.setAttribute("aria-valuetext", bent === 1 ? "as drawn" : bent === 0 ? "true 3D" : `${Math.round(bent * 100)} % of the drawn look`);
   }

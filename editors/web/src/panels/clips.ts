@@ -45,8 +45,9 @@ export class Clips {
   private readonly speed = h("select", { class: "select", attributes: { "aria-label": "Speed" } }, ...SPEEDS.map((speed) => h("option", { attributes: { value: speed } }, `${speed}×`)));
   private shown: AnimationClip | null = null;
   private exposure: ExposureSheet | null = null;
+  private readonly looks = h("div", { class: "clip-looks" });
   private readonly timeline = h("div", { class: "timeline" }, this.ticks, this.slider);
-  private readonly axis = new TimeAxis(this.timeline);
+  readonly axis = new TimeAxis(this.timeline);
   private boxes: readonly Box[] = [];
 
   constructor(private readonly viewer: Viewer) {
@@ -65,8 +66,9 @@ export class Clips {
       ),
       this.timeline,
       this.readout,
-      h("div", { class: "clip-looks" }, this.charts, this.performances, ...more("More about the clip", [this.compares, this.onion, this.films, this.along, this.loop, this.speed])),
+      this.looks,
     );
+    fill(this.looks, this.charts, this.performances, ...more("More about the clip", [this.compares, this.onion, this.films, this.along, this.loop, this.speed]));
     fill(this.panel, this.performance.element, this.chart.element, this.element);
     this.speed.value = "1";
     this.choice.addEventListener("change", () => {
@@ -83,6 +85,12 @@ export class Clips {
     );
     viewer.on(["model"], () => this.list());
     viewer.on(["time", "sideBySide"], () => this.follow());
+  }
+
+  /** Adds what changes the drawings: in the timeline, and beside the charts. */
+  addTools(strip: HTMLElement, tools: readonly HTMLElement[]): void {
+    this.timeline.append(strip);
+    this.looks.prepend(...tools);
   }
 
   toggle(): void {

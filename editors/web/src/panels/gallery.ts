@@ -62,12 +62,12 @@ export class Gallery {
     const { list, refusal } = this.state;
     if (this.starters.areOffered) {
       this.heading.textContent = "Begin with a drawing";
-      this.title.textContent = refusal ? `Nothing was written: ${refusal}.` : "A click writes it into this folder, to draw on in Inkscape. Drawings saved in the folder appear here, too.";
+      this.title.textContent = refusal ? `Nothing was written: ${refusal}.` : this.host.invitation.toStarters;
       return;
     }
     const failing = list.filter(({ build }) => build?.findings.some(({ severity }) => severity === "error")).length;
     this.heading.textContent = count(list.length, "drawing");
-    this.title.textContent = list.length === 0 ? "Drawings saved in the folder appear here." : failing > 0 ? `${failing} with problems` : "";
+    this.title.textContent = list.length === 0 ? this.host.invitation.alone : failing > 0 ? `${failing} with problems` : "";
   }
 
   private card(drawing: Drawing): Card {

@@ -8,6 +8,8 @@ export interface Choice {
   /** What it is for, below the label. */
   readonly note?: string;
   readonly key?: string;
+  /** Whether it can be chosen at the moment; without it, always. */
+  readonly isPossible?: () => boolean;
   readonly press: () => void;
 }
 
@@ -34,10 +36,12 @@ export function menu({ icon, label }: { readonly icon: IconNode; readonly label:
   const opener = button({ icon, label, press: () => set(list.hidden !== false, false) });
   opener.setAttribute("aria-haspopup", "menu");
   const element = h("div", { class: "menu-place" }, opener, list);
+  const shown = (): readonly HTMLElement[] => items.filter(({ hidden }) => !hidden);
   const set = (open: boolean, back: boolean): void => {
     list.hidden = !open;
+    if (open) choices.forEach(({ isPossible }, at) => (items[at]!.hidden = isPossible?.() === false));
     opener.setAttribute("aria-expanded", String(open));
-    if (open) items[0]?.focus();
+    if (open) shown()[0]?.focus();
     else if (back) opener.focus();
   };
   set(false, false);
@@ -46,7 +50,7 @@ export function menu({ icon, label }: { readonly icon: IconNode; readonly label:
   });
   list.addEventListener("keydown", (event) => {
     if (event.key === "Escape") set(false, true);
-    else if (!moveFocus(items, event.key)) return;
+    else if (!moveFocus(shown(), event.key)) return;
     event.preventDefault();
     event.stopPropagation();
   });

@@ -1,6 +1,6 @@
 // The buttons above the viewport.
 
-import { Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PencilLine, PersonStanding, Video } from "lucide";
+import { Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PencilLine, PersonStanding, SquareSplitHorizontal, Video } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
 import type { Exports } from "../exports";
@@ -8,11 +8,14 @@ import type { Shading } from "../viewport/model";
 import type { Viewer } from "../viewport/viewer";
 import { menu } from "./menu";
 import { more } from "./more";
+import type { PaperPanel } from "./paper";
 
 export class Toolbar {
   readonly element = h("div", { class: "toolbar-place" });
+  /** The tools that change the drawing. */
+  readonly edits = group("Edit");
 
-  constructor(viewer: Viewer, commands: Commands, exports: Exports) {
+  constructor(viewer: Viewer, commands: Commands, exports: Exports, paper: PaperPanel) {
     const shadings: [Shading, HTMLButtonElement][] = (
       [
         ["smooth", Circle, "Smooth"],
@@ -24,14 +27,21 @@ export class Toolbar {
     const parallel = h("button", { class: "button text", title: "Parallel projection (5)", attributes: { type: "button", "aria-keyshortcuts": "5" }, on: { click: () => commands.toggleParallel() } }, "Parallel");
     const layers = button({ icon: Layers, label: "Layers from the side", key: "L", press: () => viewer.stack.toggle() });
     const pose = button({ icon: PersonStanding, label: "Pose", key: "P", wide: true, press: () => commands.togglePosing() });
+    const drawing = button({ icon: SquareSplitHorizontal, label: "Drawing beside the model", key: "2", press: () => paper.toggle() });
+    paper.onToggle(() => drawing.setAttribute("aria-pressed", String(paper.isOn)));
     const edit = button({ icon: PencilLine, label: "Edit", key: "W", wide: true, press: () => commands.editing?.toggle() });
+    this.edits.append(edit);
     const choices = [
       { label: "3D model (GLB)", note: "for Blender, games and web pages", key: "D", press: () => void exports.model() },
       { label: "Picture (PNG)", note: "as the view shows it", key: "S", press: () => void exports.screenshot(false) },
       { label: "Transparent picture (PNG)", note: "only the model", key: "Shift+S", press: () => void exports.screenshot(true) },
-      { label: "Moving picture (GIF)", note: "of the clip, or once around", key: "Shift+D", press: () => void exports.film() },
+      { label: "Moving picture (GIF)", note: "of the clip, or once around", key: "Shift+D", isPossible: () => exports.films, press: () => void exports.film() },
+      { label: "3D model (OBJ)", note: "shapes only, for programs without GLB", isPossible: () => exports.files !== null, press: () => void exports.obj() },
+      { label: "Puppet sheet (SVG)", note: "to print and cut out", isPossible: () => exports.files !== null, press: () => void exports.puppet() },
+      ...(exports.pages ? [{ label: "Page (HTML)", note: "plays the model in any browser", press: () => void exports.page() }] : []),
+      ...(exports.links ? [{ label: "Link", note: "to the drawing as it is now", press: () => exports.share() }] : []),
     ];
-    const [exported, opensExported] = menu({ icon: Download, label: "Export" }, exports.films ? choices : choices.slice(0, -1));
+    const [exported, opensExported] = menu({ icon: Download, label: "Export" }, choices);
     const views = ([["¾", "threeQuarter", "0", "Three-quarter view"], ["Front", "front", "1", "Front view"], ["Side", "side", "3", "Side view"], ["Top", "top", "7", "Top view"]] as const).map(([text, name, key, label]) =>
       h("button", { class: "button text", title: `${label} (${key})`, attributes: { type: "button", "aria-label": label, "aria-keyshortcuts": key }, on: { click: () => viewer.view.look(name) } }, text),
     );
@@ -47,7 +57,7 @@ export class Toolbar {
         button({ icon: CircleQuestionMark, label: "Help", key: "?", press: () => commands.help() }),
       ),
     ]);
-    const bar = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } }, group("Views", ...views, button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() })), group("Edit", edit), folded, opener);
+    const bar = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } }, group("Views", ...views, button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() }), drawing), this.edits, folded, opener);
     fill(this.element, bar);
     const follow = (): void => {
       for (const [shading, element] of shadings) element.setAttribute("aria-pressed", String(viewer.shading === shading));
@@ -59,7 +69,7 @@ export class Toolbar {
     };
     viewer.on(["display", "model", "layers"], follow);
     const followEditing = (): void => {
-      edit.parentElement!.hidden = !commands.editing?.isPossible;
+      this.edits.hidden = !commands.editing?.isPossible;
       edit.setAttribute("aria-pressed", String(commands.editing?.isOn === true));
     };
     commands.editing?.listen(["mode"], followEditing);

@@ -1,6 +1,7 @@
 // Controls the comparison of clips with their originals, as they were before they were performed or limited: whether it is on, where
 // the originals come from, and when the copy is rebuilt.
 
+import { Replaced } from "../host/replaced";
 import type { SideBySide } from "./side-by-side";
 import type { Player } from "./clips";
 import type { Exposures } from "./exposures";
@@ -60,6 +61,8 @@ export class Comparison {
       (error, source) => {
         if (source !== this.fetched) return;
         this.fetched = null;
+        // The next build has its own.
+        if (error instanceof Replaced) return;
         // If the host is gone, the page reports that already.
         if (!host.mayAsk(source.connection)) return;
         this.failure = error instanceof Error ? error.message : String(error);

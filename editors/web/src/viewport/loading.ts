@@ -38,7 +38,7 @@ interface Shown {
 }
 
 /** Loads a model. */
-export async function load(wanted: Wanted, { model, shown, shading }: Shown, host: Host, renderLoop: RenderLoop): Promise<Loaded> {
+export async function load(wanted: Wanted, { model, shown, shading }: Shown, host: Pick<Host, "model">, renderLoop: RenderLoop): Promise<Loaded> {
   const prepare = ({ scene, animations, nodes }: ModelFile): Model => {
     const prepared = new Model(scene, animations, nodes);
     prepared.shade(shading);

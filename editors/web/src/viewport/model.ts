@@ -1,6 +1,6 @@
 // A loaded model: which of its nodes are parts, its shading, and its resources on the graphics card.
 
-import { Box3, BufferAttribute, DoubleSide, Group, Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, SkinnedMesh, Texture, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type KeyframeTrack, type Material, type Object3D, type TypedArray } from "three";
+import { Box3, BufferAttribute, DoubleSide, Group, Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, Quaternion, SkinnedMesh, Texture, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type KeyframeTrack, type Material, type Object3D, type TypedArray } from "three";
 import { Batches } from "./batches";
 import { Bend } from "./bend";
 import { meshesAt, type Delta, type ModelFile, type MovedNode } from "./model-file";
@@ -12,6 +12,8 @@ export class Model {
   /** Nodes by their names in the file. */
   private readonly nodes = new Map<string, Object3D>();
   /** The meshes of nodes that bend: they follow their bones alone, so that they are not below their nodes. */
+  /** How nodes are turned where nothing moves them. */
+  private readonly rests = new Map<Object3D, Quaternion>();
   private readonly bent = new Map<Object3D, Mesh[]>();
   /** Nodes by the element that they were made from: a part and its copies. */
   private readonly made = new Map<string, Object3D[]>();
@@ -92,6 +94,11 @@ export class Model {
     this.batches.group.removeFromParent();
   }
 
+  /** The rotation of a node as it is drawn, whatever a clip or a person does to it. */
+  restOf(node: Object3D): Quaternion {
+    return this.rests.get(node) ?? new Quaternion();
+  }
+
   /** What is drawn. */
   get drawn(): Object3D {
     return this.batches.isEmpty ? this.root : this.batches.group;
@@ -102,7 +109,9 @@ export class Model {
     this.nodes.clear();
     this.made.clear();
     this.bent.clear();
+    this.rests.clear();
     this.root.traverse((object) => {
+      this.rests.set(object, object.quaternion.clone());
       const owner = bonesOf(object)?.[0];
       if (owner) this.bent.set(owner, [...(this.bent.get(owner) ?? []), object as Mesh]);
       const name = nodeName(object);

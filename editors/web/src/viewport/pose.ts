@@ -81,6 +81,15 @@ export class Pose {
     return turn ? (turn.angleTo(new Quaternion()) * 180) / Math.PI : 0;
   }
 
+  /** By how much a node is turned in the plane of the drawing from how it is drawn, by hand and by a clip: degrees, counter-clockwise. */
+  drawnTurn(node: Object3D): number {
+    const rest = this.model()?.restOf(node) ?? new Quaternion();
+    // The part of the turn that is about the node's z axis, which is across the drawing.
+    const { z, w } = rest.clone().invert().multiply(node.quaternion);
+    const angle = 2 * Math.atan2(z, w);
+    return (Math.atan2(Math.sin(angle), Math.cos(angle)) * 180) / Math.PI;
+  }
+
   /** Turns a node further, in its parent's frame. */
   private turnFurther(node: Object3D, further: Quaternion): void {
     const name = nodeName(node);

@@ -2,11 +2,15 @@
 
 import { Color, NoToneMapping, Scene, SRGBColorSpace, Vector2, VSMShadowMap, WebGLRenderer, type Camera, type MeshStandardMaterial, type Object3D } from "three";
 import type { View } from "./view";
+import { whenDrawn } from "./drawn";
 import { Lights } from "./lights";
 import { SmoothEdges } from "./smooth-edges";
 
 /** The highest pixel ratio: more costs much and shows little. */
 const FINEST = 2;
+
+/** How long the first frame of a model is waited for before its shadows are drawn, in milliseconds. */
+const SHADOWS = 250;
 
 /** Called before each frame with the seconds since the last one; true requests another frame. */
 export type BeforeFrame = (seconds: number) => boolean;
@@ -33,6 +37,8 @@ export class RenderLoop {
   private stale = false;
   /** Whether the shadows are those of an earlier frame. */
   private shadowsAreStale = false;
+  /** Gives up the shadows that are waited for. */
+  private giveUpShadows: () => void = () => {};
   /** Whether anything but the camera changed since the last frame: in large models placing everything takes longer than drawing it. */
   private placesAreStale = true;
   private last = 0;
@@ -122,6 +128,17 @@ export class RenderLoop {
     this.invalidate();
   };
 
+  /**
+   * Requests the shadows of another model once the frame that shows it is drawn: they take longer than everything else, and in software
+   * the picture would wait for them. While one model follows the other, those in between have none of their own.
+   */
+  shadowsLater(): void {
+    if (!this.graphics) return;
+    this.giveUpShadows();
+    this.canvas.dataset["shadows"] = "late";
+    this.giveUpShadows = whenDrawn(this.graphics.renderer.getContext() as WebGL2RenderingContext, SHADOWS, this.moved);
+  }
+
   /** Something in the scene moved; the frame that shows it was requested, or is being drawn. */
   moves(): void {
     this.placesAreStale = this.shadowsAreStale = true;
@@ -161,6 +178,7 @@ export class RenderLoop {
       this.placesAreStale = false;
     }
     renderer.shadowMap.needsUpdate = this.shadowsAreStale;
+    if (this.shadowsAreStale) this.canvas.dataset["shadows"] = "";
     this.shadowsAreStale = false;
     renderer.render(this.scene, camera);
   }

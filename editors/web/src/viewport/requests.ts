@@ -1,6 +1,7 @@
 // Requests the model of the newest build of the drawing that is shown: one at a time, and again if it changed meanwhile.
 
 import type { Host } from "../host/host";
+import { Replaced } from "../host/replaced";
 import type { State } from "../state";
 import { Latest } from "./latest";
 import { isSame, load, type Attempt, type Loaded, type Wanted } from "./loading";
@@ -36,7 +37,7 @@ export class ModelRequests {
   /** Why the newest model is not shown, as a message. */
   failure = "";
 
-  constructor(private readonly state: State, private readonly host: Host, private readonly display: Display, renderLoop: RenderLoop) {
+  constructor(private readonly state: State, private readonly host: Pick<Host, "model">, private readonly display: Display, renderLoop: RenderLoop) {
     this.loading = new Latest(
       (wanted) => load(wanted, { model: display.model, shown: this.shown, shading: display.shading }, host, renderLoop),
       (loaded, wanted) => this.take(loaded, wanted),
@@ -112,6 +113,8 @@ export class ModelRequests {
     this.awaited = null;
     // A change that cannot be made is not shown.
     if (wanted.attempt) return this.tries(null);
+    // The build that replaced it is asked for as soon as the page reads of it.
+    if (error instanceof Replaced) return;
     if (wanted.drawing !== this.state.current || this.state.link === "lost") return;
     this.failure = error instanceof Error ? error.message : String(error);
     this.display.failed();

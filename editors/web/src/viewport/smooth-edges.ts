@@ -3,13 +3,12 @@
 
 import { CustomBlending, FramebufferTexture, HalfFloatType, NoBlending, OneFactor, ShaderMaterial, Vector2, WebGLRenderTarget, type OrthographicCamera, type PerspectiveCamera, type Texture, type WebGLRenderer } from "three";
 import { FullScreenQuad } from "three/addons/postprocessing/Pass.js";
+import { whenDrawn } from "./drawn";
 
 /** How long the picture must have been still, in milliseconds. */
 const PAUSE = 200;
 /** Pictures that take longer to draw, in milliseconds, are not smoothed: the next movement would have to wait. */
 const SLOW = 250;
-/** How often to ask whether a picture is drawn, in milliseconds. */
-const POLL = 10;
 /** How far the pictures are moved, in sixteenths of a pixel: each in a row and a column of its own. */
 const OFFSETS = [[1, -3], [-1, 3], [5, 1], [-3, -5], [-5, 5], [-7, -1], [3, 7], [7, -7]] as const;
 
@@ -20,6 +19,7 @@ export class SmoothEdges {
   private picture = new FramebufferTexture(1, 1);
   private sums = new WebGLRenderTarget(1, 1);
   private timer: ReturnType<typeof setTimeout> | undefined;
+  private giveUp: () => void = () => {};
   private frame = 0;
 
   /** `draw` draws the scene with the camera, `done` is called when the edges are smooth. */
@@ -38,6 +38,7 @@ export class SmoothEdges {
 
   /** The picture is about to change. */
   stop(): void {
+    this.giveUp();
     clearTimeout(this.timer);
     cancelAnimationFrame(this.frame);
   }
@@ -53,21 +54,8 @@ export class SmoothEdges {
 
   /** Calls `then` when everything is drawn, unless that takes too long. */
   private whenDrawn(then: () => void): void {
-    const context = this.renderer.getContext() as WebGL2RenderingContext;
-    const drawn = context.fenceSync(context.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    if (!drawn) return;
-    context.flush();
-    const begun = performance.now();
-    const ask = (): void => {
-      const isDrawn = context.getSyncParameter(drawn, context.SYNC_STATUS) === context.SIGNALED;
-      if (!isDrawn && performance.now() - begun < SLOW) {
-        this.timer = setTimeout(ask, POLL);
-        return;
-      }
-      context.deleteSync(drawn);
-      if (isDrawn) then();
-    };
-    this.timer = setTimeout(ask, POLL);
+    this.giveUp();
+    this.giveUp = whenDrawn(this.renderer.getContext() as WebGL2RenderingContext, SLOW, (isDrawn) => isDrawn && then());
   }
 
   /** Adds a picture, and shows the average of all until now. */

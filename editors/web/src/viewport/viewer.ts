@@ -37,7 +37,7 @@ export class Viewer {
   model: Model | null = null;
   shading: Shading = "smooth";
 
-  constructor(private readonly state: State, host: Host, place: HTMLElement) {
+  constructor(private readonly state: State, host: Pick<Host, "model">, place: HTMLElement) {
     this.canvas.tabIndex = 0;
     // Screen readers pass the arrow keys on to it.
     this.canvas.setAttribute("role", "application");
@@ -109,6 +109,16 @@ export class Viewer {
   /** The share of the bend of terrain: 1 is as drawn, 0 true 3D. */
   get bent(): number {
     return this.viewDependent.bent;
+  }
+
+  /** Whether the model has view-dependent nodes. */
+  get bends(): boolean {
+    return this.model?.bend.isEmpty === false;
+  }
+
+  /** Switches between the drawn look and true 3D. */
+  toggleBend(): void {
+    this.setBent(this.bent > 0 ? 0 : 1);
   }
 
   setBent(amount: number): void {
@@ -189,8 +199,7 @@ export class Viewer {
     this.renderLoop.afterNext(() => {
       // Not before the new model has taken over the shaders, or they would be compiled again.
       before?.dispose();
-      // Shadows take longer than everything else, and follow one frame later.
-      this.renderLoop.moved();
+      this.renderLoop.shadowsLater();
     });
     this.renderLoop.drawNow();
     this.events.notify("model", "time", "sideBySide");

@@ -29,17 +29,19 @@ const CLEAN: Style = Style {
     jpeg: None,
 };
 
-/// A row of the table, with the least that must be right near the front and from the side.
+/// A row of the table, with the least share of the clean picture's pairs that must remain, and of those that must be right near the front
+/// and from the side.
 struct Row {
     name: &'static str,
     style: Style,
     /// What its regions are compared with.
     clean: Style,
+    kept: f64,
     least: [f64; 2],
 }
 
 fn rows() -> Vec<Row> {
-    let row = |name, style, least| Row {
+    let row = |name, style, kept, least| Row {
         name,
         style,
         clean: Style {
@@ -47,6 +49,7 @@ fn rows() -> Vec<Row> {
             jpeg: None,
             ..style
         },
+        kept,
         least,
     };
     let plain = Style {
@@ -62,12 +65,12 @@ fn rows() -> Vec<Row> {
         ..style
     };
     vec![
-        row("with outlines", CLEAN, [0.95, 0.75]),
-        row("with outlines, noise", noisy(CLEAN), [0.8, 0.65]),
-        row("with outlines, JPEG", jpeg(CLEAN), [0.8, 0.65]),
-        row("without", plain, [0.8, 0.65]),
-        row("without, noise", noisy(plain), [0.8, 0.65]),
-        row("without, JPEG", jpeg(plain), [0.8, 0.65]),
+        row("with outlines", CLEAN, 1.0, [0.95, 0.75]),
+        row("with outlines, noise", noisy(CLEAN), 0.9, [0.8, 0.65]),
+        row("with outlines, JPEG", jpeg(CLEAN), 0.8, [0.8, 0.65]),
+        row("without", plain, 1.0, [0.8, 0.65]),
+        row("without, noise", noisy(plain), 0.75, [0.8, 0.65]),
+        row("without, JPEG", jpeg(plain), 0.55, [0.8, 0.65]),
     ]
 }
 
@@ -172,7 +175,7 @@ fn the_manual_says_how_pictures_that_are_not_clean_fare() {
         assert!(ratio <= 1.5, "{what}: {sums:?}");
         let seen = |side: usize| sums.pairs[side] as f64 / clean.pairs[side] as f64;
         for side in [0, 1] {
-            assert!(seen(side) > 0.45, "{what}: {sums:?}");
+            assert!(seen(side) >= row.kept, "{what}: {sums:?}");
             assert!(sums.share(side) >= row.least[side], "{what}: {sums:?}");
         }
         writeln!(

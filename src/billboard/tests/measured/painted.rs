@@ -10,11 +10,11 @@ use resvg::tiny_skia::{
 use typed_index_collections::TiVec;
 
 use super::labels::{Labels, Shape};
-use crate::billboard::raster::{self, RasterView};
 use crate::billboard::region::{Direction, Region, RegionId, View};
 use crate::billboard::tests::generated::Drawn;
 use crate::billboard::tests::generated::random::Random;
 use crate::geometry::{Outline, area, bounds};
+use crate::raster::{self, RasterView};
 
 /// The width of an outline, as a share of the character's height.
 const LINE: f64 = 0.012;

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::labels::{Labels, Overlaps, Shape};
-use crate::billboard::raster;
 use crate::geometry::{Outline, Ring};
+use crate::raster;
 
 const PICTURES: [&str; 6] = [
     "kenney-green-front",

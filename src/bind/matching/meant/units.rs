@@ -15,6 +15,7 @@ use crate::bind::matching::parts::MatchedPart;
 use crate::bind::matching::stacking::{Facts, Stacking};
 use crate::budget::{self, Step};
 use crate::geometry::{BoxTree, Outline, area_around, connected, distance_squared, indexed_box};
+use crate::math;
 use crate::memo::{Bits, Long, Memo, Same};
 use crate::svg::GroupId;
 use crate::threads::GRAIN;
@@ -347,7 +348,7 @@ impl Units {
             };
         }
         let smaller = LARGE * em * em / unit.area.max(f64::MIN_POSITIVE);
-        cost + SMALL * smaller.ln().max(0.0) + MIDDLES * off.length()
+        cost + SMALL * math::ln(smaller).max(0.0) + MIDDLES * off.length()
     }
 
     /// How many units the texts of each scope may name.
@@ -402,7 +403,7 @@ fn nearest(tree: &RTree<Member>, point: DVec2, count: usize) -> Vec<(usize, f64)
 /// everything does not displace one that lies on what it means.
 fn cost_of(distance: f64) -> f64 {
     if distance > NEAR {
-        NEAR * (1.0 + (distance / NEAR).ln())
+        NEAR * (1.0 + math::ln(distance / NEAR))
     } else {
         distance
     }

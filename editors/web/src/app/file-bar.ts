@@ -1,0 +1,74 @@
+// The buttons in the header that open, save and close drawings, and their keys.
+
+import { FolderOpen, Save, X } from "lucide";
+import { button, fill, h, painted } from "../dom";
+import type { State } from "../state";
+import { choose } from "./access";
+import { reason, type Files } from "./files";
+import type { Notices } from "./notices";
+
+/** `settle` makes what is being typed elsewhere a change. */
+export class FileBar {
+  readonly element = h("div", { class: "file-bar", attributes: { role: "group", "aria-label": "Files" } });
+  private readonly save = button({ icon: Save, label: "Save", wide: true, press: () => void this.write() });
+  private readonly close = button({ icon: X, label: "Close", wide: true, press: () => this.current !== null && void this.files.close(this.current) });
+
+  constructor(private readonly files: Files, private readonly state: State, private readonly notices: Notices, private readonly settle: () => Promise<void>) {
+    const open = button({ icon: FolderOpen, label: "Open…", wide: true, press: () => void this.open() });
+    open.title = "Open drawings, and what they link to (Ctrl+O)";
+    open.setAttribute("aria-keyshortcuts", "Control+O");
+    this.save.setAttribute("aria-keyshortcuts", "Control+S");
+    fill(this.element, open, this.save, this.close);
+    state.on(["current", "drawings"], () => this.draw());
+    files.onChange(() => this.draw());
+    addEventListener("keydown", (event) => this.press(event));
+    this.draw();
+  }
+
+  private get current(): string | null {
+    return this.state.current;
+  }
+
+  private draw(): void {
+    const { current } = this;
+    const kept = this.files.get(current);
+    this.save.hidden = this.close.hidden = kept === undefined;
+    this.save.dataset["changed"] = String(kept?.changed === true);
+    const words = kept?.changed ? `Save ${current}, which has changes that are in no file` : `Save ${current ?? ""}`;
+    this.save.title = `${words} (Ctrl+S)`;
+    this.save.setAttribute("aria-description", kept?.changed ? "has changes that are in no file" : "");
+    this.close.title = `Close ${current ?? ""}`;
+  }
+
+  private press(event: KeyboardEvent): void {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey || document.querySelector("dialog[open]")) return;
+    const key = event.key.toLowerCase();
+    if (key === "s") void this.write();
+    else if (key === "o") void this.open();
+    else return;
+    // The browser would save or open a page.
+    event.preventDefault();
+  }
+
+  private async open(): Promise<void> {
+    try {
+      this.files.open(await choose());
+    } catch (error) {
+      this.notices.say("opened", `The file could not be opened: ${reason(error)}.`);
+    }
+  }
+
+  private async write(): Promise<void> {
+    const { current } = this;
+    if (current === null || !this.files.get(current)) return;
+    // What is being typed into a field is a change when the field is left.
+    const field = document.activeElement;
+    if (field instanceof HTMLInputElement) {
+      field.blur();
+      await painted();
+      field.focus();
+    }
+    await this.settle();
+    await this.files.save(current);
+  }
+}

@@ -1,0 +1,129 @@
+// The program in the browser: the folder that is made of the built module, served as any static host does.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { createServer, type Server } from "node:http";
+import type { AddressInfo } from "node:net";
+import { tmpdir } from "node:os";
+import { extname, join, resolve } from "node:path";
+import { after, test } from "node:test";
+import type { Browser, BrowserContext, Download, Page } from "playwright-core";
+import { CHROMIUM, launch, open, type PageOptions } from "./browser";
+import { closeAll, closing, TEST_LIMIT } from "./closing";
+
+const module = process.env["OKOSHI_MODULE"] ?? "";
+export const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : module === "" || !existsSync(module) ? "there is no module; OKOSHI_MODULE names the folder that editors/web/wasm/build.sh made" : false;
+
+const TYPES: Readonly<Record<string, string>> = { ".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8", ".wasm": "application/wasm" };
+
+let browser: Promise<Browser> | undefined;
+let folder: string | undefined;
+after(() => closeAll([async () => (await browser)?.close(), () => folder && rmSync(folder, { recursive: true })]));
+
+/** The folder, made once. */
+function made(): string {
+  if (folder === undefined) {
+    folder = mkdtempSync(join(tmpdir(), "okoshi-app-"));
+    execFileSync(process.execPath, [join("scripts", "app.mjs"), folder, resolve(module)], { stdio: ["ignore", "ignore", "inherit"] });
+  }
+  return folder;
+}
+
+/** A static host, which can be away. */
+async function host(root: string): Promise<{ address: string; server: Server; close(): Promise<void> }> {
+  const server = createServer(({ url = "/" }, response) => {
+    const { pathname } = new URL(url, "http://localhost");
+    const file = join(root, pathname.endsWith("/") ? `${pathname}index.html` : pathname);
+    const found = existsSync(file) && statSync(file).isFile();
+    response.writeHead(found ? 200 : 404, { "content-type": TYPES[extname(file)] ?? "text/plain" }).end(found ? readFileSync(file) : "");
+  });
+  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
+  const close = (): Promise<void> =>
+    new Promise((resolve) => {
+      server.close(() => resolve());
+      server.closeAllConnections();
+    });
+  return { address: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`, server, close };
+}
+
+export class App {
+  constructor(readonly page: Page, private readonly stop: () => Promise<void>) {}
+
+  /** Ends the server: what is shown from now on is from the browser. */
+  leave(): Promise<void> {
+    return this.stop();
+  }
+
+  /** Opens files by the button. */
+  async choose(...files: readonly (string | { name: string; mimeType: string; buffer: Buffer })[]): Promise<void> {
+    const [chooser] = await Promise.all([this.page.waitForEvent("filechooser"), this.page.getByRole("button", { name: "Open…" }).click()]);
+    await chooser.setFiles(files as string[]);
+  }
+
+  /** Drops files on the page. */
+  async drop(...files: readonly { name: string; text: string }[]): Promise<void> {
+    await this.page.evaluate((files) => {
+      const data = new DataTransfer();
+      for (const { name, text } of files) data.items.add(new File([text], name));
+      for (const type of ["dragover", "drop"]) document.body.dispatchEvent(new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true }));
+    }, files);
+  }
+
+  /** What is saved as a download. */
+  async saved(press: () => Promise<void>): Promise<{ name: string; text: string }> {
+    const [download]: [Download, void] = await Promise.all([this.page.waitForEvent("download"), press()]);
+    return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
+  }
+
+  /** Waits until the list of parts has a part. */
+  async part(name: string): Promise<void> {
+    await this.page.locator(`[data-part="${name}"]`).waitFor();
+  }
+
+  /** The form of a part; in a small window the list is in a drawer. */
+  async select(part: string): Promise<void> {
+    const opener = this.page.locator(".drawer-opener");
+    const isSmall = await opener.isVisible();
+    if (isSmall) await opener.click();
+    await this.page.locator(`[data-part="${part}"]`).click();
+    if (isSmall) await this.page.locator(".drawer-tab", { hasText: part }).click();
+    await this.page.locator(`.part-form[data-form-of="${part}"]:not([inert])`).waitFor();
+  }
+
+  /** Waits until a notice says something. */
+  async says(words: string | RegExp): Promise<void> {
+    await this.page.locator(".notice", { hasText: words }).waitFor();
+  }
+}
+
+interface InBrowser extends PageOptions {
+  /** Messages of the browser that belong to the test. */
+  readonly expected?: RegExp;
+  readonly prepare?: (context: BrowserContext) => Promise<void>;
+}
+
+/** A test of the program in a browser of its own; it fails at any error or violation of the policy that is not among those that it expects. */
+export function inBrowser(name: string, run: (app: App) => Promise<void>, { expected = /^$/, prepare, ...options }: InBrowser = {}): void {
+  test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
+    const onClose = closing(t);
+    const { address, close } = await host(made());
+    let closed = false;
+    const stop = async (): Promise<void> => {
+      if (!closed) await close();
+      closed = true;
+    };
+    onClose(stop);
+    browser ??= launch();
+    const { page, wrong } = await open(await browser, address, onClose, options, async (context) => {
+      // A test cannot choose a file that the browser then lets the page at: without that, files are chosen and saved as in other browsers.
+      await context.addInitScript(() => ["showOpenFilePicker", "showSaveFilePicker"].forEach((name) => delete (globalThis as unknown as Record<string, unknown>)[name]));
+      await context.addInitScript(() => {
+        addEventListener("securitypolicyviolation", ({ violatedDirective, blockedURI }) => console.error(`policy: ${violatedDirective} ${blockedURI}`));
+      });
+      await prepare?.(context);
+    });
+    await run(new App(page, stop));
+    assert.deepEqual(wrong.filter((one) => !expected.test(one)), []);
+  });
+}

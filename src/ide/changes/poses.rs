@@ -1,0 +1,252 @@
+//! Keeps a pose: a pose layer with clones of the parts that are posed otherwise than before.
+
+use glam::DAffine2;
+use serde::{Deserialize, Serialize};
+
+use super::{Analysis, Refusal};
+use crate::bind::PartId;
+use crate::diagnostic::Edit;
+use crate::lang::keyword::Keyword;
+use crate::lang::quoting::{NamePlace, quoted_if_needed};
+use crate::math;
+use crate::rig;
+use crate::source::{Span, end_of_tag, escape_xml};
+use crate::svg::{self, Element, GroupId, GroupKind, ShapeId};
+
+/// A part that is turned by hand.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PartTurn {
+    /// The part.
+    pub part: String,
+    /// By how much it is turned about its joint from how it is drawn, degrees, counter-clockwise as the drawing is seen.
+    pub degrees: f64,
+}
+
+/// How much of the layer is seen where drawings are shown: like on a light table.
+const OPACITY: f64 = 0.3;
+
+impl Analysis {
+    /// Adds a key pose after the last one, behind everything else in the file.
+    pub(super) fn keep_pose(&self, turns: &[PartTurn]) -> Result<Vec<Edit>, Refusal> {
+        let mut turned = Vec::with_capacity(turns.len());
+        for PartTurn { part, degrees } in turns {
+            if !degrees.is_finite() {
+                return Err(Refusal::new(format!(
+                    "`{part}` is turned by no number of degrees"
+                )));
+            }
+            turned.push((self.node_to_change(part)?, degrees.to_radians()));
+        }
+        let (bindings, drawing) = (self.bindings(), self.drawing());
+        let pose = rig::kept(drawing, bindings, &turned);
+        if pose.copies.is_empty() {
+            return Err(Refusal::new(
+                "no part is posed otherwise than in the pose before, or, without one, than it is drawn",
+            ));
+        }
+        let mut edits = Vec::new();
+        let mut ids = Ids::new(self);
+        let mut clones = Vec::new();
+        for (part, moved) in &pose.copies {
+            for element in self.drawn_as(*part) {
+                let id = ids.of(element, &bindings.parts[*part].name, &mut edits)?;
+                clones.push((element.span.start, id, *moved));
+            }
+        }
+        let starts: Vec<usize> = clones.iter().map(|(start, ..)| *start).collect();
+        let around = svg::transforms_around(&self.source, &starts);
+        let Some(end) = self.source.rfind("</") else {
+            return Err(Refusal::new(
+                "the drawing has no end to which a layer could be added",
+            ));
+        };
+        let root = &drawing.groups[GroupId::ROOT].element;
+        let prefix = self.source[root.span.start + 1..root.span.end].strip_suffix("svg");
+        let prefix = prefix.unwrap_or_default();
+        let link = match self.source.contains("xmlns:xlink=") {
+            true => "xlink:href",
+            false => "href",
+        };
+        let name = format!("{} {}", Keyword::Pose.name(), pose.seconds);
+        let layer = match self.source.contains("xmlns:inkscape=") {
+            true => format!(" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\""),
+            false => String::new(),
+        };
+        let id = ids.free("pose");
+        let whose = pose.root.map(|root| bindings.parts[root].name.as_str());
+        let whose = whose.map(|name| quoted_if_needed(name, NamePlace::Head));
+        let string = escape_xml(&format!("{}${name}", whose.unwrap_or_default()));
+        let mut text = format!(
+            "  <{prefix}g id=\"{id}\"{layer} style=\"opacity:{OPACITY}\">\n    <{prefix}desc>{string}</{prefix}desc>\n"
+        );
+        for ((_, id, moved), around) in clones.iter().zip(around) {
+            let transform = written(*moved, around.unwrap_or_default());
+            let (id, own) = (escape_xml(id), ids.free("copy"));
+            text.push_str(&format!(
+                "    <{prefix}use id=\"{own}\" {link}=\"#{id}\"{transform} />\n"
+            ));
+        }
+        text.push_str(&format!("  </{prefix}g>\n"));
+        edits.push(Edit {
+            span: Span::at(end),
+            text,
+        });
+        Ok(edits)
+    }
+
+    /// The elements that draw a part, in paint order: its group, if that holds nothing else, and shapes outside of it.
+    fn drawn_as(&self, part: PartId) -> Vec<&Element> {
+        let (bindings, drawing) = (self.bindings(), self.drawing());
+        let own = bindings
+            .parts
+            .iter()
+            .filter(|other| other.main == part && other.kind.is_solid());
+        let mut own: Vec<ShapeId> = own.map(|part| part.shape).collect();
+        own.sort_unstable();
+        own.dedup();
+        let above = |shape: ShapeId| {
+            std::iter::successors(Some(drawing.shapes[shape].group), |inner| {
+                Some(drawing.groups[*inner].parent).filter(|outer| outer != inner)
+            })
+        };
+        let is_its_own = |group: &GroupId| {
+            let is_group = drawing.groups[*group].kind == GroupKind::Group;
+            let mut others = drawing.shapes.keys();
+            is_group
+                && others
+                    .all(|shape| own.contains(&shape) || above(shape).all(|outer| outer != *group))
+        };
+        let main = bindings.parts[part].shape;
+        let group = above(main).take_while(is_its_own).last();
+        let mut elements: Vec<&Element> = Vec::new();
+        for shape in &own {
+            let in_group = group.filter(|group| above(*shape).any(|outer| outer == *group));
+            let element = match in_group {
+                Some(group) => &drawing.groups[group].element,
+                None => &drawing.shapes[*shape].element,
+            };
+            // Clones of groups hold several shapes.
+            if !elements.iter().any(|known| known.span == element.span) {
+                elements.push(element);
+            }
+        }
+        elements
+    }
+}
+
+/// The ids of elements, and new ones for those that have none.
+struct Ids<'a> {
+    source: &'a str,
+    given: Vec<(usize, String)>,
+    used: Vec<String>,
+}
+
+impl<'a> Ids<'a> {
+    fn new(analysis: &'a Analysis) -> Self {
+        Self {
+            source: &analysis.source,
+            given: Vec::new(),
+            used: Vec::new(),
+        }
+    }
+
+    /// An id that nothing has: a word with a number.
+    fn free(&mut self, word: &str) -> String {
+        let mut number = 1;
+        loop {
+            let id = format!("{word}-{number}");
+            let is_used = self.used.contains(&id)
+                || ['"', '\'']
+                    .iter()
+                    .any(|quote| self.source.contains(&format!("{quote}{id}{quote}")));
+            if !is_used {
+                self.used.push(id.clone());
+                return id;
+            }
+            number += 1;
+        }
+    }
+
+    /// The id of an element; an element without one gets one.
+    fn of(
+        &mut self,
+        element: &Element,
+        name: &str,
+        edits: &mut Vec<Edit>,
+    ) -> Result<String, Refusal> {
+        if let Some(id) = &element.id {
+            return Ok(id.clone());
+        }
+        let start = element.span.start;
+        if let Some((_, id)) = self.given.iter().find(|(known, _)| *known == start) {
+            return Ok(id.clone());
+        }
+        let end = end_of_tag(self.source, start).unwrap_or(element.span.end);
+        let tag = &self.source[element.span.end..end];
+        let mut attributes = tag.split_whitespace();
+        if attributes.any(|attribute| attribute.starts_with("id=")) {
+            return Err(Refusal::new(format!(
+                "`{name}` has the id of another shape: open the drawing in Inkscape and save it, which gives each its own"
+            )));
+        }
+        let id = self.free("part");
+        edits.push(Edit {
+            span: Span::at(element.span.end),
+            text: format!(" id=\"{id}\""),
+        });
+        self.given.push((start, id.clone()));
+        Ok(id)
+    }
+}
+
+/// The attribute that moves a clone in an untransformed layer, given the transform around what it clones.
+fn written(moved: DAffine2, around: DAffine2) -> String {
+    let whole = moved * around;
+    if whole.abs_diff_eq(DAffine2::IDENTITY, 1e-9) {
+        return String::new();
+    }
+    let round = |value: f64| {
+        let value = (value * 1e6).round() / 1e6;
+        // Without a sign before 0.
+        value + 0.0
+    };
+    let angle = math::atan2(moved.matrix2.x_axis.y, moved.matrix2.x_axis.x);
+    if around.abs_diff_eq(DAffine2::IDENTITY, 1e-9) && angle.abs() > 1e-3 {
+        // A turn about the point that stays: half of the shift, and across it by the cotangent of half of the angle.
+        let shift = moved.translation;
+        let center = (shift + shift.perp() / math::tan(angle / 2.0)) / 2.0;
+        let values = [angle.to_degrees(), center.x, center.y].map(round);
+        return format!(
+            " transform=\"rotate({},{},{})\"",
+            values[0], values[1], values[2]
+        );
+    }
+    let [a, b, c, d, e, f] = whole.to_cols_array().map(round);
+    format!(" transform=\"matrix({a},{b},{c},{d},{e},{f})\"")
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+
+    #[test]
+    fn turns_are_written_about_the_point_that_stays() {
+        let joint = DVec2::new(120.5, 80.25);
+        for degrees in [-170.0, -30.0, 5.0, 90.0_f64] {
+            let moved = DAffine2::from_translation(joint)
+                * DAffine2::from_angle(degrees.to_radians())
+                * DAffine2::from_translation(-joint);
+            let wanted = format!(" transform=\"rotate({degrees},120.5,80.25)\"");
+            assert_eq!(written(moved, DAffine2::IDENTITY), wanted);
+        }
+        let shift = DAffine2::from_translation(DVec2::new(3.0, -4.0));
+        assert_eq!(
+            written(shift, DAffine2::IDENTITY),
+            " transform=\"matrix(1,0,0,1,3,-4)\""
+        );
+        assert_eq!(written(DAffine2::IDENTITY, DAffine2::IDENTITY), "");
+    }
+}

@@ -1,0 +1,136 @@
+//! Keeping a pose.
+
+use glam::DVec2;
+use proptest::prelude::*;
+
+use super::super::super::fixtures::analysis;
+use super::super::poses::PartTurn;
+use super::*;
+
+/// A crane in a transformed layer, with strings, namespaces and ids as Inkscape has them, or without.
+fn crane(is_from_inkscape: bool) -> String {
+    let (spaces, boom) = match is_from_inkscape {
+        true => (
+            " xmlns:xlink=\"http://www.w3.org/1999/xlink\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"",
+            " id=\"boom\"",
+        ),
+        false => ("", ""),
+    };
+    format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg"{spaces} width="200" height="200" viewBox="-10 5 200 200">
+<g transform="translate(30,20) rotate(10)"><rect x="40" y="100" width="40" height="14"><desc>Base</desc></rect>
+<g{boom}><rect x="55" y="50" width="10" height="55"><desc>Boom@Base$Origin 60 102</desc></rect><circle cx="60" cy="70" r="3" fill="red"/></g>
+<rect x="57" y="20" width="6" height="35"><desc>Arm@Boom$Origin 60 53</desc></rect></g>
+</svg>"##
+    )
+}
+
+fn keep(turns: &[(&str, f64)]) -> Change {
+    let turns = turns.iter().map(|(part, degrees)| PartTurn {
+        part: (*part).to_owned(),
+        degrees: *degrees,
+    });
+    Change::KeepPose {
+        turns: turns.collect(),
+    }
+}
+
+/// The copies of the last key pose: each part with its turn in degrees, counter-clockwise, and where its joint is moved to.
+fn last_pose(text: &str) -> (f64, Vec<(String, f64, DVec2)>) {
+    let (analysis, _) = analysis(text);
+    let bindings = analysis.bindings();
+    let pose = bindings.poses.last().expect("a pose");
+    let parts = pose.parts.iter().map(|posed| {
+        let part = &bindings.parts[posed.part];
+        let turn = -posed.moved.matrix2.x_axis.to_angle().to_degrees();
+        (
+            part.name.clone(),
+            turn,
+            posed.moved.transform_point2(part.origin),
+        )
+    });
+    let warnings = analysis.diagnostics().iter();
+    let mut warnings =
+        warnings.filter(|found| found.severity() == crate::diagnostic::Severity::Warning);
+    assert_eq!(warnings.next().map(|found| &found.message), None, "{text}");
+    (pose.seconds, parts.collect())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn kept_parts_are_turned_about_their_joints(
+        is_from_inkscape: bool,
+        boom in prop_oneof![Just(0.0), -170.0..170.0_f64],
+        arm in 1.0..170.0_f64,
+        later in -170.0..-1.0_f64,
+    ) {
+        let source = crane(is_from_inkscape);
+        let turns = if boom == 0.0 { vec![("Arm", arm)] } else { vec![("Boom", boom), ("Arm", arm)] };
+        let once = made(&source, &keep(&turns)).unwrap();
+        let (seconds, parts) = last_pose(&once);
+        prop_assert_eq!(seconds, 0.5);
+        // Only what is turned is cloned.
+        prop_assert_eq!(parts.len(), turns.len());
+        let (name, turn, place) = &parts[parts.len() - 1];
+        prop_assert_eq!(name, "Arm");
+        let off = (turn - boom - arm + 180.0).rem_euclid(360.0) - 180.0;
+        prop_assert!(off.abs() < 1e-3, "{turn} for {boom} + {arm}");
+        // The arm's joint goes with the boom.
+        let (before, _) = analysis(&source);
+        let joint = |name: &str| {
+            let part = before.part_named(name).unwrap();
+            before.bindings().parts[part].origin
+        };
+        let [own, hung_on] = ["Arm", "Boom"].map(joint);
+        let turned = DVec2::from_angle(-boom.to_radians()).rotate(own - hung_on) + hung_on;
+        prop_assert!(turned.distance(*place) < 1e-3, "{turned} {place}");
+        // What is as before is not cloned again; what is as it is drawn again, is.
+        let twice = made(&once, &keep(&[("Arm", later), ("Boom", boom)])).unwrap();
+        let (seconds, parts) = last_pose(&twice);
+        let names: Vec<&str> = parts.iter().map(|(name, ..)| name.as_str()).collect();
+        prop_assert_eq!((seconds, names), (1.0, vec!["Arm"]));
+        let third = made(&twice, &keep(&[("Boom", 12.0)])).unwrap();
+        let (seconds, parts) = last_pose(&third);
+        let arm = parts.iter().find(|(name, ..)| name == "Arm").unwrap();
+        prop_assert!(seconds == 1.5 && (arm.1 - 12.0).abs() < 1e-3, "{arm:?}");
+        // The text before it stays as it is, but for ids that are missing.
+        let kept = twice.rfind("</svg>").unwrap();
+        prop_assert!(!is_from_inkscape || third.starts_with(&twice[..kept]));
+    }
+}
+
+#[test]
+fn a_kept_pose_is_a_small_layer() {
+    let after = made(&crane(true), &keep(&[("Boom", 30.0)])).unwrap();
+    let source = crane(true);
+    let end = source.rfind("</svg>").unwrap();
+    let layer = &after[end..];
+    assert_eq!(
+        layer.lines().collect::<Vec<_>>()[..3],
+        [
+            "  <g id=\"pose-1\" inkscape:groupmode=\"layer\" inkscape:label=\"Pose 0.5\" style=\"opacity:0.3\">",
+            "    <desc>Base$Pose 0.5</desc>",
+            // The group of the boom and its knob is one clone, in the layer's coordinates.
+            "    <use id=\"copy-1\" xlink:href=\"#boom\" transform=\"matrix(0.939693,-0.34202,0.34202,0.939693,-6.980762,45.985917)\" />",
+        ]
+    );
+    assert!(layer.ends_with("  </g>\n</svg>"));
+}
+
+#[test]
+fn nothing_new_is_not_kept() {
+    let source = crane(true);
+    let once = made(&source, &keep(&[("Arm", 20.0)])).unwrap();
+    for (text, turns) in [
+        (&source, vec![]),
+        (&source, vec![("Arm", 0.0)]),
+        (&once, vec![("Arm", 20.0)]),
+    ] {
+        let refusal = made(text, &keep(&turns)).unwrap_err();
+        assert!(refusal.why.starts_with("no part is posed"), "{refusal}");
+    }
+    let refusal = made(&source, &keep(&[("Leg", 20.0)])).unwrap_err();
+    assert_eq!(refusal.why, "there is no part `Leg`");
+}
