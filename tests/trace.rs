@@ -4,14 +4,12 @@
 mod common;
 
 use common::program::Room;
-
-fn photograph() -> Vec<u8> {
-    std::fs::read("examples/photographs/boy.jpg").expect("the example")
-}
+use image::{ImageFormat, Rgb, RgbImage};
 
 #[test]
 fn a_photograph_becomes_a_figure_that_walks() {
-    let room = Room::with("boy.jpg", photograph());
+    let photograph = std::fs::read("examples/photographs/boy.jpg").expect("the example");
+    let room = Room::with("boy.jpg", photograph);
     let run = room.run(&["trace", "boy.jpg"]);
     run.ends(0, "", "from the sheet of paper in the picture");
     let run = room.run(&["annotate", "boy.svg"]);
@@ -36,21 +34,29 @@ fn a_photograph_becomes_a_figure_that_walks() {
 
 #[test]
 fn the_drawing_goes_where_it_is_asked_for_and_replaces_none() {
-    let room = Room::with("boy.jpg", photograph());
-    let drawing = room.run(&["trace", "boy.jpg", "-o", "-"]);
+    let mut picture = RgbImage::from_pixel(64, 64, Rgb([255; 3]));
+    for (x, y) in (16..48).flat_map(|x| (16..40).map(move |y| (x, y))) {
+        picture.put_pixel(x, y, Rgb([200, 30, 30]));
+    }
+    let mut png = std::io::Cursor::new(Vec::new());
+    picture
+        .write_to(&mut png, ImageFormat::Png)
+        .expect("the picture is encoded");
+    let room = Room::with("box.png", png.into_inner());
+    let drawing = room.run(&["trace", "box.png", "-o", "-"]);
     assert!(
         drawing.status == 0 && drawing.out.starts_with("<svg"),
         "{}",
         drawing.err
     );
-    room.write("boy.svg", "mine");
-    room.run(&["trace", "boy.jpg"])
+    room.write("box.svg", "mine");
+    room.run(&["trace", "box.png"])
         .ends(2, "", "never overwritten");
-    assert_eq!(room.read("boy.svg"), b"mine");
-    let run = room.run(&["trace", "boy.jpg", "-o", "other.svg", "-q"]);
+    assert_eq!(room.read("box.svg"), b"mine");
+    let run = room.run(&["trace", "box.png", "-o", "other.svg", "-q"]);
     run.ends(0, "", "");
     assert_eq!(room.read("other.svg"), drawing.out.as_bytes());
-    assert_eq!(room.files(), ["boy.jpg", "boy.svg", "other.svg"]);
+    assert_eq!(room.files(), ["box.png", "box.svg", "other.svg"]);
 }
 
 #[test]

@@ -65,10 +65,11 @@ impl Queue {
 
 /// A key that orders small values first. `value` is at least 0 and not NaN, so its bits are ordered like the number.
 pub(super) fn ascending(value: f64) -> u64 {
-    value.to_bits()
+    // The bits of -0, which equals 0, would come last.
+    (value + 0.0).to_bits()
 }
 
 /// A key that orders large values first; never [`Queue::OUT`].
 pub(super) fn descending(value: f64) -> u64 {
-    (1 << 63) - value.to_bits()
+    (1 << 63) - ascending(value)
 }

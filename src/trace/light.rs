@@ -1,6 +1,10 @@
 //! Even light on a sheet of paper.
 
+use std::collections::HashSet;
+
 use image::{Rgba, RgbaImage};
+
+use crate::regions::connected;
 
 /// Squares along the longer side of a picture, in each of which the paper has one colour.
 const SQUARES: u32 = 96;
@@ -76,25 +80,24 @@ impl Light {
             let square = squares[**at];
             square.is_even && is_like_paper(square.color) && luma(square.color) > usual / 2.0
         });
-        let mut open: Vec<usize> = seeds.copied().collect();
-        if open.len() < border.len() / 2 {
+        let seeds: Vec<usize> = seeds.copied().collect();
+        if seeds.len() < border.len() / 2 {
             return None;
         }
-        let mut is_paper = vec![false; columns * rows];
-        for at in &open {
-            is_paper[*at] = true;
-        }
-        while let Some(at) = open.pop() {
-            for next in neighbors(at, columns, rows) {
-                if !is_paper[next]
-                    && squares[next].is_even
-                    && is_step(squares[at].color, squares[next].color)
-                {
-                    is_paper[next] = true;
-                    open.push(next);
-                }
-            }
-        }
+        let joined = |a: usize, b: usize| {
+            let [a, b] = [a, b].map(|at| squares[at]);
+            a.is_even && b.is_even && is_step(a.color, b.color)
+        };
+        let labels = connected(
+            squares.len(),
+            columns,
+            1,
+            |at| squares[at].is_even,
+            |at| joined(at, at - 1),
+            |at| joined(at, at - columns),
+        );
+        let papers: HashSet<_> = seeds.iter().map(|at| labels.of[*at]).collect();
+        let is_paper: Vec<bool> = labels.of.iter().map(|of| papers.contains(of)).collect();
         let mut light = Self {
             square,
             columns,

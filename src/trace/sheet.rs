@@ -65,19 +65,30 @@ fn corners(small: &RgbaImage, step: f64) -> Option<[DVec2; 4]> {
     let large = areas.iter().enumerate();
     let large = large.filter(|(_, (count, _))| *count as f64 >= LEAST * all);
     let (label, _) = large.max_by_key(|(_, (count, light))| light / *count as u64)?;
-    let of_sheet = labels.of.iter().enumerate();
-    let of_sheet = of_sheet.filter(|(_, of)| **of as usize == label + 1);
-    let pixel_corners = of_sheet.flat_map(|(at, _)| {
-        let corner = DVec2::new((at % width) as f64, (at / width) as f64);
-        [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|step| corner + step)
+    // The first and the last pixel of each row have its hull.
+    let rows = labels.of.chunks(width).enumerate();
+    let ends = rows.filter_map(|(row, of)| {
+        let is_sheet = |of: &u32| *of as usize == label + 1;
+        let (first, last) = (
+            of.iter().position(is_sheet)?,
+            of.iter().rposition(is_sheet)?,
+        );
+        Some([
+            (first, row),
+            (last + 1, row),
+            (first, row + 1),
+            (last + 1, row + 1),
+        ])
     });
-    let hull = convex_hull(pixel_corners.collect());
+    let ends = ends.flatten();
+    let ends = ends.map(|(x, y)| DVec2::new(x as f64, y as f64));
+    let hull = convex_hull(ends.collect());
     let hull_area = shoelace(&hull).abs();
     if hull_area >= ALL * all {
         return None;
     }
     let corners = largest_square(&hull)?;
-    (shoelace(&corners).abs() >= SQUARE * hull_area).then(|| upright(corners))
+    (shoelace(&corners).abs() >= SQUARE * hull_area).then(|| from_upper_left(corners))
 }
 
 /// The four points of a convex ring between which most of it lies.
@@ -107,7 +118,7 @@ fn largest_square(hull: &Ring) -> Option<[DVec2; 4]> {
 }
 
 /// The corners in their order from the upper left: a photograph is nearly upright.
-fn upright(mut corners: [DVec2; 4]) -> [DVec2; 4] {
+fn from_upper_left(mut corners: [DVec2; 4]) -> [DVec2; 4] {
     if shoelace(&corners) < 0.0 {
         corners.reverse();
     }

@@ -46,7 +46,7 @@ async function begin(page: HTMLElement): Promise<void> {
   state.on(["drawings", "link"], () => (loading.hidden = state.known || state.link === "lost"));
   // Without a secure address there is no such thing, and the page works while its server is there.
   if ("serviceWorker" in navigator) navigator.serviceWorker.register("service-worker.js").catch((error: unknown) => console.warn(error));
-  await files.restore(await Store.open());
+  files.restore(await Store.open());
   // What the browser kept is known now, and loses nothing.
   if (first) sharing.open(await first);
 }

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import type { BrowserContext, Page } from "playwright-core";
-import { inBrowser } from "./app";
+import { App, inBrowser } from "./app";
 import { found } from "./axe";
 import { overlaps, picture, shown } from "./browser";
 import { FIGURE, source } from "./setup";
@@ -149,7 +149,7 @@ inBrowser("a second tab says that it keeps nothing, and takes nothing from the f
   await app.part("Arm");
   const other = await page.context().newPage();
   await other.goto(page.url());
-  await other.getByText("Your drawings are open in another tab. What you do in this one is not kept: save it.").waitFor();
+  await other.getByText("Your drawings are open in another tab. What you do in this one is not kept until that one is closed.").waitFor();
   await other.locator("[data-starter=robot]").click();
   await shown(other);
   await other.getByRole("button", { name: "Edit" }).click();
@@ -166,6 +166,35 @@ inBrowser("a second tab says that it keeps nothing, and takes nothing from the f
   await page.reload();
   await app.part("Arm");
   assert.equal(await page.title(), "figure.svg · okoshi");
+});
+
+inBrowser("a second tab goes on with the drawings of the first when that is closed, and loses neither's", async (app) => {
+  const { page } = app;
+  await app.drop({ name: "figure.svg", text: TEXT }, { name: "only-there.svg", text: TEXT });
+  await app.part("Arm");
+  await page.getByRole("button", { name: "Edit" }).click();
+  await app.select("Arm");
+  const name = page.getByLabel("Name", { exact: true });
+  await name.fill("Wing");
+  await name.press("Enter");
+  await app.part("Wing");
+  const context = page.context();
+  const other = new App(await context.newPage(), () => app.leave());
+  await other.page.goto(page.url());
+  await other.says("Your drawings are open in another tab.");
+  await other.drop({ name: "figure.svg", text: TEXT.replaceAll("Arm@", "Fin@") });
+  await other.part("Fin");
+  await page.close();
+  await other.page.locator(".notice").waitFor({ state: "detached" });
+  await other.page.getByRole("link", { name: "Drawings" }).click();
+  await other.page.getByText("3 drawings").waitFor();
+  await other.page.reload();
+  await other.page.getByText("3 drawings").waitFor();
+  for (const [name, part] of [["figure.svg", "Fin"], ["figure-2.svg", "Wing"], ["only-there.svg", "Arm"]]) {
+    await other.page.locator(".card", { has: other.page.getByText(name!, { exact: true }) }).click();
+    await other.part(part!);
+    await other.page.getByRole("link", { name: "Drawings" }).click();
+  }
 });
 
 inBrowser("without a network the program opens as it was left", async (app) => {

@@ -128,6 +128,26 @@ edit("a form that arrives leaves the control alone that a person is in, and what
   await says("a", "Alrm@", "Alarm@");
 });
 
+edit("a change that is built before the page knows that it is made is shown as the drawing, not as what is tried", async (edited) => {
+  const { page } = edited;
+  await page.getByRole("button", { name: "Edit" }).click();
+  await edited.select("Arm");
+  let tries = 0;
+  page.on("response", (response) => response.url().endsWith("/tries") && tries++);
+  await page.route("**/changes", async (route) => {
+    const response = await route.fetch();
+    await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "2");
+    // What was tried is tried again in the new build.
+    for (const end = Date.now() + PATIENCE; tries < 2 && Date.now() < end; ) await new Promise((resolve) => setTimeout(resolve, 20));
+    await route.fulfill({ response });
+  });
+  const kind = page.getByRole("radiogroup", { name: "Shape: which" }).getByRole("radio", { name: "inflate", exact: true });
+  await Promise.all([page.waitForResponse("**/changes"), kind.click()]);
+  assert.ok(tries >= 2);
+  await page.locator(".part-form[aria-busy=false]").waitFor();
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["tried"] === "");
+});
+
 edit("a model that newer ones replace while it is asked for is no error, and the newest is shown", async ({ page, file }) => {
   const answers: string[] = [];
   page.on("response", (response) => answers.push(`${response.status()} ${new URL(response.url()).pathname}`));

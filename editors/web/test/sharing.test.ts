@@ -66,8 +66,9 @@ inBrowser("a link opens its drawing for whoever has it, beside what is there, an
   assert.equal(await page.title(), "figure-2.svg · okoshi");
   // Opened again, it is the same drawing.
   await page.goto(shared);
-  await page.waitForFunction(() => !location.hash.includes("drawing="));
+  await page.waitForFunction(() => location.hash === "#figure-2.svg");
   await page.reload();
+  await app.part("Wing");
   await page.getByRole("link", { name: "Drawings" }).click();
   await page.getByText("2 drawings").waitFor();
   await page.locator(".card", { has: page.getByText("figure.svg", { exact: true }) }).click();

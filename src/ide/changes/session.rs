@@ -203,7 +203,7 @@ impl Session {
     /// What a change would make of a drawing. That stays as it is, and nothing is to be undone.
     ///
     /// # Errors
-    /// If the change would be refused.
+    /// If the change would be refused, or nothing changes: the drawing is what there is to see.
     pub(crate) fn tried(
         &mut self,
         before: &Arc<Analysis>,
@@ -212,7 +212,9 @@ impl Session {
         reading: Reading<'_>,
     ) -> Result<Arc<Analysis>, Refusal> {
         let possible = self.possible(before, change, shown, reading)?;
-        let tried = possible.after.unwrap_or_else(|| before.clone());
+        let tried = possible.after.ok_or_else(|| {
+            Refusal::without_choice("the drawing says so already: nothing is changed by it")
+        })?;
         self.tried = Some(tried.clone());
         Ok(tried)
     }

@@ -47,18 +47,13 @@ export class Files {
   }
 
   /** Brings back what the browser has kept, and begins. */
-  async restore(store: Store): Promise<void> {
+  restore(store: Store): void {
     this.store = store;
     if (store.trouble !== "") this.notices.say("store", store.trouble);
     // What was opened meanwhile is newer.
     const early = [...this.all.values()];
     this.all.clear();
-    const kept = await store.all().catch(() => []);
-    for (const one of kept) {
-      this.all.set(one.path, one);
-      this.host.put(one.path, one.bytes);
-      this.order = Math.max(this.order, one.order + 1);
-    }
+    for (const one of store.kept) this.bringBack(one);
     for (const one of early) {
       const path = kindOf(one.path) === "drawing" ? this.free(one) : one.path;
       if (this.wanted === one.path) this.wanted = path;
@@ -67,6 +62,28 @@ export class Files {
     this.host.begin();
     setInterval(() => void this.look(), PAUSE);
     this.notify();
+    void store.later?.then((store) => this.join(store));
+  }
+
+  /** Goes on with what the browser keeps, now that no other page has it. What is open here keeps its names. */
+  private join(store: Store): void {
+    this.store = store;
+    if (store.trouble !== "") this.notices.say("store", store.trouble);
+    else this.notices.take("store");
+    const mine = [...this.all.values()];
+    for (const one of store.kept) {
+      const other = this.all.get(one.path);
+      if (!other) this.bringBack(one);
+      else if (one.changed && kindOf(one.path) === "drawing" && !same(other.bytes, one.bytes)) this.take({ ...one, path: numbered(one.path, (path) => this.all.has(path)), order: this.order++ });
+    }
+    for (const one of mine) this.keep(one);
+    this.notify();
+  }
+
+  private bringBack(kept: Kept): void {
+    this.all.set(kept.path, kept);
+    this.host.put(kept.path, kept.bytes);
+    this.order = Math.max(this.order, kept.order + 1);
   }
 
   open(opened: readonly Opened[]): void {

@@ -17,33 +17,28 @@ export interface Kept extends ProjectFile {
 const LEAVING = 1500;
 
 export class Store {
-  private constructor(private readonly store: UseStore | null, readonly trouble: string) {}
+  /**
+   * `kept`: what was kept when it was opened, in its order. `trouble`: why nothing is kept, in words, or nothing. `later`: what is kept once the
+   * other page with the same files is gone.
+   */
+  private constructor(private readonly store: UseStore | null, readonly kept: readonly Kept[], readonly trouble = "", readonly later: Promise<Store> | null = null) {}
 
   /** One page at a time keeps the files: two would write over each other's. */
   static async open(): Promise<Store> {
-    const hasLock = await new Promise<boolean>((resolve) => {
-      // Browsers have locks in secure contexts alone.
-      if (!navigator.locks) return resolve(true);
-      navigator.locks
-        .request("okoshi.files", { signal: AbortSignal.timeout(LEAVING) }, () => {
-          resolve(true);
-          return new Promise(() => {});
-        })
-        .catch(() => resolve(false));
-    });
-    if (!hasLock) return new Store(null, "Your drawings are open in another tab. What you do in this one is not kept: save it.");
-    try {
-      const store = createStore("okoshi", "files");
-      await values(store);
-      return new Store(store, "");
-    } catch {
-      return new Store(null, "This browser keeps nothing for this page. Save your drawing before you leave.");
-    }
+    const turn = whenAlone();
+    const isAlone = await Promise.race([turn.then(() => true), new Promise<boolean>((resolve) => setTimeout(() => resolve(false), LEAVING))]);
+    if (isAlone) return Store.read();
+    return new Store(null, [], "Your drawings are open in another tab. What you do in this one is not kept until that one is closed.", turn.then(() => Store.read()));
   }
 
-  async all(): Promise<readonly Kept[]> {
-    const all = this.store ? await values<Kept>(this.store) : [];
-    return all.sort((a, b) => a.order - b.order);
+  private static async read(): Promise<Store> {
+    try {
+      const store = createStore("okoshi", "files");
+      const kept = await values<Kept>(store);
+      return new Store(store, kept.sort((a, b) => a.order - b.order));
+    } catch {
+      return new Store(null, [], "This browser keeps nothing for this page. Save your drawing before you leave.");
+    }
   }
 
   /** Rejects if there is no space left. */
@@ -54,4 +49,14 @@ export class Store {
   async forget(path: string): Promise<void> {
     if (this.store) await del(path, this.store);
   }
+}
+
+/** Waits until no other page has the files, and from then on no other one gets them. */
+function whenAlone(): Promise<void> {
+  return new Promise((resolve) => {
+    // Browsers have locks in secure contexts alone, and not where they keep nothing.
+    if (!navigator.locks) return resolve();
+    const held = (): Promise<never> => (resolve(), new Promise(() => {}));
+    navigator.locks.request("okoshi.files", held).catch(() => resolve());
+  });
 }
