@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { found } from "./axe";
 import type { Page } from "playwright-core";
-import { CHROMIUM, shown, still } from "./browser";
+import { noBrowser, shown, still } from "./browser";
 import { kick } from "./kick";
 import { performed, puppet } from "./performed";
 import { browse, build, example } from "./setup";
@@ -14,7 +14,7 @@ import { SIZES } from "./sizes";
 
 const HUMAN = example("human");
 const okoshi = process.env["OKOSHI"] ?? "";
-const punch = okoshi && CHROMIUM ? await performed(okoshi, puppet('%Motion punch Perform "hands.json" Limited 2 12')) : null;
+const punch = okoshi && !noBrowser ? await performed(okoshi, puppet('%Motion punch Perform "hands.json" Limited 2 12')) : null;
 
 function prepare(host: MockHost): void {
   host.add("human.svg");

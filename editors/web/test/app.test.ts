@@ -5,7 +5,7 @@ import { join } from "node:path";
 import type { BrowserContext, Page } from "playwright-core";
 import { App, inBrowser } from "./app";
 import { found } from "./axe";
-import { overlaps, picture, shown } from "./browser";
+import { overlaps, picture, shown, type } from "./browser";
 import { FIGURE, source } from "./setup";
 import { SIZES } from "./sizes";
 
@@ -41,7 +41,7 @@ inBrowser("a drawing is opened, changed, undone, changed again and saved; a relo
   await page.getByRole("button", { name: "Edit" }).click();
   await app.select("Arm");
   const number = page.getByLabel("Shape: z1, as a number", { exact: true });
-  await number.fill("30");
+  await type(number, "30");
   await number.press("Enter");
   await page.getByText("Changed", { exact: true }).waitFor();
   assert.equal(await save.getAttribute("data-changed"), "true");
@@ -51,7 +51,7 @@ inBrowser("a drawing is opened, changed, undone, changed again and saved; a relo
   await page.getByRole("button", { name: "Redo: " }).click();
   await page.getByRole("button", { name: "Undo: " }).and(page.locator(":enabled")).waitFor();
   // What is typed and not yet sent is saved, too.
-  await page.getByLabel("Name", { exact: true }).fill("Wing");
+  await type(page.getByLabel("Name", { exact: true }), "Wing");
   const { name, text } = await app.saved(() => page.keyboard.press("Control+s"));
   const changed = TEXT.replace("-8 8", "-8 30").replaceAll("Arm@", "Wing@");
   assert.deepEqual([name, text], ["figure.svg", changed]);
@@ -79,7 +79,7 @@ inBrowser("a drop brings a drawing with what it links to; what is no drawing is 
   await page.getByRole("button", { name: "Edit" }).click();
   await app.select("Arm");
   const name = page.getByLabel("Name", { exact: true });
-  await name.fill("Wing");
+  await type(name, "Wing");
   await name.press("Enter");
   await app.part("Wing");
   await app.drop({ name: "figure.svg", text: TEXT });
@@ -155,7 +155,7 @@ inBrowser("a second tab says that it keeps nothing, and takes nothing from the f
   await other.getByRole("button", { name: "Edit" }).click();
   await other.locator("[data-part=Bulb]").click();
   const name = other.getByLabel("Name", { exact: true });
-  await name.fill("Lamp");
+  await type(name, "Lamp");
   await name.press("Enter");
   await other.locator('[data-changed="true"]').waitFor();
   assert.ok(await other.locator(".notice").isVisible());
@@ -175,7 +175,7 @@ inBrowser("a second tab goes on with the drawings of the first when that is clos
   await page.getByRole("button", { name: "Edit" }).click();
   await app.select("Arm");
   const name = page.getByLabel("Name", { exact: true });
-  await name.fill("Wing");
+  await type(name, "Wing");
   await name.press("Enter");
   await app.part("Wing");
   const context = page.context();
@@ -245,7 +245,7 @@ inBrowser("where the browser lets a page at files, a drawing is saved in its fil
   await app.select("Wing");
   const rename = async (to: string): Promise<void> => {
     const name = page.getByLabel("Name", { exact: true });
-    await name.fill(to);
+    await type(name, to);
     await name.press("Enter");
     await app.part(to);
   };
@@ -304,7 +304,7 @@ inBrowser("a fault of okoshi is said, the worker starts again, and nothing that 
     await page.locator("[data-part]").nth(1).click();
     await page.locator(".part-form:not([inert])").waitFor();
     const name = page.getByLabel("Name", { exact: true });
-    await name.fill(to);
+    await type(name, to);
     await name.press("Enter");
   };
   await rename("Wing");
@@ -366,7 +366,7 @@ for (const { name, ...size } of SIZES) {
     await page.getByRole("button", { name: "Edit" }).click();
     await app.select("Arm");
     const label = page.getByLabel("Name", { exact: true });
-    await label.fill("Wing");
+    await type(label, "Wing");
     await label.press("Enter");
     await page.locator('[data-changed="true"]').waitFor();
     await is("changed");

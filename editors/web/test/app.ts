@@ -9,11 +9,11 @@ import { tmpdir } from "node:os";
 import { extname, join, resolve } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, BrowserContext, Download, Page } from "playwright-core";
-import { CHROMIUM, launch, open, type PageOptions } from "./browser";
+import { launch, noBrowser, open, type PageOptions } from "./browser";
 import { closeAll, closing, TEST_LIMIT } from "./closing";
 
 const module = process.env["OKOSHI_MODULE"] ?? "";
-export const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : module === "" || !existsSync(module) ? "there is no module; OKOSHI_MODULE names the folder that editors/web/wasm/build.sh made" : false;
+export const skip = noBrowser !== false ? noBrowser : module === "" || !existsSync(module) ? "there is no module; OKOSHI_MODULE names the folder that editors/web/wasm/build.sh made" : false;
 
 const TYPES: Readonly<Record<string, string>> = { ".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8", ".wasm": "application/wasm" };
 

@@ -1,8 +1,8 @@
-// Chromium, and queries of the page for tests.
+// The browser, and queries of the page for tests. It is Chromium, or with `BROWSER=firefox` Firefox as its users have it.
 
-import { accessSync, constants, copyFileSync, existsSync, mkdirSync } from "node:fs";
+import { accessSync, constants, copyFileSync, mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { chromium, type Browser, type BrowserContext, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
+import { chromium, firefox, type Browser, type BrowserContext, type BrowserContextOptions, type Locator, type Page } from "playwright-core";
 import { PNG } from "pngjs";
 import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { LAUNCH_LIMIT, PATIENCE, type Close } from "./closing";
@@ -16,18 +16,23 @@ const executable = (path: string): boolean => {
   }
 };
 
-export const CHROMIUM = [process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => path && executable(path));
+const first = (...paths: readonly (string | undefined)[]): string | undefined => paths.find((path) => path !== undefined && executable(path));
+const isFirefox = process.env["BROWSER"] === "firefox";
+const PROGRAM = isFirefox ? first(process.env["FIREFOX"], "/usr/bin/firefox-esr", "/usr/bin/firefox") : first(process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome");
+/** Why there is no browser; `false` if there is one. */
+export const noBrowser = PROGRAM !== undefined ? false : isFirefox ? "there is no Firefox; FIREFOX names one" : "there is no Chromium; CHROMIUM names one";
 export const OUT = join("test", "out");
 
-/** Starts the browser, with more arguments. */
+/** Starts the browser, with more arguments for Chromium. */
 export async function launch(more: readonly string[] = []): Promise<Browser> {
   mkdirSync(OUT, { recursive: true });
-  if (!CHROMIUM || !existsSync(CHROMIUM)) throw new Error("there is no Chromium");
-  return chromium.launch({
-    executablePath: CHROMIUM,
-    timeout: LAUNCH_LIMIT,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", ...more],
-  });
+  if (PROGRAM === undefined) throw new Error(String(noBrowser));
+  const options = { executablePath: PROGRAM, timeout: LAUNCH_LIMIT };
+  if (isFirefox) {
+    // Without a window it has no WebGL; that of a graphics card is not needed.
+    return firefox.launch({ ...options, channel: "moz-firefox", headless: false, firefoxUserPrefs: { "webgl.force-enabled": true, "ui.prefersReducedMotion": 1 } });
+  }
+  return chromium.launch({ ...options, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", ...more] });
 }
 
 /** How a page is opened. */
@@ -50,7 +55,7 @@ export async function open(browser: Browser, address: string, onClose: (close: C
   page.on("console", (message) => {
     if (message.type() !== "error" && message.type() !== "warning") return;
     // Performance warnings of the software renderer, and the browser's messages about a host that is away.
-    if (/GPU stall|KHR_parallel_shader_compile|GL Driver Message|WebSocket connection to|net::ERR_CONNECTION/.test(message.text())) return;
+    if (/GPU stall|KHR_parallel_shader_compile|WebGL warning|GL Driver Message|WebSocket connection to|net::ERR_CONNECTION/.test(message.text())) return;
     wrong.push(message.text());
   });
   await page.goto(address);
@@ -98,6 +103,12 @@ export async function countRows(page: Page): Promise<() => Promise<number>> {
   };
 }
 
+/** Replaces the text of a field by keys. What Firefox is given otherwise it does not take for a change by a person. */
+export async function type(field: Locator, text: string): Promise<void> {
+  await field.press("Control+a");
+  await field.pressSequentially(text);
+}
+
 /** Resizes the window, and waits until the page is laid out for it. */
 export async function resize(page: Page, width: number, height: number): Promise<void> {
   await page.setViewportSize({ width, height });
@@ -127,7 +138,8 @@ export type Colour = readonly [number, number, number];
 
 /** A screenshot of the window. */
 export async function picture(page: Page, name?: string): Promise<{ at(place: { x: number; y: number }): Colour; width: number; height: number; data: Buffer }> {
-  const png = PNG.sync.read(await page.screenshot(name ? { path: join(OUT, `${name}.png`) } : {}));
+  // Playwright hides the caret by a style that Firefox holds against the page's policy.
+  const png = PNG.sync.read(await page.screenshot({ caret: isFirefox ? "initial" : "hide", ...(name ? { path: join(OUT, `${name}.png`) } : {}) }));
   const scale = png.width / page.viewportSize()!.width;
   return {
     width: png.width,

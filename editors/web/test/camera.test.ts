@@ -6,14 +6,14 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, Page } from "playwright-core";
-import { CHROMIUM, launch, manual, open, picture } from "./browser";
+import { launch, manual, noBrowser, open, picture } from "./browser";
 import { closeAll, closing, preview, TEST_LIMIT } from "./closing";
 import { DISCS, HEIGHT, PERIOD, WIDTH, writeClip } from "./clip";
 import { FIGURE } from "./setup";
 import { readTrack, type Track } from "../src/camera/messages";
 
 const okoshi = process.env["OKOSHI"] ?? "";
-const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+const skip = noBrowser !== false ? noBrowser : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
 /** The median error of the recorded track that is allowed, in pixels, and the largest in a picture that is shown again. */
 const MEDIAN = 1.5;
 const FARTHEST = 4;

@@ -6,12 +6,12 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, Locator, Page } from "playwright-core";
-import { CHROMIUM, launch, open, shown, type PageOptions } from "./browser";
+import { launch, noBrowser, open, shown, type PageOptions } from "./browser";
 import { closeAll, closing, PATIENCE, preview, TEST_LIMIT } from "./closing";
 import { FIGURE } from "./setup";
 
 const okoshi = process.env["OKOSHI"] ?? "";
-const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+const skip = noBrowser !== false ? noBrowser : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
 const TYPES: Readonly<Record<string, string>> = { "": "page.html", "page.js": "page.js", "page.css": "page.css" };
 
 let browser: Promise<Browser> | undefined;

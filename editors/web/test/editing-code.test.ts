@@ -6,13 +6,13 @@ import { after, test } from "node:test";
 import type { Browser } from "playwright-core";
 import { Remote, type Connection, type TextEdit } from "../../vscode/src/preview/messages";
 import { Session } from "../../vscode/src/preview/session";
-import { CHROMIUM, launch, open, picture, shown } from "./browser";
+import { launch, noBrowser, open, picture, shown } from "./browser";
 import { closeAll, closing, TEST_LIMIT } from "./closing";
 import { FIGURE, source } from "./setup";
 import { servePage } from "./served";
 
 const okoshi = process.env["OKOSHI"] ?? "";
-const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+const skip = noBrowser !== false ? noBrowser : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
 const URI = "untitled:figure.svg";
 const BEFORE = source(FIGURE);
 

@@ -7,12 +7,12 @@ import { basename, dirname, join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, Page } from "playwright-core";
 import { found } from "./axe";
-import { CHROMIUM, launch, manual, open, shown, still, type PageOptions } from "./browser";
+import { launch, manual, noBrowser, open, shown, still, type PageOptions } from "./browser";
 import { closeAll, closing, preview, TEST_LIMIT } from "./closing";
 import { example } from "./setup";
 
 const okoshi = process.env["OKOSHI"] ?? "";
-const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+const skip = noBrowser !== false ? noBrowser : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
 const selected = (page: Page) => page.locator(".tree-item[aria-selected=true]").first().getAttribute("data-part");
 
 let browser: Promise<Browser> | undefined;

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { CHROMIUM, manual, overlaps, picture, project, resize, shown, still } from "./browser";
+import { manual, noBrowser, overlaps, picture, project, resize, shown, still } from "./browser";
 import type { Made } from "./drawings";
 import type { MockHost } from "./mock";
 import { performed, puppet } from "./performed";
@@ -17,7 +17,7 @@ const MOTION_KEY = 25;
 const FRAMES = 49;
 
 const okoshi = process.env["OKOSHI"] ?? "";
-const make = async (drawing: string): Promise<Made | null> => (okoshi && CHROMIUM ? performed(okoshi, drawing) : null);
+const make = async (drawing: string): Promise<Made | null> => (okoshi && !noBrowser ? performed(okoshi, drawing) : null);
 const made = await make(puppet('%Motion punch Perform "hands.json" Motion punch Perform "hands.json" Limited 2 12 Motion walk Perform "hands.json" Motion walk'));
 const playing = (host: MockHost): void => {
   host.add("puppet.svg");

@@ -6,12 +6,12 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, Page } from "playwright-core";
-import { camera, CHROMIUM, launch, open, picture, project, shown, still } from "./browser";
+import { camera, launch, noBrowser, open, picture, project, shown, still } from "./browser";
 import { closeAll, closing, preview, TEST_LIMIT } from "./closing";
 import { assertLike, example, FIGURE, isLike, source } from "./setup";
 
 const okoshi = process.env["OKOSHI"] ?? "";
-const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+const skip = noBrowser !== false ? noBrowser : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
 const RED = [255, 0, 0] as const;
 const GREEN = [0, 160, 0] as const;
 const BLUE = [0, 0, 255] as const;

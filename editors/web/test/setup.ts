@@ -5,13 +5,13 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, Page } from "playwright-core";
-import { CHROMIUM, launch, open, type Colour, type PageOptions } from "./browser";
+import { launch, noBrowser, open, type Colour, type PageOptions } from "./browser";
 import { closeAll, closing, TEST_LIMIT } from "./closing";
 import { make, type Made } from "./drawings";
 import { MockHost } from "./mock";
 
 const okoshi = process.env["OKOSHI"] ?? "";
-export const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+export const skip = noBrowser !== false ? noBrowser : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
 
 const examples = join("..", "..", "examples");
 export const FIGURE = join("test", "figure.svg");

@@ -9,7 +9,7 @@ import { pathToFileURL } from "node:url";
 import type { Page } from "playwright-core";
 import { inBrowser, type App } from "./app";
 import { found } from "./axe";
-import { picture, shown } from "./browser";
+import { picture, shown, type } from "./browser";
 import { FIGURE, source } from "./setup";
 import { SIZES } from "./sizes";
 
@@ -38,7 +38,7 @@ async function rename(app: App, from: string, to: string): Promise<void> {
   if ((await start.count()) > 0 && (await start.getAttribute("aria-pressed")) === "false") await start.click();
   await app.select(from);
   const name = app.page.getByLabel("Name", { exact: true });
-  await name.fill(to);
+  await type(name, to);
   await name.press("Enter");
   await app.part(to);
 }
