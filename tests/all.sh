@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Runs everything that tells whether okoshi is in order: bash tests/all.sh [--quick]
 #
-# Works from a clean clone on Debian or Ubuntu with Rust and Node. Chromium, Blender, Inkscape, Pillow, Neovim, Emacs, ffmpeg and clip art are
-# installed if they are missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the
-# summary counts that and says why. --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's work is
-# done in one profile. The output of each step is also in target/all/STEP.log.
+# Works from a clean clone on Debian or Ubuntu with Rust and Node. Chromium, Firefox, Blender, Inkscape, Pillow, Neovim, Emacs, ffmpeg and clip
+# art are installed if they are missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped,
+# and the summary counts that and says why. --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's
+# work is done in one profile. The output of each step is also in target/all/STEP.log.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -192,7 +192,18 @@ wasm() {
 app() {
   need npm
   [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
-  OKOSHI_MODULE=$(realpath "$target/module") with_web npm test --prefix editors/web -- app. worker. bytes.
+  OKOSHI_MODULE=$(realpath "$target/module") with_web npm test --prefix editors/web -- app. worker. bytes. sharing. strings.
+}
+
+# The same in Firefox.
+firefox() {
+  need npm
+  [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
+  if { [ -z "${FIREFOX:-}" ] && [ ! -x /usr/bin/firefox-esr ] && [ ! -x /usr/bin/firefox ]; } || ! command -v xvfb-run > /dev/null; then
+    [ $quick = no ] || skip "--quick, and Firefox or Xvfb is not installed"
+    install "Firefox or Xvfb" firefox-esr xvfb xauth libgl1-mesa-dri
+  fi
+  BROWSER=firefox OKOSHI_MODULE=$(realpath "$target/module") with_web xvfb-run -a npm test --prefix editors/web -- app.
 }
 
 # What a package holds is enough: installed from it without npm, the program serves the page.
@@ -493,6 +504,7 @@ step packages packages
 end_aside
 # Not beside the other tests of the page, which are bundled into the same folder.
 step app app
+step firefox firefox
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"

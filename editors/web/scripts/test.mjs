@@ -1,7 +1,8 @@
 // All tests: `npm test`. Checks types, bundles the page, and tests it: its modules alone, and the page in Chromium with a host of the
 // tests' own. OKOSHI is the program that builds models (default: the repository's own build), CHROMIUM the browser; without one of
-// them the browser tests are skipped with a message. PATIENCE is the limit of every wait of the browser tests
-// in seconds, for slow machines. Takes Node 20.14 or newer.
+// them the browser tests are skipped with a message. With BROWSER=firefox they run in Firefox, which FIREFOX names and which needs a
+// screen (`BROWSER=firefox xvfb-run -a npm test -- app.`). PATIENCE is the limit of every wait of the browser tests in seconds, for slow
+// machines. Takes Node 20.14 or newer.
 
 import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync, rmSync } from "node:fs";

@@ -327,7 +327,7 @@ inBrowser("a fault of okoshi is said, the worker starts again, and nothing that 
   await page.getByRole("button", { name: "Close the file" }).click();
   await page.getByRole("link", { name: "Drawings" }).click();
   await page.getByText("2 drawings").waitFor();
-}, { prepare: withFaults, serviceWorkers: "block", expected: /unreachable|Service Worker registration blocked/ });
+}, { prepare: withFaults, serviceWorkers: "block", expected: /unreachable|^Error$|Service Worker registration blocked/ });
 
 inBrowser("what takes too long can be stopped by a person, also when the browser kept it", async (app) => {
   const { page } = app;

@@ -17,7 +17,7 @@ const executable = (path: string): boolean => {
 };
 
 const first = (...paths: readonly (string | undefined)[]): string | undefined => paths.find((path) => path !== undefined && executable(path));
-const isFirefox = process.env["BROWSER"] === "firefox";
+export const isFirefox = process.env["BROWSER"] === "firefox";
 const PROGRAM = isFirefox ? first(process.env["FIREFOX"], "/usr/bin/firefox-esr", "/usr/bin/firefox") : first(process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome");
 /** Why there is no browser; `false` if there is one. */
 export const noBrowser = PROGRAM !== undefined ? false : isFirefox ? "there is no Firefox; FIREFOX names one" : "there is no Chromium; CHROMIUM names one";
@@ -29,8 +29,8 @@ export async function launch(more: readonly string[] = []): Promise<Browser> {
   if (PROGRAM === undefined) throw new Error(String(noBrowser));
   const options = { executablePath: PROGRAM, timeout: LAUNCH_LIMIT };
   if (isFirefox) {
-    // Without a window it has no WebGL; that of a graphics card is not needed.
-    return firefox.launch({ ...options, channel: "moz-firefox", headless: false, firefoxUserPrefs: { "webgl.force-enabled": true, "ui.prefersReducedMotion": 1 } });
+    // Without a window it has no WebGL, which may be software. The list of downloads would take the focus.
+    return firefox.launch({ ...options, channel: "moz-firefox", headless: false, firefoxUserPrefs: { "webgl.force-enabled": true, "ui.prefersReducedMotion": 1, "browser.download.alwaysOpenPanel": false } });
   }
   return chromium.launch({ ...options, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", ...more] });
 }
@@ -138,8 +138,7 @@ export type Colour = readonly [number, number, number];
 
 /** A screenshot of the window. */
 export async function picture(page: Page, name?: string): Promise<{ at(place: { x: number; y: number }): Colour; width: number; height: number; data: Buffer }> {
-  // Playwright hides the caret by a style that Firefox holds against the page's policy.
-  const png = PNG.sync.read(await page.screenshot({ caret: isFirefox ? "initial" : "hide", ...(name ? { path: join(OUT, `${name}.png`) } : {}) }));
+  const png = PNG.sync.read(await page.screenshot(name ? { path: join(OUT, `${name}.png`) } : {}));
   const scale = png.width / page.viewportSize()!.width;
   return {
     width: png.width,
