@@ -45,6 +45,8 @@ export async function ready(module, room, others) {
   let model;
   for (const { name, about, picture } of starters) {
     const studio = new Studio();
+    // It begins what it has offered.
+    studio.offer();
     studio.receive(JSON.stringify({ type: "begin", key, starter: name }), 0);
     add(name, studio.text(`${name}.svg`));
     listed.push({ name, about, picture: picture && write(`${name}.png`, offering.bytes(picture)) });

@@ -21,8 +21,10 @@ let browser: Promise<Browser> | undefined;
 let folder: string | undefined;
 after(() => closeAll([async () => (await browser)?.close(), () => folder && rmSync(folder, { recursive: true })]));
 
-/** The folder, made once. */
+/** The folder, made once: for all files of tests, by scripts/test.mjs. */
 function made(): string {
+  const shared = process.env["OKOSHI_APP"];
+  if (shared !== undefined) return shared;
   if (folder === undefined) {
     folder = mkdtempSync(join(tmpdir(), "okoshi-app-"));
     execFileSync(process.execPath, [join("scripts", "app.mjs"), folder, resolve(module)], { stdio: ["ignore", "ignore", "inherit"] });

@@ -40,7 +40,8 @@ inBrowser("before the module has come, a figure walks beside its drawing; what i
   assert.equal(await page.locator("[data-starter]:enabled").count(), 0);
   assert.equal(await page.getByRole("button", { name: "One moment…" }).isDisabled(), true);
   module.letGo();
-  await shown(page);
+  // It walks, so that it is never still.
+  await page.waitForSelector(".studio canvas[data-revision]");
   assert.equal(await page.title(), "girl.svg · okoshi");
   assert.equal(await page.locator(".welcome").isVisible(), false);
   assert.equal(await page.locator(".welcome canvas").count(), 0);
