@@ -15,6 +15,6 @@ const packed = brotliCompressSync(bytes, { params }).length;
 const inMegabytes = (length) => (length / 1e6).toFixed(2);
 console.log(`${module}: ${inMegabytes(bytes.length)} MB, ${inMegabytes(packed)} MB with Brotli`);
 if (packed > budget * 1e6) {
-  console.error(`error: the module is too large: ${inMegabytes(packed)} MB with Brotli, and at most ${budget} MB are allowed. docs/development.md says what to look at.`);
+  console.error(`error: the module is too large: ${inMegabytes(packed)} MB with Brotli, and at most ${budget} MB are allowed. docs/speed.md says what was tried.`);
   process.exit(1);
 }

@@ -5,17 +5,15 @@
 #
 # rustup's toolchain is used if it has the target (`rustup target add wasm32-unknown-unknown`), otherwise Debian's (packages rustc-web,
 # cargo-web, rust-web-src and lld-22), whose standard library is compiled first. WASM_PROFILE names another profile than `release`: `quick` is built
-# in a third of the time, for tests. What `release` makes is made smaller by wasm-opt, which npm installs, and must not be larger than the budget.
+# in less time. wasm-opt is not used: what it makes is smaller as it is, and larger with Brotli.
 set -euo pipefail
-# In MB with Brotli.
-budget=2.5
 out=$(realpath -m "${1:?usage: build.sh FOLDER}")
 target=$(realpath -m "${CARGO_TARGET_DIR:-$(dirname "$0")/target}")
 cd "$(dirname "$0")"
 triple=wasm32-unknown-unknown
 profile=${WASM_PROFILE:-release}
 
-# What is inlined less is a good deal smaller, and hardly slower.
+# Less is inlined than by default: that is smaller, and not slower.
 flags="-C target-feature=+simd128 -C llvm-args=-inline-threshold=100"
 
 build=(build --locked --profile "$profile" --target "$triple" --target-dir "$target/wasm")
@@ -37,10 +35,3 @@ cargo build --locked --quiet --manifest-path bindgen/Cargo.toml --target-dir "$t
 mkdir -p "$out"
 "$target/bindgen/debug/bindgen" "$target/wasm/$triple/$folder/okoshi_web.wasm" "$out"
 # What the environment makes of the profile is built for tests, too.
-[ "$profile" = release ] && [ -z "$(compgen -e CARGO_PROFILE_RELEASE_)" ] || exit 0
-
-node -e 'import("../scripts/install.mjs").then(({ install }) => install(process.cwd()))'
-# The features by their names: with all of them, it makes modules that browsers reject.
-features=(simd bulk-memory bulk-memory-opt mutable-globals nontrapping-float-to-int sign-ext reference-types multivalue)
-node_modules/.bin/wasm-opt -O2 "${features[@]/#/--enable-}" --strip-debug --strip-producers "$out/okoshi_web_bg.wasm" -o "$out/okoshi_web_bg.wasm"
-node ../scripts/size.mjs "$out/okoshi_web_bg.wasm" "$budget"
