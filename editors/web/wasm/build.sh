@@ -13,7 +13,7 @@ cd "$(dirname "$0")"
 triple=wasm32-unknown-unknown
 profile=${WASM_PROFILE:-release}
 
-# Less is inlined than by default: that is smaller, and not slower.
+# Less is inlined than by default: that is smaller (docs/speed.md).
 flags="-C target-feature=+simd128 -C llvm-args=-inline-threshold=100"
 
 build=(build --locked --profile "$profile" --target "$triple" --target-dir "$target/wasm")
