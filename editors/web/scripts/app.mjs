@@ -2,10 +2,12 @@
 
 import { createHash } from "node:crypto";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { dirname, join, resolve } from "node:path";
+import { dirname, join, relative, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { script } from "./build.mjs";
+import { lessons } from "./lessons.mjs";
+import { ready } from "./ready.mjs";
 
 const here = join(dirname(fileURLToPath(import.meta.url)), "..");
 const repository = join(here, "..", "..");
@@ -20,27 +22,30 @@ export async function app(folder, module) {
   for (const name of MODULE) if (!existsSync(join(module, name))) throw new Error(`${module} has no ${name}: it is not the folder of a built module`);
   mkdirSync(folder, { recursive: true });
   // Only what is one of ours is taken away.
-  const ours = /^(index\.html|service-worker\.js|LICENSE-\w+|module-licences\.txt|v-[0-9a-f]{12})$/;
+  const ours = /^((index|lessons)\.html|service-worker\.js|LICENSE-\w+|module-licences\.txt|v-[0-9a-f]{12})$/;
   const others = readdirSync(folder).filter((name) => !ours.test(name));
   if (others.length > 0) throw new Error(`${folder} has other files, such as ${others[0]}: name a new folder`);
   for (const name of readdirSync(folder)) rmSync(join(folder, name), { recursive: true });
 
   const room = join(folder, "v-000000000000");
   mkdirSync(room);
-  await script("app", "src/app.ts", room);
+  const lesson = lessons(room);
+  const made = await ready(module, room, lesson.drawings);
+  await script("app", "src/app.ts", room, { define: { READY: JSON.stringify(made) } });
   await script("worker", "src/host/worker/module.ts", room, { format: "esm", external: ["./okoshi_web.js"] });
   await player(room);
   for (const name of MODULE) copyFileSync(join(module, name), join(room, name));
   // Each version has a folder of its own, so that no cache on the way mixes the files of two.
-  const named = `v-${hash(room, readdirSync(room))}`;
+  const named = `v-${hash(room, filesIn(room))}`;
   renameSync(room, join(folder, named));
-  writeFileSync(join(folder, "index.html"), readFileSync(join(here, "src", "app.html"), "utf8").replaceAll("FOLDER/", `${named}/`));
+  const pages = { "index.html": readFileSync(join(here, "src", "app.html"), "utf8"), "lessons.html": lesson.page };
+  for (const [name, text] of Object.entries(pages)) writeFileSync(join(folder, name), text.replaceAll("FOLDER/", `${named}/`));
   for (const name of LICENCES) copyFileSync(join(repository, name), join(folder, name));
   const hasCrates = existsSync(join(module, CRATES));
   if (hasCrates) copyFileSync(join(module, CRATES), join(folder, CRATES));
   else console.warn(`${module} has no ${CRATES}: before you hand the folder on, print it with scripts/crates.mjs`);
 
-  const files = ["index.html", ...LICENCES, ...(hasCrates ? [CRATES] : []), ...readdirSync(join(folder, named)).map((name) => `${named}/${name}`)];
+  const files = [...Object.keys(pages), ...LICENCES, ...(hasCrates ? [CRATES] : []), ...filesIn(join(folder, named)).map((name) => `${named}/${name}`)];
   const define = { FILES: JSON.stringify(["./", ...files]), VERSION: JSON.stringify(hash(folder, files)) };
   await script("service-worker", "src/app/service-worker.ts", folder, { define });
   return [...files, "service-worker.js"];
@@ -60,6 +65,12 @@ async function player(room) {
   const parts = { SCRIPT_HASH: sum(code), STYLE_HASH: sum(style), STYLE: style, SCRIPT: code };
   const page = readFileSync(join(here, "src", "player.html"), "utf8");
   writeFileSync(join(room, "player.html"), page.replace(/SCRIPT_HASH|STYLE_HASH|STYLE|SCRIPT/g, (name) => parts[name]));
+}
+
+/** All files below a folder, by their paths from there. */
+function filesIn(folder) {
+  const all = readdirSync(folder, { recursive: true, withFileTypes: true }).filter((one) => one.isFile());
+  return all.map(({ parentPath, name }) => relative(folder, join(parentPath, name)).replaceAll("\\", "/")).sort();
 }
 
 function hash(folder, names) {

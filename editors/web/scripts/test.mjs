@@ -5,7 +5,7 @@
 // machines. Takes Node 20.14 or newer.
 
 import { spawnSync } from "node:child_process";
-import { existsSync, readdirSync, rmSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { install } from "./install.mjs";
@@ -42,6 +42,13 @@ await build({
   packages: "external",
   logLevel: "warning",
 });
+// The folder of the program in the browser, in which the module has drawn pictures, takes long to make.
+const module = process.env.OKOSHI_MODULE;
+if (module && existsSync(module) && names.some((name) => readFileSync(join("test", name), "utf8").includes("inBrowser("))) {
+  process.env.OKOSHI_APP = join(here, "test", "out", "app");
+  const { app } = await import("./app.mjs");
+  await app(process.env.OKOSHI_APP, resolve(module));
+}
 const files = readdirSync(out).sort().map((name) => join(out, name));
 const env = { ...process.env, ...(okoshi ? { OKOSHI: okoshi } : {}) };
 // Files end when their tests have, whatever those left open; one that still does not end is ended after an hour.

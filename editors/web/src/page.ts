@@ -40,6 +40,7 @@ export interface Shown {
   /** The header. */
   readonly bar: HTMLElement;
   readonly exports: Exports;
+  readonly gallery: Gallery;
   readonly editing: Editing;
   readonly side: Side;
   /** The tools that change the drawing. */
@@ -147,5 +148,5 @@ export function start(page: HTMLElement, host: Host): Shown {
     (message) => state.receive(message),
     (link, note) => state.setLink(link, note),
   );
-  return { state, bar, exports, editing, side, edits: toolbar.edits };
+  return { state, bar, exports, gallery, editing, side, edits: toolbar.edits };
 }

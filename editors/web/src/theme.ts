@@ -6,7 +6,8 @@ export interface Colors {
   readonly ink: string;
 }
 
-export function followTheme(apply: (colors: Colors) => void): void {
+/** Applies the colours now and whenever they change; what it returns ends that. */
+export function followTheme(apply: (colors: Colors) => void): () => void {
   const read = (): void => {
     // The computed colour of an element is numeric, however the style sheet or the editor wrote it.
     const probe = document.createElement("span");
@@ -18,9 +19,14 @@ export function followTheme(apply: (colors: Colors) => void): void {
     apply({ accent: color("--accent"), grid: color("--grid"), ink: color("--ink") });
     probe.remove();
   };
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", read);
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  dark.addEventListener("change", read);
   // VS Code changes class and style of body and html with its theme. The probe is a child, so it does not trigger this.
   const observer = new MutationObserver(read);
   for (const element of [document.documentElement, document.body]) observer.observe(element, { attributes: true, attributeFilter: ["class", "style"] });
   read();
+  return () => {
+    dark.removeEventListener("change", read);
+    observer.disconnect();
+  };
 }

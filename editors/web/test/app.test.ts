@@ -14,7 +14,7 @@ const MOTIONS = join("..", "..", "examples", "motion");
 const PHOTOGRAPHS = join("..", "..", "examples", "photographs");
 
 inBrowser("a first visit offers starters; one begins, and is there again after a reload until it is closed", async ({ page }) => {
-  await page.getByText("Drop an SVG here, or begin with one of these.").waitFor();
+  await page.getByText("Drop an SVG here, or change this one.").waitFor();
   await page.locator("[data-starter] img").first().waitFor();
   await picture(page, "app-starters");
   assert.equal(await page.getByRole("button", { name: "Save" }).isVisible(), false);

@@ -15,14 +15,16 @@ import { closeAll, closing, TEST_LIMIT } from "./closing";
 const module = process.env["OKOSHI_MODULE"] ?? "";
 export const skip = noBrowser !== false ? noBrowser : module === "" || !existsSync(module) ? "there is no module; OKOSHI_MODULE names the folder that editors/web/wasm/build.sh made" : false;
 
-const TYPES: Readonly<Record<string, string>> = { ".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8", ".wasm": "application/wasm" };
+const TYPES: Readonly<Record<string, string>> = { ".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8", ".wasm": "application/wasm", ".svg": "image/svg+xml", ".png": "image/png" };
 
 let browser: Promise<Browser> | undefined;
 let folder: string | undefined;
 after(() => closeAll([async () => (await browser)?.close(), () => folder && rmSync(folder, { recursive: true })]));
 
-/** The folder, made once. */
+/** The folder, made once: for all files of tests, by scripts/test.mjs. */
 function made(): string {
+  const shared = process.env["OKOSHI_APP"];
+  if (shared !== undefined) return shared;
   if (folder === undefined) {
     folder = mkdtempSync(join(tmpdir(), "okoshi-app-"));
     execFileSync(process.execPath, [join("scripts", "app.mjs"), folder, resolve(module)], { stdio: ["ignore", "ignore", "inherit"] });

@@ -64,7 +64,7 @@ export async function open(browser: Browser, address: string, onClose: (close: C
 
 /** Waits until the model of this build, or of any, is shown. */
 export async function shown(page: Page, revision?: number): Promise<void> {
-  await page.waitForSelector(revision === undefined ? "canvas[data-revision]" : `canvas[data-revision="${revision}"]`, { state: "attached" });
+  await page.waitForSelector(revision === undefined ? ".studio canvas[data-revision]" : `.studio canvas[data-revision="${revision}"]`, { state: "attached" });
   await still(page);
 }
 

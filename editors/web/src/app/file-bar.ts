@@ -1,24 +1,25 @@
 // The buttons in the header that open, save and close drawings, and their keys.
 
-import { FolderOpen, Save, X } from "lucide";
-import { button, fill, h, painted } from "../dom";
+import { FolderOpen, GraduationCap, Save, X } from "lucide";
+import { button, fill, h, icon, painted } from "../dom";
 import type { State } from "../state";
 import { choose } from "./access";
 import { reason, type Files } from "./files";
 import type { Notices } from "./notices";
 
-/** `settle` makes what is being typed elsewhere a change. */
+/** `settle` makes what is being typed elsewhere a change; `lessons` is the address of the page of lessons, if there is one. */
 export class FileBar {
   readonly element = h("div", { class: "file-bar", attributes: { role: "group", "aria-label": "Files" } });
   private readonly save = button({ icon: Save, label: "Save", wide: true, press: () => void this.write() });
   private readonly close = button({ icon: X, label: "Close", wide: true, press: () => this.current !== null && void this.files.close(this.current) });
 
-  constructor(private readonly files: Files, private readonly state: State, private readonly notices: Notices, private readonly settle: () => Promise<void>) {
+  constructor(private readonly files: Files, private readonly state: State, private readonly notices: Notices, private readonly settle: () => Promise<void>, lessons: string | null) {
     const open = button({ icon: FolderOpen, label: "Open…", wide: true, press: () => void this.open() });
     open.title = "Open drawings, and what they link to (Ctrl+O)";
     open.setAttribute("aria-keyshortcuts", "Control+O");
     this.save.setAttribute("aria-keyshortcuts", "Control+S");
-    fill(this.element, open, this.save, this.close);
+    const learn = lessons !== null && h("a", { class: "button wide", title: "Lessons, in pictures", attributes: { href: lessons } }, icon(GraduationCap), h("span", {}, "Lessons"));
+    fill(this.element, open, this.save, this.close, learn);
     state.on(["current", "drawings"], () => this.draw());
     files.onChange(() => this.draw());
     addEventListener("keydown", (event) => this.press(event));

@@ -46,8 +46,8 @@ export class Files {
     return path === null ? undefined : this.all.get(path);
   }
 
-  /** Brings back what the browser has kept, and begins. */
-  restore(store: Store): void {
+  /** Brings back what the browser has kept, and begins; `isAwaited`: another drawing is on its way. */
+  restore(store: Store, isAwaited: boolean): void {
     this.store = store;
     if (store.trouble !== "") this.notices.say("store", store.trouble);
     // What was opened meanwhile is newer.
@@ -59,7 +59,7 @@ export class Files {
       if (this.wanted === one.path) this.wanted = path;
       this.take({ ...one, path, order: this.order++ });
     }
-    this.host.begin();
+    this.host.begin(isAwaited);
     setInterval(() => void this.look(), PAUSE);
     this.notify();
     void store.later?.then((store) => this.join(store));

@@ -22,7 +22,7 @@ export class CodeHost implements Host {
   readonly showsFindings = true;
   readonly changes = { doing: "Changing…", done: "Changed in the text", where: "Changes are made in the text" };
   /** An editor has the drawing already. */
-  readonly invitation = { toStarters: "", alone: "" };
+  readonly invitation = { heading: "", toStarters: "", alone: "" };
   readonly jumps = true;
   /** Requests about changes, by number. */
   private readonly asked = new Map<number, (answer: Answer) => void>();

@@ -45,8 +45,8 @@ export interface Host {
   readonly player: (() => Promise<string>) | null;
   /** What becomes of changes, in words: an editor makes them in its text, which a person saves. */
   readonly changes: ChangeWords;
-  /** What is said while there are no drawings: above those to start from, and where none is offered. */
-  readonly invitation: { readonly toStarters: string; readonly alone: string };
+  /** What is said while there are no drawings: above those to start from, with a heading, and where none is offered. */
+  readonly invitation: { readonly heading: string; readonly toStarters: string; readonly alone: string };
   /** Whether an editor may show the string of the part that is clicked. */
   readonly jumps: boolean;
   /** Asks for a change, or what can be changed, with the host's key; null where the page changes nothing. */

@@ -15,6 +15,7 @@ export class WebHost implements Host {
   readonly showsFindings = false;
   readonly changes = { doing: "Saving…", done: "Saved", where: "Changes are saved in the drawing" };
   readonly invitation = {
+    heading: "Begin with a drawing",
     toStarters: "A click writes it into this folder, to draw on in Inkscape. Drawings saved in the folder appear here, too.",
     alone: "Drawings saved in the folder appear here.",
   };

@@ -1,6 +1,6 @@
 // The host without a server: okoshi as a module in a worker. The files of the project are in the page, so that a module that stops can be started again.
 
-import { Messages, type FromHost, type ToHost } from "../protocol";
+import { Messages, type FromHost, type Starter, type ToHost } from "../protocol";
 import { toBase64 } from "./base64";
 import { download } from "./download";
 import type { Answer, Attempted, Host, Link } from "./host";
@@ -29,6 +29,16 @@ export interface WorkerEvents {
   share(path: string): void;
 }
 
+/** What is there before the module has come. */
+export interface ReadyMade {
+  /** What is offered while there are no drawings, instead of what the module offers. */
+  readonly starters: readonly Starter[];
+  /** The address of a file that belongs to it. */
+  at(file: string): string;
+  /** Begins one of the drawings. Rejects if it cannot. */
+  begin(name: string): Promise<void>;
+}
+
 interface Held {
   bytes: Uint8Array<ArrayBuffer>;
   /** The last bytes that the module read without stopping. */
@@ -49,19 +59,21 @@ export class WorkerHost implements Host {
   readonly showsFindings = false;
   readonly jumps = false;
   readonly changes = { doing: "Changing…", done: "Changed", where: "Changes are kept here; Save writes the file" };
-  readonly invitation = { toStarters: `${BRING}, or begin with one of these.`, alone: `${BRING}.` };
+  readonly invitation = { heading: "A drawing that stands up and moves", toStarters: `${BRING}, or change this one.`, alone: `${BRING}.` };
   readonly save = download;
   readonly share = (drawing: string): void => this.events.share(drawing);
   private readonly files = new Map<string, Held>();
   private calls: Calls;
   private messages = new Messages();
   private begun = false;
+  /** Whether drawings to start from were offered since it began. */
+  private offers = false;
   private stops: readonly number[] = [];
   private handler: (message: FromHost) => void = () => {};
   private link: (state: Link, note?: string) => void = () => {};
 
   /** `playerPage`: the address of the page that shows a model by itself. */
-  constructor(private readonly open: () => Port, private readonly events: WorkerEvents, private readonly playerPage: URL) {
+  constructor(private readonly open: () => Port, private readonly events: WorkerEvents, private readonly playerPage: URL, private readonly ready: ReadyMade) {
     this.calls = this.start();
   }
 
@@ -71,11 +83,22 @@ export class WorkerHost implements Host {
     link("connecting", "Loading okoshi…");
   }
 
-  /** Gives the module all files at once, when those that the browser kept are known. */
-  begin(): void {
+  /** Gives the module all files at once, when those that the browser kept are known. If there are none, drawings to start from are offered at once, unless
+   * one is on its way. */
+  begin(isAwaited = false): void {
     this.begun = true;
+    this.offers = false;
     const files = [...this.files].map(([path, { bytes }]) => ({ path, bytes }));
     this.calls.make({ call: "begin", files }).catch(() => {});
+    if (files.length > 0 || isAwaited) return;
+    // What is offered does not wait for the module.
+    this.offer();
+    this.handler({ type: "drawings", drawings: [] });
+  }
+
+  private offer(): void {
+    this.offers = true;
+    this.handler({ type: "starters", key: "", starters: this.ready.starters });
   }
 
   /** Puts or replaces a file. */
@@ -125,6 +148,10 @@ export class WorkerHost implements Host {
   };
 
   send(message: ToHost): void {
+    if (message.type === "begin") {
+      this.ready.begin(message.starter).catch((error: unknown) => this.handler({ type: "unbegun", why: error instanceof Error ? error.message : String(error) }));
+      return;
+    }
     if (this.begun) this.calls.make({ call: "receive", json: JSON.stringify(message) }).catch(() => {});
   }
 
@@ -135,6 +162,7 @@ export class WorkerHost implements Host {
   }
 
   async picture(address: string): Promise<string> {
+    if (this.ready.starters.some(({ picture }) => picture === address)) return this.ready.at(address);
     // Addresses of blobs would have to be given back; pictures are small.
     return `data:image/png;base64,${toBase64(new Uint8Array(await this.model(address)))}`;
   }
@@ -185,7 +213,10 @@ export class WorkerHost implements Host {
       const message = this.messages.read(JSON.parse(json));
       // A module that is started anew begins with everything.
       if (message === "missed") return this.restart();
-      if (message) this.handler(message);
+      if (message?.type === "starters") {
+        // What was offered before the module had come may have been chosen meanwhile.
+        if (call.call !== "begin" || !this.offers) this.offer();
+      } else if (message) this.handler(message);
     }
   }
 

@@ -19,7 +19,7 @@ export class Gallery {
   private readonly grid = h("ul", { class: "cards" });
   private readonly heading = h("h1");
   private readonly title = h("p", { class: "muted", attributes: { role: "status" } });
-  private readonly starters: Starters;
+  readonly starters: Starters;
   private readonly cards = new Map<string, Card>();
 
   constructor(private readonly state: State, private readonly host: Host) {
@@ -39,6 +39,11 @@ export class Gallery {
   /** Goes to the card of a drawing, or to the first. */
   focus(id: string | null): void {
     (this.cards.get(id ?? "") ?? [...this.cards.values()][0])?.element.focus();
+  }
+
+  /** Shows something between the heading and the drawings. */
+  insert(element: HTMLElement): void {
+    this.grid.before(element);
   }
 
   private draw(): void {
@@ -61,7 +66,7 @@ export class Gallery {
   private count(): void {
     const { list, refusal } = this.state;
     if (this.starters.areOffered) {
-      this.heading.textContent = "Begin with a drawing";
+      this.heading.textContent = this.host.invitation.heading;
       this.title.textContent = refusal ? `Nothing was written: ${refusal}.` : this.host.invitation.toStarters;
       return;
     }

@@ -12,7 +12,8 @@ export class Starters {
 
   constructor(private readonly state: State, private readonly host: Host) {
     state.on("starters", () => this.enable());
-    state.on("link", () => this.enable());
+    // An open connection goes on with what was chosen while it was being made.
+    state.on("link", () => state.link !== "open" && this.enable());
   }
 
   /** Whether there is something to choose. */
@@ -25,10 +26,10 @@ export class Starters {
     const { offer } = this.state;
     if (this.element.hidden || offer === null || offer === this.shown) return;
     this.shown = offer;
-    fill(this.element, ...offer.starters.map((starter) => h("li", {}, this.card(offer.key, starter))));
+    fill(this.element, ...offer.starters.map((starter) => h("li", {}, this.card(starter))));
   }
 
-  private card(key: string, { name, about, picture }: Starter): HTMLButtonElement {
+  private card({ name, about, picture }: Starter): HTMLButtonElement {
     const place = h("span", { class: "card-picture" }, icon(picture === null ? FilePlus : Image));
     if (picture !== null) {
       void this.host.picture(picture).then(
@@ -45,17 +46,20 @@ export class Starters {
       {
         class: "card",
         attributes: { type: "button", "data-starter": name },
-        on: { click: () => this.begin(key, name) },
+        on: { click: () => this.begin(name) },
       },
       place,
       h("span", { class: "card-text" }, h("span", { class: "card-name" }, name), h("span", { class: "card-facts muted" }, about)),
     );
   }
 
-  private begin(key: string, starter: string): void {
+  /** Begins a drawing that is offered. */
+  begin(starter: string): void {
+    const { offer } = this.state;
+    if (offer === null || !this.areOffered) return;
     // One click begins one drawing; the page shows it as soon as it is there.
     for (const button of this.buttons()) button.disabled = true;
-    this.host.send({ type: "begin", key, starter });
+    this.host.send({ type: "begin", key: offer.key, starter });
   }
 
   private enable(): void {

@@ -31,6 +31,8 @@ export class RenderLoop {
   placed: () => void = () => {};
   /** Null until there is something to draw. */
   private graphics: Graphics | null = null;
+  private ended = false;
+  private readonly sizes = new ResizeObserver(() => this.resize());
   private readonly steps: BeforeFrame[] = [];
   private once: (() => void)[] = [];
   private asked = false;
@@ -45,7 +47,7 @@ export class RenderLoop {
   private frames = 0;
 
   constructor(readonly place: HTMLElement, readonly canvas: HTMLCanvasElement, private readonly view: View) {
-    new ResizeObserver(() => this.resize()).observe(place);
+    this.sizes.observe(place);
     this.watchPixels();
     canvas.addEventListener("webglcontextrestored", () => this.moved());
     view.onChange(() => this.redraw());
@@ -55,7 +57,7 @@ export class RenderLoop {
 
   /** Creates the graphics context, unless there is one. Throws an error with a readable message if the browser has no WebGL 2. */
   start(): void {
-    if (this.graphics) return;
+    if (this.graphics || this.ended) return;
     const { canvas } = this;
     const software = isSoftware();
     const context = canvas.getContext("webgl2", { antialias: !software, alpha: true, depth: true, stencil: true, powerPreference: "low-power" });
@@ -73,6 +75,20 @@ export class RenderLoop {
     const smooth = smooths ? new SmoothEdges(renderer, () => this.view.camera, () => this.draw(), () => (canvas.dataset["smooth"] = "true")) : null;
     this.graphics = { renderer, lights: new Lights(this.scene, renderer), smooth };
     this.resize();
+  }
+
+  /** Draws nothing more, and gives the graphics context back. */
+  end(): void {
+    this.ended = true;
+    this.sizes.disconnect();
+    this.giveUpShadows();
+    if (!this.graphics) return;
+    const { renderer, smooth } = this.graphics;
+    this.graphics = null;
+    smooth?.stop();
+    this.settle();
+    renderer.dispose();
+    renderer.forceContextLoss();
   }
 
   /** The size of the picture in CSS pixels. */
@@ -117,7 +133,7 @@ export class RenderLoop {
 
   /** Requests a call of the steps before a frame; the frame is drawn only if one of them asks for it. */
   readonly ask = (): void => {
-    if (this.asked) return;
+    if (this.asked || this.ended) return;
     this.asked = true;
     requestAnimationFrame(this.frame);
   };

@@ -222,6 +222,12 @@ export class Viewer {
     this.events.notify("model", "time", "pose", "sideBySide");
   }
 
+  /** Shows nothing more, and gives back what it has of the graphics card. */
+  end(): void {
+    this.remove();
+    this.renderLoop.end();
+  }
+
   /** The model stays, but its parts may be others. */
   kept(): void {
     this.marks.update();
