@@ -145,7 +145,7 @@ fn wrong_uses_of_edit() {
     let bad = |change: Value, said: &str| edit(&room, &[change], &[]).ends(2, "", said);
     bad(json!("Arm"), "expected");
     bad(json!({}), "missing field `change`");
-    bad(json!({ "change": "paint" }), "expected one of `set`");
+    bad(json!({ "change": "dye" }), "expected one of `set`");
     bad(
         json!({ "change": "set", "part": "Arm" }),
         "missing field `attribute`",

@@ -1,6 +1,7 @@
 // A status message over the viewport.
 
-import { fill, h } from "../dom";
+import { button, fill, h } from "../dom";
+import type { Editing } from "../editing/editing";
 import type { Exports } from "../exports";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
@@ -8,8 +9,13 @@ import type { Viewer } from "../viewport/viewer";
 export class Notes {
   readonly element = h("div", { class: "notes", attributes: { role: "status" } });
 
-  constructor(private readonly state: State, private readonly viewer: Viewer, private readonly exports: Exports) {
+  private readonly begin: HTMLElement;
+
+  /** `begin` leads to the tools that draw. */
+  constructor(private readonly state: State, private readonly viewer: Viewer, private readonly exports: Exports, private readonly editing: Editing, begin: () => void) {
+    this.begin = button({ label: "Draw something", wide: true, class: "framed", press: begin });
     state.on(["current", "build", "drawings"], () => this.draw());
+    editing.listen(["mode"], () => this.draw());
     viewer.on(["model", "sideBySide"], () => this.draw());
     exports.onWords(() => this.draw());
     this.draw();
@@ -18,7 +24,9 @@ export class Notes {
   private draw(): void {
     const { drawing } = this.state;
     const words = this.words();
-    fill(this.element, words !== "" && h("p", {}, words));
+    const { isPossible, isOn } = this.editing;
+    const isEmpty = words !== "" && drawing?.build?.paper != null && drawing.build.parts.length === 0 && drawing.build.findings.every(({ severity }) => severity !== "error");
+    fill(this.element, words !== "" && h("div", {}, h("p", {}, words), isEmpty && isPossible && !isOn && this.begin));
     this.element.hidden = words === "";
     this.element.classList.toggle("over-model", this.viewer.model !== null);
     this.viewer.canvas.classList.toggle("faded", drawing?.gone === true);
