@@ -152,14 +152,19 @@ fn hold(path: &Path, counts: &mut Counts) {
     }
     let compiled = before.compiled();
     let (corner, size) = compiled.drawing.page;
+    // Numbers with few digits are the same again after they were written as JSON.
+    let short = |number: f64| (number * 100.0).round() / 100.0;
     let [x, y, width, height] = [corner.x, corner.y, size.x, size.y];
     let shapes = [
-        NewShape::Ellipse([
-            x + 0.97 * width,
-            y + 0.03 * height,
-            width / 50.0,
-            height / 60.0,
-        ]),
+        NewShape::Ellipse(
+            [
+                x + 0.97 * width,
+                y + 0.03 * height,
+                width / 50.0,
+                height / 60.0,
+            ]
+            .map(short),
+        ),
         NewShape::Path(format!(
             "M {} {} l {} 0 q 0 {} {} 0",
             x + 0.01 * width,
@@ -194,7 +199,7 @@ fn hold(path: &Path, counts: &mut Counts) {
     let stride = names.len().div_ceil(PARTS).max(1);
     for name in names.into_iter().step_by(stride) {
         let part = || name.to_owned();
-        let by = [width / 97.0, -height / 89.0];
+        let by = [width / 97.0, -height / 89.0].map(short);
         if let Some((there, now)) =
             made(folder, &before, &Change::Move { part: part(), by }, counts)
         {

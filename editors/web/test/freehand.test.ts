@@ -42,7 +42,7 @@ for (const [name, radius] of [["a disc", () => 100], ["a bean", (angle: number) 
     for (const unit of [1, 0.02, 40]) {
       const points = around(radius, 0.4, 0.4 + 2 * Math.PI - 0.06, unit);
       const curves = curvesOf(freehand(points, unit)!);
-      assert.ok(curves.length >= 4 && curves.length <= 20, `${curves.length} nodes`);
+        assert.ok(curves.length >= 4 && curves.length <= 20, `${curves.length} nodes`);
       const border = curves.flatMap((curve) => Array.from({ length: 40 }, (_, at) => along(curve, at / 40)));
       for (const { x, y } of points) {
         const off = Math.min(...border.map((place) => Math.hypot(place.x - x, place.y - y)));

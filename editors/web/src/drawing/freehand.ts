@@ -6,7 +6,7 @@ import type { Point } from "../protocol";
 /** What is smaller than this both ways is a slip of the hand, in pixels. */
 const LEAST = 8;
 /** How far the border may lie from what was drawn, in pixels: less than hands tremble. */
-const OFF = 2.5;
+const OFF = 2;
 /** Points that are closer than this say nothing about the border, in pixels. */
 const APART = 1.5;
 /** If the ends are closer than this share of the line's length, the border goes on smoothly from one to the other. */

@@ -112,9 +112,10 @@ export class Mover implements Hand {
 
   constructor(private readonly desk: Desk) {}
 
-  press(at: Point, part: string | null): boolean {
+  press(at: Point, part: string | null, shape: string | null): boolean {
     if (part === null) return false;
-    this.part = part;
+    // What belongs to a part goes with it, unless it is selected itself.
+    this.part = shape !== null && shape === this.desk.state.selected ? shape : part;
     this.from = at;
     this.by = { x: 0, y: 0 };
     this.draft = null;

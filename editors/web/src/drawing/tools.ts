@@ -58,8 +58,8 @@ export class DrawingTools implements Desk {
     fill(
       this.element,
       h("div", { class: "draw-group" }, ...this.buttons.map(([, one]) => one)),
-      h("div", { class: "draw-group draw-colors", attributes: { role: "group", "aria-label": "Colour" } }, ...this.swatches.map(([, one]) => one), this.other),
       h("div", { class: "draw-group" }, ...this.ofSelected),
+      h("div", { class: "draw-group", attributes: { role: "group", "aria-label": "Colour" } }, ...this.swatches.map(([, one]) => one), this.other),
     );
     paper.element.prepend(this.element);
     paper.desk.append(this.hint);

@@ -6,6 +6,8 @@ import type { Exports } from "../exports";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
 
+const EMPTY = "Nothing is drawn yet.";
+
 export class Notes {
   readonly element = h("div", { class: "notes", attributes: { role: "status" } });
 
@@ -25,10 +27,9 @@ export class Notes {
     const { drawing } = this.state;
     const words = this.words();
     const { isPossible, isOn } = this.editing;
-    const isEmpty = words !== "" && drawing?.build?.paper != null && drawing.build.parts.length === 0 && drawing.build.findings.every(({ severity }) => severity !== "error");
-    fill(this.element, words !== "" && h("div", {}, h("p", {}, words), isEmpty && isPossible && !isOn && this.begin));
+    fill(this.element, words !== "" && h("div", {}, h("p", {}, words), words === EMPTY && isPossible && !isOn && this.begin));
     this.element.hidden = words === "";
-    this.element.classList.toggle("over-model", this.viewer.model !== null);
+    this.element.classList.toggle("over-model", this.viewer.model !== null && words !== EMPTY);
     this.viewer.canvas.classList.toggle("faded", drawing?.gone === true);
   }
 
@@ -38,8 +39,10 @@ export class Notes {
     if (this.viewer.requests.failure !== "") return `The model could not be shown: ${this.viewer.requests.failure}`;
     if (drawing.gone) return this.viewer.model ? "The drawing's file is missing at the moment. This is its last model." : "The drawing's file is missing at the moment.";
     if (this.viewer.playback.comparison.failure !== "") return `The original clips could not be shown: ${this.viewer.playback.comparison.failure}`;
+    const { build } = drawing;
+    if (build?.paper != null && build.parts.length === 0 && build.findings.every(({ severity }) => severity !== "error")) return EMPTY;
     if (this.viewer.model) return this.exports.words;
-    if (!drawing.build) return "Building…";
-    return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has problems." : "There is no model: the drawing has no parts.") : "";
+    if (!build) return "Building…";
+    return build.model === null ? (build.stale || build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has problems." : "There is no model: the drawing has no parts.") : "";
   }
 }

@@ -15,6 +15,8 @@ const REACH = 6;
 /** How far the pointer goes in a click, in pixels: from there on it drags. */
 const CLICK = 4;
 const NEAREST = 40;
+/** Two clicks within so many milliseconds are a double-click. */
+const TWICE = 500;
 
 /** A part of the page that is looked at: how many times as large as all of it, and where its left top corner is, in pixels. */
 interface Look {
@@ -27,8 +29,8 @@ const ALL: Look = { zoom: 1, x: 0, y: 0 };
 
 /** What a press on the drawing does instead of looking around. */
 export interface Hand {
-  /** Whether it takes a press at a point of the page, on a part or beside all. */
-  press(at: Point, part: string | null): boolean;
+  /** Whether it takes a press at a point of the page, on a part or beside all; `shape` is what lies there, if that only belongs to the part. */
+  press(at: Point, part: string | null, shape: string | null): boolean;
   /** The pointer has gone over points; with Shift it is held to what is even or straight. */
   drag(over: readonly Point[], shift: boolean): void;
   /** It is released; `false` if that was a click. */
@@ -60,6 +62,8 @@ export class PaperPanel {
   private fails = false;
   /** The build whose page is shown. */
   private revision = 0;
+  /** When the last click was. */
+  private clicked = 0;
   /** Whether the pointer is the hand's. */
   private holds = false;
   /** How far the pointer has gone since it was pressed. */
@@ -217,16 +221,22 @@ export class PaperPanel {
 
   /** The part that is meant by a point of the window. */
   private at(point: Point): string | null {
+    const { x, y } = this.onPage(point);
+    const written = this.paper?.strings.findLast(({ box: [left, top, right, bottom] }) => x >= left && x <= right && y >= top && y <= bottom);
+    if (written) return this.carrier(written.part);
+    const part = this.shapeAt(point);
+    return part === null ? null : this.carrier(part);
+  }
+
+  /** What is drawn at a point of the window, by itself. */
+  private shapeAt(point: Point): string | null {
     const { paper, context } = this;
     if (!paper || !context) return null;
     const { x, y } = this.onPage(point);
-    const written = paper.strings.findLast(({ box: [left, top, right, bottom] }) => x >= left && x <= right && y >= top && y <= bottom);
-    if (written) return this.carrier(written.part);
     const hit = this.paths.findLastIndex((path) => context.isPointInPath(path, x, y, "evenodd"));
     context.lineWidth = (2 * REACH) / (this.scale * this.look.zoom);
     const found = hit >= 0 ? hit : this.paths.findLastIndex((path) => context.isPointInStroke(path, x, y));
-    const part = paper.shapes[found]?.part;
-    return part === undefined ? null : this.carrier(part);
+    return paper.shapes[found]?.part ?? null;
   }
 
   /** What a click on a shape selects: as on the model, the part that shows it. */
@@ -248,7 +258,7 @@ export class PaperPanel {
       this.letGo();
       if (this.pointers.size === 0) {
         this.gone = 0;
-        this.holds = this.paper !== null && this.hand?.press(this.onPage(at), this.at(at)) === true;
+        this.holds = this.paper !== null && this.hand?.press(this.onPage(at), this.at(at), this.shapeAt(at)) === true;
       }
       this.pointers.set(event.pointerId, at);
       element.setPointerCapture(event.pointerId);
@@ -270,8 +280,13 @@ export class PaperPanel {
       const { holds } = this;
       this.holds = false;
       if (holds ? this.hand?.release() : this.gone > CLICK) return;
-      const part = this.at({ x: event.clientX, y: event.clientY });
-      this.state.select(part);
+      const at = { x: event.clientX, y: event.clientY };
+      const part = this.at(at);
+      const inner = this.shapeAt(at);
+      // A click into the selected part means the shape there, unless it is the second half of a double-click.
+      const goesIn = this.hand !== null && part !== null && part === this.state.selected && inner !== null && this.state.parts.get(inner) !== undefined && event.timeStamp - this.clicked > TWICE;
+      this.clicked = event.timeStamp;
+      this.state.select(goesIn ? inner : part);
       if (part !== null) this.picked(part);
     });
     element.addEventListener("pointercancel", ({ pointerId }) => {

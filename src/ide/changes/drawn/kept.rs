@@ -6,6 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::{places::Places, step};
 use crate::bind::{Part, PartId, PartKind, StringId};
 use crate::diagnostic::Edit;
+use crate::ide::Subject;
 use crate::ide::changes::{Analysis, Change, Refusal, check::no_worse, described};
 use crate::lang::keyword::Keyword;
 
@@ -33,9 +34,10 @@ pub(in crate::ide::changes) fn part_after(
     let pair = Pair::new(before, after, edits);
     let part = match change {
         Change::Draw { .. } => pair.drawn(edits)?,
-        change => pair.after(before.part_to_change(change.part()?).ok()?)?,
+        change => pair.after(before.drawn_part(change.part()?).ok()?.0)?,
     };
-    Some(after.bindings().parts[part].name.clone())
+    let part = Subject::of_part(&after.compiled, part)?;
+    Some(part.name().to_owned())
 }
 
 /// Compares a drawing before and after a change of what is drawn: strings mean what they meant, and parts that a person named are called
@@ -52,14 +54,14 @@ pub(in crate::ide::changes) fn check(
     let edits = super::super::edits(before, change)?;
     let pair = Pair::new(before, after, &edits);
     let own = match change.part() {
-        Some(name) => Some(before.part_to_change(name)?),
+        Some(name) => Some(before.drawn_part(name)?.0),
         None => None,
     };
     pair.strings_mean_the_same(own, change)?;
     let mut moved = 0;
     let mut elsewhere = 0;
     for (index, old) in before.bindings().parts.iter_enumerated() {
-        let is_own = Some(old.main) == own;
+        let is_own = own.is_some_and(|own| before.is_of(index, own));
         let Some(part) = pair.after(index) else {
             if is_own && matches!(change, Change::Erase { .. }) {
                 continue;
@@ -77,7 +79,7 @@ pub(in crate::ide::changes) fn check(
         elsewhere += usize::from(old.kind == PartKind::Main && !stays);
     }
     pair.did_it(change, own, &edits)?;
-    let name = own.map_or("it", |own| &before.bindings().parts[own].name);
+    let name = change.part().unwrap_or("it");
     Ok(match (moved, elsewhere) {
         (0, 0) => None,
         (0, 1) => Some("1 part hangs elsewhere now, because nobody has said on what".to_owned()),
@@ -140,7 +142,8 @@ impl<'a> Pair<'a> {
             let bound = string.binding.map(|binding| binding.part);
             let start = self.places.after(start_of(self.before, index));
             let now = start.and_then(|start| found.get(&start));
-            let is_own = bound.is_some_and(|part| Some(old.parts[part].main) == own);
+            let is_own = bound.zip(own);
+            let is_own = is_own.is_some_and(|(part, own)| self.before.is_of(part, own));
             let is_same = match now {
                 None => is_own && matches!(change, Change::Erase { .. }),
                 Some(now) => {
@@ -229,17 +232,16 @@ impl<'a> Pair<'a> {
             {
                 Err(Refusal::new(format!(
                     "`{}` would not go where it should, because something else in the drawing places it: move it in the program that drew it",
-                    old.name
+                    change.part().unwrap_or_default()
                 )))
             }
-            (Change::Paint { fill, .. }, Some((old, new))) => {
+            (Change::Paint { part, fill }, Some((_, new))) => {
                 let [r, g, b] = new.paint(self.after.drawing()).color;
                 if fill.eq_ignore_ascii_case(&format!("#{r:02x}{g:02x}{b:02x}")) {
                     return Ok(());
                 }
                 Err(Refusal::new(format!(
-                    "`{}` would not get this colour: a clone is painted as its original, and a style sheet may say otherwise",
-                    old.name
+                    "`{part}` would not get this colour: a clone is painted as its original, and a style sheet may say otherwise"
                 )))
             }
             _ => Ok(()),

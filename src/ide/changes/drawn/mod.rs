@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 pub(super) use kept::{check, part_after};
 
 use super::{Analysis, Refusal};
-use crate::bind::{BoundBy, PartId, StringHolder, StringId};
+use crate::bind::{BoundBy, Part, PartId, PartKind, StringHolder, StringId};
 use crate::math;
 use crate::source::Span;
 use crate::svg::{Drawing, Element, Label};
@@ -65,23 +65,36 @@ impl Analysis {
             .map_err(|error| Refusal::new(format!("the drawing cannot be read: {error}")))
     }
 
-    /// The part of a name, and the elements that draw it.
+    /// The part of a name, and the elements that draw it. A shape that belongs to a part, such as an eye, is drawn by itself.
     fn drawn_part(&self, name: &str) -> Result<(PartId, Vec<&Element>), Refusal> {
-        let part = self.node_to_change(name)?;
-        let elements = self.drawn_as(part);
         let bindings = self.bindings();
+        let of_shape = |part: PartId| &self.drawing().shapes[bindings.parts[part].shape].element;
+        let mut part = self.part_to_change(name)?;
+        let Part { kind, main, .. } = bindings.parts[part];
+        // The line around a shape is one with it.
+        if kind == PartKind::Sub && of_shape(part).span == of_shape(main).span {
+            part = main;
+        }
+        let elements = match bindings.parts[part].kind {
+            PartKind::Sub => vec![of_shape(part)],
+            _ => self.drawn_as(self.node_to_change(&bindings.parts[part].name)?),
+        };
         let has = |element: &Element| elements.iter().any(|own| own.span == element.span);
-        let mut others = bindings.parts.iter_enumerated().filter(|(_, other)| {
-            let shape = &self.drawing().shapes[other.shape];
-            other.main != part && has(&shape.element)
-        });
-        if let Some((other, _)) = others.next() {
+        let mut others = bindings.parts.keys();
+        if let Some(other) = others.find(|other| !self.is_of(*other, part) && has(of_shape(*other)))
+        {
             return Err(Refusal::new(format!(
                 "`{name}` and {} are drawn as one clone: unlink it in Inkscape (Edit > Clone > Unlink Clone)",
                 bindings.describe(self.drawing(), other)
             )));
         }
         Ok((part, elements))
+    }
+
+    /// Whether a part is another one or belongs to it.
+    fn is_of(&self, part: PartId, whole: PartId) -> bool {
+        let parts = &self.bindings().parts;
+        parts[part].main == whole || parts[part].shape == parts[whole].shape
     }
 
     /// The strings that are written beside a part on the page.
@@ -94,7 +107,7 @@ impl Analysis {
             };
             let bound = string.binding?.part;
             let (label, _) = &drawing.labels[label];
-            (bindings.parts[bound].main == part).then_some((index, label))
+            self.is_of(bound, part).then_some((index, label))
         })
     }
 

@@ -363,3 +363,26 @@ fn the_part_of_a_change_is_known_afterwards() {
         None
     );
 }
+
+#[test]
+fn a_shape_that_belongs_to_a_part_is_changed_by_itself_and_goes_with_the_part() {
+    let before = figure(["Body$Shape round", "Rarm@Body", "", "", ""]);
+    let button = "<circle id=\"circle-1\" style=\"fill:#cc4422;stroke:none\" cx=\"100\" cy=\"40\" r=\"4\" />";
+    let drawn = made(&before, &draw(NewShape::Ellipse([100.0, 40.0, 4.0, 4.0]))).unwrap();
+    assert!(drawn.contains(button));
+    let moved = made(&drawn, &shift("circle-1", [1.0, 2.0])).unwrap();
+    assert_eq!(
+        moved,
+        drawn.replace("cx=\"100\" cy=\"40\"", "cx=\"101\" cy=\"42\"")
+    );
+    let with_body = made(&drawn, &shift("Body", [1.0, 2.0])).unwrap();
+    assert!(with_body.contains("cx=\"101\" cy=\"42\"") && with_body.contains("x=\"81\" y=\"22\""));
+    let erased = made(
+        &drawn,
+        &Change::Erase {
+            part: "circle-1".to_owned(),
+        },
+    )
+    .unwrap();
+    assert_eq!(erased, before);
+}
