@@ -15,9 +15,6 @@ use okoshi::internals::bind::PartKind;
 use okoshi::internals::ide::Analysis;
 use okoshi::internals::ide::changes::{Change, NewShape, Stacking, Step, check, edits, part_after};
 
-/// How many parts are changed in each drawing, at most.
-const PARTS: usize = 2;
-
 fn analysis(folder: &Path, text: &str) -> Analysis {
     let compiled = common::compiled(text, &FolderResolver::new(folder));
     Analysis::new(text, compiled)
@@ -70,10 +67,18 @@ fn lies(compiled: &Compiled) -> Vec<String> {
     lies.collect()
 }
 
+/// Which parts have nodes of their own.
+fn kinds(compiled: &Compiled) -> Vec<PartKind> {
+    let parts = compiled.bindings.parts.iter();
+    parts.map(|part| part.kind).collect()
+}
+
 /// What became of the changes that were tried.
 #[derive(Default)]
 struct Counts {
     made: BTreeMap<&'static str, usize>,
+    /// Parts that were moved there and back.
+    back: usize,
     refused: BTreeMap<String, usize>,
 }
 
@@ -133,15 +138,35 @@ fn made(
     );
     let (mut old, new) = (said(before.compiled()), said(after.compiled()));
     if let Change::Erase { part } = change {
-        old.retain(|name| name != part || new.contains(name));
+        old.retain(|name| name != part);
     }
-    assert_eq!(old, new, "{json} changes names");
+    // What is no detail of another part any more may have a name that nothing called it by before.
+    old.retain(|name| !new.contains(name));
+    assert_eq!(old, [""; 0], "{json} changes names");
     *counts.made.entry(kind(change)).or_default() += 1;
     let part = part_after(before, &after, change, &found);
     Some((after, part))
 }
 
-fn hold(path: &Path, counts: &mut Counts) {
+/// A small shape in a corner of the page.
+fn small(compiled: &Compiled, is_round: bool) -> NewShape {
+    let (corner, size) = compiled.drawing.page;
+    if is_round {
+        let [x, y] = [corner.x + 0.97 * size.x, corner.y + 0.03 * size.y];
+        return NewShape::Ellipse([x, y, size.x / 50.0, size.y / 60.0].map(short));
+    }
+    let [x, y] = [corner.x + 0.01 * size.x, corner.y + 0.99 * size.y];
+    let [width, height] = [size.x / 40.0, size.y / 50.0];
+    NewShape::Path(format!("M {x} {y} l {width} 0 q 0 {height} {} 0", -width))
+}
+
+/// Numbers with few digits are the same again after they were written as JSON.
+fn short(number: f64) -> f64 {
+    (number * 100.0).round() / 100.0
+}
+
+/// Draws on a drawing, and changes one of its parts: other ones in every drawing.
+fn hold(path: &Path, at: usize, counts: &mut Counts) {
     let Ok(text) = fs::read_to_string(path) else {
         return;
     };
@@ -151,108 +176,94 @@ fn hold(path: &Path, counts: &mut Counts) {
         return;
     }
     let compiled = before.compiled();
-    let (corner, size) = compiled.drawing.page;
-    // Numbers with few digits are the same again after they were written as JSON.
-    let short = |number: f64| (number * 100.0).round() / 100.0;
-    let [x, y, width, height] = [corner.x, corner.y, size.x, size.y];
-    let shapes = [
-        NewShape::Ellipse(
-            [
-                x + 0.97 * width,
-                y + 0.03 * height,
-                width / 50.0,
-                height / 60.0,
-            ]
-            .map(short),
-        ),
-        NewShape::Path(format!(
-            "M {} {} l {} 0 q 0 {} {} 0",
-            x + 0.01 * width,
-            y + 0.99 * height,
-            width / 40.0,
-            height / 50.0,
-            -width / 40.0
-        )),
-    ];
-    for shape in shapes {
-        let change = Change::Draw {
-            shape,
-            fill: "#12ab9f".to_owned(),
-        };
-        if let Some((after, part)) = made(folder, &before, &change, counts) {
-            let part = part.unwrap_or_else(|| panic!("{} has a new part", path.display()));
-            let drawn = after.compiled().bindings.parts.iter();
-            let mut drawn = drawn.filter(|one| one.name == part);
-            assert_eq!(
-                drawn
-                    .next()
-                    .map(|part| part.paint(&after.compiled().drawing).color),
-                Some([0x12, 0xab, 0x9f]),
-                "{}",
-                path.display()
-            );
-        }
+    let change = Change::Draw {
+        shape: small(compiled, at % 2 == 0),
+        fill: "#12ab9f".to_owned(),
+    };
+    if let Some((after, part)) = made(folder, &before, &change, counts) {
+        let part = part.unwrap_or_else(|| panic!("{} has a new part", path.display()));
+        let drawn = after.compiled().bindings.parts.iter();
+        let mut drawn = drawn.filter(|one| one.name == part);
+        let painted = drawn
+            .next()
+            .map(|part| part.paint(&after.compiled().drawing).color);
+        assert_eq!(painted, Some([0x12, 0xab, 0x9f]), "{}", path.display());
     }
     let main = compiled.bindings.parts.iter();
     let main = main.filter(|part| part.kind == PartKind::Main);
     let names: Vec<&str> = main.map(|part| part.name.as_str()).collect();
-    let stride = names.len().div_ceil(PARTS).max(1);
-    for name in names.into_iter().step_by(stride) {
-        let part = || name.to_owned();
-        let by = [width / 97.0, -height / 89.0].map(short);
-        if let Some((there, now)) =
-            made(folder, &before, &Change::Move { part: part(), by }, counts)
-        {
-            let back = Change::Move {
-                part: now.expect("a moved part stays one"),
-                by: by.map(|by| -by),
-            };
-            let (again, _) = made(folder, &there, &back, counts)
-                .unwrap_or_else(|| panic!("{name} of {} does not go back", path.display()));
-            assert_eq!(
-                lies(again.compiled()),
-                lies(compiled),
-                "{name} of {} does not lie where it did",
-                path.display()
-            );
-        }
-        for to in [
-            Stacking::Front,
-            Stacking::Back,
-            Stacking::Forward,
-            Stacking::Backward,
-        ] {
-            made(
-                folder,
-                &before,
-                &Change::Restack { part: part(), to },
-                counts,
-            );
-        }
-        made(folder, &before, &Change::Erase { part: part() }, counts);
-        let fill = "#12ab9f".to_owned();
-        made(
-            folder,
-            &before,
-            &Change::Paint { part: part(), fill },
-            counts,
-        );
+    let Some(name) = names.get(at * 7 % names.len().max(1)) else {
+        return;
+    };
+    let part = || (*name).to_owned();
+    goes_back(path, &before, name, counts);
+    let ways = [
+        Stacking::Front,
+        Stacking::Back,
+        Stacking::Forward,
+        Stacking::Backward,
+    ];
+    let to = ways[at % ways.len()];
+    let fill = "#12ab9f".to_owned();
+    for change in [
+        Change::Restack { part: part(), to },
+        Change::Erase { part: part() },
+        Change::Paint { part: part(), fill },
+    ] {
+        made(folder, &before, &change, counts);
     }
+}
+
+/// A part that is moved there and back lies where it did, and so does everything else.
+fn goes_back(path: &Path, before: &Analysis, name: &str, counts: &mut Counts) {
+    let folder = path.parent().expect("a folder");
+    let compiled = before.compiled();
+    let (_, size) = compiled.drawing.page;
+    let by = [size.x / 97.0, -size.y / 89.0].map(short);
+    let part = name.to_owned();
+    let Some((there, now)) = made(folder, before, &Change::Move { part, by }, counts) else {
+        return;
+    };
+    // What lies on a part by then goes back with it.
+    if kinds(there.compiled()) != kinds(compiled) {
+        return;
+    }
+    let back = Change::Move {
+        part: now.expect("a moved part stays one"),
+        by: by.map(|by| -by),
+    };
+    let (again, _) = made(folder, &there, &back, counts)
+        .unwrap_or_else(|| panic!("{name} of {} does not go back", path.display()));
+    assert_eq!(
+        lies(again.compiled()),
+        lies(compiled),
+        "{name} of {} does not lie where it did",
+        path.display()
+    );
+    counts.back += 1;
 }
 
 #[allow(
     clippy::print_stdout,
     reason = "with --nocapture it says what was tried"
 )]
-fn assert_counts(folder: &str, least: [(&str, usize); 5]) {
+fn assert_counts(folder: &str, back: usize, least: [(&str, usize); 5]) {
     let mut counts = Counts::default();
-    for path in common::drawings_in(folder) {
-        hold(&path, &mut counts);
+    for (at, path) in common::drawings_in(folder).iter().enumerate() {
+        hold(path, at, &mut counts);
     }
-    println!("made: {:?}", counts.made);
+    println!(
+        "made: {:?}, moved there and back: {}",
+        counts.made, counts.back
+    );
     for (why, count) in &counts.refused {
         println!("{count:6} {why}");
     }
+    assert!(
+        counts.back >= back,
+        "only {} parts were moved back",
+        counts.back
+    );
     for (kind, least) in least {
         let count = counts.made.get(kind).copied().unwrap_or_default();
         assert!(
@@ -265,23 +276,23 @@ fn assert_counts(folder: &str, least: [(&str, usize); 5]) {
 #[test]
 fn drawings_of_examples_are_drawn_on() {
     let least = [
-        ("draw", 50),
+        ("draw", 35),
         ("move", 50),
-        ("restack", 50),
+        ("restack", 20),
         ("erase", 10),
         ("paint", 10),
     ];
-    assert_counts("examples", least);
+    assert_counts("examples", 20, least);
 }
 
 #[test]
 fn drawings_of_cases_are_drawn_on() {
     let least = [
-        ("draw", 200),
-        ("move", 200),
-        ("restack", 200),
-        ("erase", 50),
-        ("paint", 50),
+        ("draw", 150),
+        ("move", 100),
+        ("restack", 50),
+        ("erase", 20),
+        ("paint", 30),
     ];
-    assert_counts("tests/cases", least);
+    assert_counts("tests/cases", 50, least);
 }

@@ -86,6 +86,11 @@ export function start(page: HTMLElement, host: Host): Shown {
   commands.help = () => help.toggle();
   const drawing = new DrawingTools(paper, state, editing, keys);
   commands.drawing = drawing;
+  viewer.on(["model"], () => {
+    if (drawing.isBegun) viewer.view.frame();
+  });
+  for (const type of ["pointerdown", "wheel"]) viewer.canvas.addEventListener(type, () => (drawing.isBegun = false));
+  state.on("current", () => (drawing.isBegun = false));
   const camera = new CameraPanel(host, state, page);
   if (camera.isPossible) commands.recordPuppet = () => camera.toggle();
 

@@ -107,7 +107,7 @@ inBrowser("an empty page becomes a figure that walks, drawn by hand, and is kept
   await page.locator(".draw-tools").waitFor();
   for (const [at, points] of FIRST_FIGURE.entries()) {
     await drag(page, points, [210, 297]);
-    await page.waitForFunction((count) => document.querySelectorAll(".tree-item").length === count, at + 1);
+    await page.locator(".bar-facts", { hasText: new RegExp(`^${at + 1} part`) }).waitFor();
   }
   await page.waitForFunction(() => document.querySelector(".paper-drafts")!.childElementCount === 0);
   await page.getByRole("button", { name: "Name the parts for me" }).click();

@@ -74,11 +74,12 @@ edit("an ellipse, a rectangle and a shape by hand are written in front of the ot
   await drag(page, [[250, 40], [250.5, 40.5]], SIZE);
   await page.keyboard.press("Control+z");
   await edited.has(two, "the line is undone");
+  await page.getByRole("button", { name: /^Redo: / }).and(page.locator(":enabled")).waitFor();
   await page.keyboard.press("Control+Shift+z");
   await edited.has(whole, "and made again");
   await settled(page);
   assert.equal(await selected(page), "U-3");
-  for (let step = 0; step < 3; step++) await page.getByRole("button", { name: /^Undo/ }).click();
+  for (let step = 0; step < 3; step++) await page.getByRole("button", { name: /^Undo: / }).and(page.locator(":enabled")).click();
   await edited.has(BEFORE, "undone");
 });
 
@@ -271,6 +272,9 @@ edit("from an empty page a figure is drawn by hand, named and moved", async (edi
   await edited.select("Body");
   await edited.label("Motion: clip").selectOption("=walk");
   await page.waitForFunction(() => /^walk/.test(document.querySelector(".clip-choice option")?.textContent ?? ""));
+  await page.locator(".part-form[aria-busy=false]").waitFor();
+  await still(page);
+  await page.locator("canvas").evaluate((canvas) => canvas.blur());
   await manual(page, "without-strings/6-draw.png");
   await picture(page, "drawn-figure-walks");
 }, { drawing: EMPTY, viewport: { width: 1240, height: 760 } });

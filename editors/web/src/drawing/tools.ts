@@ -49,6 +49,8 @@ export class DrawingTools implements Desk {
     button({ icon: SendToBack, label: "To the back", press: () => this.changeSelected((part) => ({ change: "restack", part, to: "back" })) }),
     button({ icon: Trash2, label: "Delete", press: () => this.erase() }),
   ];
+  /** Whether a drawing is begun here, so that the view shows all of its model as that grows; until somebody turns the view. */
+  isBegun = false;
   private tool: Tool = "select";
   private chosen: string = COLORS[1]![0];
   private placed = 0;
@@ -81,6 +83,7 @@ export class DrawingTools implements Desk {
     if (!this.editing.isOn) this.editing.toggle();
     if (!this.paper.isOn) this.paper.toggle();
     if (!this.isOn) return;
+    this.isBegun = true;
     this.choose("draw");
     this.paper.desk.focus();
   }

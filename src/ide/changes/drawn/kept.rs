@@ -167,17 +167,22 @@ impl<'a> Pair<'a> {
     }
 
     fn is_the_same(&self, index: PartId, old: &Part, new: &Part) -> Result<(), Refusal> {
-        // What has no name is by rule a part of its own, or belongs to another one.
-        let by_rule = |part: &Part| {
-            matches!(part.kind, PartKind::Main | PartKind::Sub) && part.string.is_none()
-        };
-        if old.kind != new.kind && !(by_rule(old) && by_rule(new)) {
-            return Err(self.would(index, &format!("be {}", described(new.kind))));
+        let has_node = |part: &Part| matches!(part.kind, PartKind::Main | PartKind::Sub);
+        // What has no name is by rule a part of its own, or belongs to what it lies on.
+        let is_named = !old.is_automatic() && !old.name.is_empty();
+        if old.kind != new.kind {
+            let is_by_rule = has_node(old) && has_node(new) && !is_named;
+            let what = match new.kind {
+                PartKind::Sub => "belong to the part that it lies on then: leave more of it beside that, or write a string for it".to_owned(),
+                kind => format!("be {} then", described(kind)),
+            };
+            return if is_by_rule {
+                Ok(())
+            } else {
+                Err(self.would(index, &what))
+            };
         }
-        let is_called_so = old.name == new.name
-            || old.is_automatic() && new.is_automatic()
-            || old.kind != new.kind;
-        if !is_called_so {
+        if is_named && old.name != new.name {
             return Err(self.would(index, &format!("be called `{}`", new.name)));
         }
         Ok(())

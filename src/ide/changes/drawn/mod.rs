@@ -84,7 +84,7 @@ impl Analysis {
         if let Some(other) = others.find(|other| !self.is_of(*other, part) && has(of_shape(*other)))
         {
             return Err(Refusal::new(format!(
-                "`{name}` and {} are drawn as one clone: unlink it in Inkscape (Edit > Clone > Unlink Clone)",
+                "`{name}` and {} are drawn by one element: draw each by itself, or unlink the clone (in Inkscape, Edit > Clone > Unlink Clone)",
                 bindings.describe(self.drawing(), other)
             )));
         }
@@ -94,7 +94,8 @@ impl Analysis {
     /// Whether a part is another one or belongs to it.
     fn is_of(&self, part: PartId, whole: PartId) -> bool {
         let parts = &self.bindings().parts;
-        parts[part].main == whole || parts[part].shape == parts[whole].shape
+        let is_line = parts[part].shape == parts[whole].shape && parts[part].kind != PartKind::Main;
+        part == whole || parts[part].main == whole || is_line
     }
 
     /// The strings that are written beside a part on the page.
