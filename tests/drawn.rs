@@ -183,7 +183,11 @@ fn hold(path: &Path, at: usize, counts: &mut Counts) {
     if let Some((after, part)) = made(folder, &before, &change, counts) {
         let part = part.unwrap_or_else(|| panic!("{} has a new part", path.display()));
         let drawn = after.compiled().bindings.parts.iter();
-        let mut drawn = drawn.filter(|one| one.name == part);
+        // What belongs to another part goes by its element.
+        let shapes = &after.compiled().drawing.shapes;
+        let mut drawn = drawn.filter(|one| {
+            one.name == part || shapes[one.shape].element.id.as_deref() == Some(&*part)
+        });
         let painted = drawn
             .next()
             .map(|part| part.paint(&after.compiled().drawing).color);

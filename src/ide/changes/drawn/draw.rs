@@ -159,7 +159,7 @@ impl Analysis {
                 [format!(">{before}"), format!("{own}</{name}>")],
             )
         } else {
-            let last = node.children().filter(Node::is_element).next_back();
+            let last = node.children().rfind(Node::is_element);
             let at = last.map_or(open, |last| last.range().end);
             let is_empty = last.is_none() && !source[open..end].starts_with(char::is_whitespace);
             let after = if is_empty { own } else { "" };
