@@ -155,11 +155,12 @@ impl<'a> Pair<'a> {
                 let way = match change {
                     Change::Draw { .. } => "draw it farther from that text",
                     Change::Move { .. } => "move it elsewhere, or move the text first",
+                    Change::Erase { .. } => "delete both in the program that drew them",
                     _ => "move the text onto its shape first",
                 };
                 let text = string.text.as_str().trim();
                 return Err(Refusal::new(format!(
-                    "the text `{text}` would mean another shape then: {way}"
+                    "the text `{text}` would mean another shape then, or none: {way}"
                 )));
             }
         }

@@ -328,7 +328,7 @@ fn what_would_change_more_or_nothing_is_refused() {
         ),
         (
             draw(NewShape::Rect([19.0, 39.0, 62.0, 12.0])),
-            "the text `Rarm@Body` would mean another shape then: draw it farther",
+            "the text `Rarm@Body` would mean another shape then, or none: draw it farther",
         ),
         (shift("Rarm", [1e5, 0.0]), "outside the page"),
         (shift("Nobody", [1.0, 0.0]), "there is no part `Nobody`"),
