@@ -42,7 +42,8 @@ pub mod ide {
 
     pub mod changes {
         pub use crate::ide::changes::{
-            Change, History, PartTurn, Place, Refusal, Step, can_set, check, edits, rebased,
+            Change, History, NewShape, PartTurn, Place, Refusal, Stacking, Step, can_set, check,
+            edits, part_after, rebased,
         };
     }
 }

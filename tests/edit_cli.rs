@@ -78,6 +78,32 @@ fn changes_are_made_in_turn_and_nothing_else_is() {
 }
 
 #[test]
+fn what_is_drawn_is_changed_too_and_the_report_has_the_name_of_the_new_part() {
+    let room = Room::with("a.svg", FIGURE);
+    let changes = [
+        json!({ "change": "draw", "shape": { "ellipse": [50, 100, 10, 10] }, "fill": "#cc4422" }),
+        json!({ "change": "move", "part": "Arm", "by": [5, -2] }),
+        json!({ "change": "erase", "part": "Leg" }),
+    ];
+    let run = edit(&room, &changes, &["--json"]);
+    assert_eq!((run.status, run.err.as_str()), (0, ""));
+    let report = read(&run.out);
+    let parts: Vec<&Value> = (0..3).map(|at| &report["made"][at]["part"]).collect();
+    assert_eq!(parts, [&json!("U-1"), &json!("Arm"), &Value::Null]);
+    let leg = "  <rect x=\"90\" y=\"80\" width=\"60\" height=\"10\" fill=\"#0000cc\" id=\"leg\"/>\n  <text x=\"120\" y=\"89\" font-size=\"5\">Leg@Body</text>\n";
+    let hat =
+        "<rect x=\"40\" y=\"2\" width=\"20\" height=\"5\" fill=\"#00cc00\" id=\"crown\"/>\n  </g>";
+    let circle = "\n  <circle id=\"circle-1\" style=\"fill:#cc4422;stroke:none\" cx=\"50\" cy=\"100\" r=\"10\" />";
+    let expected = changed(&[
+        (leg, ""),
+        ("x=\"90\" y=\"30\"", "x=\"95\" y=\"28\""),
+        ("x=\"120\" y=\"39\"", "x=\"125\" y=\"37\""),
+        (hat, &format!("{hat}{circle}")),
+    ]);
+    assert_eq!(room.read("a.svg"), expected.as_bytes());
+}
+
+#[test]
 fn the_result_goes_where_it_is_asked_for() {
     let room = Room::with("a.svg", FIGURE);
     let change = [set("Arm", "Offset", "3.5")];
@@ -145,7 +171,7 @@ fn wrong_uses_of_edit() {
     let bad = |change: Value, said: &str| edit(&room, &[change], &[]).ends(2, "", said);
     bad(json!("Arm"), "expected");
     bad(json!({}), "missing field `change`");
-    bad(json!({ "change": "paint" }), "expected one of `set`");
+    bad(json!({ "change": "dye" }), "expected one of `set`");
     bad(
         json!({ "change": "set", "part": "Arm" }),
         "missing field `attribute`",

@@ -101,14 +101,14 @@ fn made(
     } = arguments;
     let mut all = vec![];
     for change in changes {
-        let (after, note) = step(&before, change, |text| {
+        let Stepped { after, part, note } = step(&before, change, |text| {
             Analysis::new(text, compiled(text, drawing, reading))
         })
         .map_err(|refusal| (change, refusal))?;
         all.push(Made {
             change,
             title: change.title(),
-            part: change.part_after(),
+            part,
             note,
         });
         if let Some(after) = after {
@@ -118,20 +118,39 @@ fn made(
     Ok((before.source().to_string(), all))
 }
 
-/// The drawing after a change, `None` if everything is so already, and what else has changed.
+/// What a change made of a drawing.
+struct Stepped {
+    /// The drawing after it; `None` if everything is so already.
+    after: Option<Analysis>,
+    /// The part that it is about, by its name after it.
+    part: Option<String>,
+    /// What else has changed.
+    note: Option<String>,
+}
+
+/// Makes a change.
 fn step(
     before: &Analysis,
     change: &Change,
     read: impl Fn(&str) -> Analysis,
-) -> Result<(Option<Analysis>, Option<String>), Refusal> {
+) -> Result<Stepped, Refusal> {
     let edits = changes::edits(before, change)?;
     let text = applied(before.source(), &edits);
     if text == **before.source() {
-        return Ok((None, None));
+        return Ok(Stepped {
+            after: None,
+            part: changes::part_after(before, before, change, &edits),
+            note: None,
+        });
     }
     let after = read(&text);
     let note = changes::check(before, &after, change)?;
-    Ok((Some(after), note))
+    let part = changes::part_after(before, &after, change, &edits);
+    Ok(Stepped {
+        after: Some(after),
+        part,
+        note,
+    })
 }
 
 fn json(

@@ -14,7 +14,7 @@ use crate::diagnostic::{Edit, applied};
 use crate::disk::motions;
 use crate::export::{self, GLB};
 use crate::ide::Analysis;
-use crate::ide::changes::{Change, Refusal, check, edits};
+use crate::ide::changes::{Change, Refusal, check, edits, part_after};
 
 /// A request for what can be changed about a part.
 #[derive(Debug, Deserialize)]
@@ -37,6 +37,8 @@ struct Possible {
     edits: Vec<Edit>,
     /// The drawing with it.
     after: Analysis,
+    /// The part that it is about, by the name that it has then.
+    part: Option<String>,
     /// What else it does, as a sentence without a full stop.
     note: Option<String>,
 }
@@ -56,11 +58,12 @@ impl Backend {
     pub(super) async fn preview_change(&self, params: ChangeParams) -> Result<Value> {
         let (document, analyzed) = self.shown(&params.text_document).await?;
         let change = params.change;
-        let part = change.part_after();
         let text = document.clone();
         let found = tokio::task::spawn_blocking(move || possible(&text, &analyzed, &change));
         Ok(match found.await.map_err(|_| Error::internal_error())? {
-            Ok(Possible { edits, note, .. }) => {
+            Ok(Possible {
+                edits, part, note, ..
+            }) => {
                 let edits = edits.into_iter().map(|edit| TextEdit {
                     range: document.positions.range(edit.span),
                     new_text: edit.text,
@@ -109,7 +112,13 @@ fn possible(
     let compiled = compile(&text, &Options::default(), document.resolver().as_ref());
     let after = Analysis::new(text, compiled);
     let note = check(before, &after, change)?;
-    Ok(Possible { edits, after, note })
+    let part = part_after(before, &after, change, &edits);
+    Ok(Possible {
+        edits,
+        after,
+        part,
+        note,
+    })
 }
 
 fn refused(Refusal { why, choices }: &Refusal) -> Value {

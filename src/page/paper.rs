@@ -50,7 +50,7 @@ struct Described<'a> {
 }
 
 impl Paper {
-    /// The page of a drawing that was compiled from `text`; `None` if there is nothing on it that belongs to the model.
+    /// The page of a drawing that was compiled from `text`; `None` if that cannot be read. An empty page is one, too: it can be drawn on.
     pub(crate) fn new(compiled: &Compiled, text: &Arc<str>) -> Option<Self> {
         let Compiled {
             bindings, drawing, ..
@@ -98,7 +98,7 @@ impl Paper {
             strings: strings.collect(),
             pictures: drawing.pictures.clone(),
         };
-        (!paper.shapes.is_empty() && paper.page.1.min_element() > 0.0).then_some(paper)
+        (paper.page.1.min_element() > 0.0).then_some(paper)
     }
 
     /// As JSON.

@@ -50,7 +50,7 @@ pub(crate) use links::broken_link;
 pub(crate) use oklab::oklab;
 pub(crate) use paths::StrokeSource;
 pub(crate) use pictures::LARGE;
-pub(crate) use poses::{DrawnPath, IsPose, PosedShape, Poses, transforms_around};
+pub(crate) use poses::{DrawnPath, IsPose, PosedShape, Poses, transform_inside, transforms_around};
 pub use raster::{LeftOut, raster};
 pub(crate) use text::Label;
 pub(crate) use unseen::{ConvertedText, Hidden, Unseen};

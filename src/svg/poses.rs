@@ -324,6 +324,23 @@ impl PoseReader<'_, '_> {
 /// Per element of a drawing, given by the first byte of its start tag, the transform around it: from the coordinates in which the element
 /// is placed to those of the drawing. `None` for what is no element.
 pub(crate) fn transforms_around(source: &str, starts: &[usize]) -> Vec<Option<DAffine2>> {
+    transforms(source, starts, Place::Around)
+}
+
+/// The transform inside of an element, likewise.
+pub(crate) fn transform_inside(source: &str, start: usize) -> Option<DAffine2> {
+    let mut found = transforms(source, &[start], Place::Inside);
+    found.pop().flatten()
+}
+
+/// In which coordinates something is: those in which an element is placed, or those of what is in it.
+#[derive(Clone, Copy)]
+enum Place {
+    Around,
+    Inside,
+}
+
+fn transforms(source: &str, starts: &[usize], place: Place) -> Vec<Option<DAffine2>> {
     let mut found = vec![None; starts.len()];
     let Ok(prepared) = prepare(source) else {
         return found;
@@ -335,7 +352,11 @@ pub(crate) fn transforms_around(source: &str, starts: &[usize]) -> Vec<Option<DA
         let start = prepared.original(node.range().start);
         for (found, wanted) in found.iter_mut().zip(starts) {
             if *wanted == start && found.is_none() {
-                *found = node.parent_element().map(text::page_transform);
+                let inside = match place {
+                    Place::Around => node.parent_element(),
+                    Place::Inside => Some(node),
+                };
+                *found = inside.map(text::page_transform);
             }
         }
     }

@@ -14,6 +14,8 @@ export class Commands {
   pointer: Pointer | null = null;
   /** Changes of the drawing; set by the page. */
   editing: Editing | null = null;
+  /** The tools that draw; set by the page. */
+  drawing: { giveUp(): boolean; leave(): boolean } | null = null;
   /** Opens the help; set by the page. */
   help: () => void = () => {};
   /** Opens the panel that records a puppet, where there are cameras; set by the page. */
@@ -47,11 +49,12 @@ export class Commands {
     this.viewer.posed();
   }
 
-  /** Undoes one thing: a drag, a pose, the mode, the view of the layers, the selection. */
+  /** Undoes one thing: a drag, a tool, a pose, the mode, the view of the layers, the selection. */
   escape(): void {
-    if (this.pointer?.cancel()) return;
+    if (this.pointer?.cancel() || this.drawing?.giveUp()) return;
     if (this.editing?.isPicking) return this.editing.pick(null);
     if (this.editing?.refusal) return this.editing.clear();
+    if (this.drawing?.leave()) return;
     if (!this.viewer.pose.isEmpty) this.resetPose();
     else if (this.isPosing) this.togglePosing();
     else if (this.viewer.stack.isOn) this.viewer.stack.toggle();

@@ -4,6 +4,7 @@ import { followAddress, openGallery } from "./address";
 import { CameraPanel } from "./camera/panel";
 import { Commands } from "./commands";
 import { h } from "./dom";
+import { DrawingTools } from "./drawing/tools";
 import { EditBar } from "./editing/bar";
 import { Editing } from "./editing/editing";
 import { FormPanel } from "./editing/form";
@@ -84,6 +85,13 @@ export function start(page: HTMLElement, host: Host): Shown {
   const keys = new Keys();
   const help = new Help(keys, host);
   commands.help = () => help.toggle();
+  const drawing = new DrawingTools(paper, state, editing, keys);
+  commands.drawing = drawing;
+  viewer.on(["model"], () => {
+    if (drawing.isBegun) viewer.view.frame();
+  });
+  for (const type of ["pointerdown", "wheel"]) viewer.canvas.addEventListener(type, () => (drawing.isBegun = false));
+  state.on("current", () => (drawing.isBegun = false));
   const camera = new CameraPanel(host, state, page);
   if (camera.isPossible) commands.recordPuppet = () => camera.toggle();
 
@@ -115,7 +123,7 @@ export function start(page: HTMLElement, host: Host): Shown {
     sheet.show(form);
   };
   place.append(handles.element, new EditBar(editing, state, viewer).element);
-  place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer, exports).element, findings.element, side.opener);
+  place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer, exports, editing, () => drawing.begin()).element, findings.element, side.opener);
   const toolbar = new Toolbar(viewer, commands, exports, paper);
   const gallery = new Gallery(state, host);
   const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, toolbar.element, h("div", { class: "views" }, paper.element, place), new BendBar(viewer).element, clips.panel, side.element);

@@ -142,7 +142,7 @@ export interface Build {
   readonly milliseconds: number;
   readonly model: string | null;
   readonly picture: string | null;
-  /** The address of the page of the drawing; null if nothing on it belongs to a model. */
+  /** The address of the page of the drawing; null if none was ever read. */
   readonly paper: string | null;
   readonly stale: boolean;
   /** Whether the model is only what can be built of a drawing with errors. */

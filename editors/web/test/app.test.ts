@@ -5,7 +5,8 @@ import { join } from "node:path";
 import type { BrowserContext, Page } from "playwright-core";
 import { App, inBrowser } from "./app";
 import { found } from "./axe";
-import { overlaps, picture, shown, type } from "./browser";
+import { overlaps, picture, shown, still, type } from "./browser";
+import { drag, FIRST_FIGURE } from "./drawn";
 import { FIGURE, source } from "./setup";
 import { SIZES } from "./sizes";
 
@@ -97,6 +98,34 @@ inBrowser("a drop brings a drawing with what it links to; what is no drawing is 
   await page.getByRole("button", { name: "Close" }).click();
   await page.getByRole("button", { name: "Close without saving" }).click();
   await page.getByText("2 drawings").waitFor();
+});
+
+inBrowser("an empty page becomes a figure that walks, drawn by hand, and is kept and saved as plain SVG", async (app) => {
+  const { page } = app;
+  await page.locator("[data-starter=empty]").click();
+  await page.getByRole("button", { name: "Draw something" }).click();
+  await page.locator(".draw-tools").waitFor();
+  for (const [at, points] of FIRST_FIGURE.entries()) {
+    await drag(page, points, [210, 297]);
+    await page.locator(".bar-facts", { hasText: new RegExp(`^${at + 1} part`) }).waitFor();
+  }
+  await page.waitForFunction(() => document.querySelector(".paper-drafts")!.childElementCount === 0);
+  await page.getByRole("button", { name: "Name the parts for me" }).click();
+  for (const part of ["Body", "Head", "Larm", "Rarm", "Lleg", "Rleg"]) await app.part(part);
+  await app.select("Body");
+  await page.getByLabel("Motion: clip", { exact: true }).selectOption("=walk");
+  await page.waitForFunction(() => /^walk/.test(document.querySelector(".clip-choice option")?.textContent ?? ""));
+  await still(page);
+  const before = await picture(page, "app-drawn");
+  await page.locator("canvas").focus();
+  await page.keyboard.press("k");
+  await still(page);
+  const after = await picture(page, "app-drawn-walks");
+  assert.notDeepEqual(before.data, after.data, "it moves");
+  const saved = await app.saved(() => page.getByRole("button", { name: "Save" }).click());
+  assert.equal(saved.text.match(/<path\b[^>]* d="M [^"]* Z" \/?>/g)?.length, 6);
+  await page.reload();
+  await app.part("Larm");
 });
 
 inBrowser("a photograph of a drawing becomes a figure; a text that is called a picture does not", async (app) => {

@@ -21,8 +21,14 @@ Changes, as JSON; parts are called as in `okoshi inspect`:
   {"change": "leave-out", "part": …}                         the part is no longer built
   {"change": "variable", "name": …, "value": …}              a variable of `Let` gets this number
   {"change": "clip", "part": …, "clip": 0, "motion": …}      a clip of the part's figure; with null it is taken away
+  {"change": "draw", "shape": …, "fill": "#cc4422"}          a new shape in front of the others: {"path": "M 0 0 H 20 V 30 Z"},
+                                                             {"ellipse": [cx, cy, rx, ry]} or {"rect": [x, y, width, height]}
+  {"change": "move", "part": …, "by": [5, -2]}               the part lies so many user units to the right and down
+  {"change": "restack", "part": …, "to": "front"}            it is drawn in front of the others; also back, forward, backward
+  {"change": "erase", "part": …}                             it is deleted, and its string with it
+  {"change": "paint", "part": …, "fill": "#cc4422"}          its shape is drawn in this colour
 
-Only the strings that say it are changed. Several changes are made in turn, all or none. A change that is about more than its
+Only what says it is changed, byte for byte. Several changes are made in turn, all or none. A change that is about more than its
 part, or would lose a calculation, is refused with the changes that can be made instead: `"place": "own"` writes a value into the
 string of the part, `"place": "legend"` into that of its legend. Then the drawing stays as it is, and the exit status is 1."##;
 

@@ -1,6 +1,6 @@
 //! Whether a change did what it says, and nothing else.
 
-use super::{Analysis, Change, Place, Refusal, unnamed};
+use super::{Analysis, Change, Place, Refusal, drawn, unnamed};
 use crate::bind::{Part, PartId, PartKind};
 use crate::diagnostic::Severity;
 use crate::lang::keyword::Keyword;
@@ -22,6 +22,9 @@ pub fn check(
     if matches!(change, Change::Write { .. } | Change::Apply { .. }) {
         // What is typed is wrong until it is whole; that other strings stay as they are is in the nature of the edits.
         return is_readable(before, after).map(|()| None);
+    }
+    if change.is_drawn() {
+        return drawn::check(before, after, change);
     }
     no_worse(before, after)?;
     if *change == Change::NameParts {

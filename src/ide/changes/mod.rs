@@ -6,6 +6,7 @@
 
 mod check;
 mod clips;
+mod drawn;
 mod elements;
 mod form;
 mod given;
@@ -25,6 +26,7 @@ mod written;
 
 pub use check::check;
 use check::no_worse;
+pub use drawn::{NewShape, Stacking};
 pub(crate) use form::PartForm;
 pub use history::{History, Step, rebased};
 pub use poses::PartTurn;
@@ -116,6 +118,39 @@ pub enum Change {
         /// The parts that are turned. All others of their figures are as they are drawn.
         turns: Vec<PartTurn>,
     },
+    /// A shape is drawn in front of all others in the layer of the front-most part.
+    Draw {
+        /// The shape.
+        shape: NewShape,
+        /// Its colour, `#rrggbb`.
+        fill: String,
+    },
+    /// What a part is drawn as is moved, with the strings beside it.
+    Move {
+        /// The part.
+        part: String,
+        /// How far, user units to the right and down.
+        by: [f64; 2],
+    },
+    /// What a part is drawn as is drawn later or earlier than others in its layer or group.
+    Restack {
+        /// The part.
+        part: String,
+        /// Where it goes.
+        to: Stacking,
+    },
+    /// What a part is drawn as is deleted, with the strings beside it.
+    Erase {
+        /// The part.
+        part: String,
+    },
+    /// The shape of a part is drawn in another colour.
+    Paint {
+        /// The part.
+        part: String,
+        /// The colour, `#rrggbb`.
+        fill: String,
+    },
     /// A variable of the drawing gets a number.
     Variable {
         /// Its name.
@@ -188,21 +223,30 @@ impl Change {
             | Self::Name { part, .. }
             | Self::Hang { part, .. }
             | Self::LeaveOut { part }
-            | Self::Clip { part, .. } => Some(part),
+            | Self::Clip { part, .. }
+            | Self::Move { part, .. }
+            | Self::Restack { part, .. }
+            | Self::Erase { part }
+            | Self::Paint { part, .. } => Some(part),
             Self::NameParts
             | Self::KeepPose { .. }
+            | Self::Draw { .. }
             | Self::Variable { .. }
             | Self::Write { .. }
             | Self::Apply { .. } => None,
         }
     }
 
-    /// The same, by its name after the change.
-    pub fn part_after(&self) -> Option<String> {
-        match self {
-            Self::Name { name, .. } => crate::lang::quoting::read_name(name),
-            change => change.part().map(str::to_owned),
-        }
+    /// Whether it is about what is drawn, instead of what strings say of it.
+    fn is_drawn(&self) -> bool {
+        matches!(
+            self,
+            Self::Draw { .. }
+                | Self::Move { .. }
+                | Self::Restack { .. }
+                | Self::Erase { .. }
+                | Self::Paint { .. }
+        )
     }
 
     /// What it changes, for a list of steps: `Shape of Arm`.
@@ -224,6 +268,11 @@ impl Change {
                 ..
             } => format!("Motion {motion}").trim_end().to_owned(),
             Self::KeepPose { .. } => "a key pose".to_owned(),
+            Self::Draw { .. } => "a new shape".to_owned(),
+            Self::Move { part, .. } => format!("the place of {part}"),
+            Self::Restack { part, .. } => format!("the order of {part}"),
+            Self::Erase { part } => format!("deleting {part}"),
+            Self::Paint { part, .. } => format!("the paint of {part}"),
             Self::Variable { name, .. } => format!("the number {name}"),
             Self::Write { text, .. } => format!("the string {}", shortened(text)),
             Self::Apply { title, .. } => title.clone(),
@@ -289,6 +338,11 @@ pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal>
             analysis.set_clip(part, *clip, wanted, *place)?
         }
         Change::KeepPose { turns } => analysis.keep_pose(turns)?,
+        Change::Draw { shape, fill } => analysis.draw(shape, fill)?,
+        Change::Move { part, by } => analysis.shift(part, *by)?,
+        Change::Restack { part, to } => analysis.restack(part, *to)?,
+        Change::Erase { part } => analysis.erase(part)?,
+        Change::Paint { part, fill } => analysis.paint(part, fill)?,
         Change::Variable { name, value } => analysis.set_variable(name, *value)?,
         Change::Write {
             start, was, text, ..
@@ -304,6 +358,20 @@ pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal>
     edits.dedup();
     edits.retain(|edit| analysis.source[edit.span.start..edit.span.end] != edit.text);
     Ok(edits)
+}
+
+/// The part of a change that was made by some edits, by its name after it.
+pub fn part_after(
+    before: &Analysis,
+    after: &Analysis,
+    change: &Change,
+    edits: &[Edit],
+) -> Option<String> {
+    match change {
+        change if change.is_drawn() => drawn::part_after(before, after, change, edits),
+        Change::Name { name, .. } => crate::lang::quoting::read_name(name),
+        change => change.part().map(str::to_owned),
+    }
 }
 
 /// Refuses to change a drawing that cannot be read.

@@ -96,7 +96,7 @@ impl Analysis {
     }
 
     /// The elements that draw a part, in paint order: its group, if that holds nothing else, and shapes outside of it.
-    fn drawn_as(&self, part: PartId) -> Vec<&Element> {
+    pub(super) fn drawn_as(&self, part: PartId) -> Vec<&Element> {
         let (bindings, drawing) = (self.bindings(), self.drawing());
         let own = bindings
             .parts
@@ -136,14 +136,14 @@ impl Analysis {
 }
 
 /// The ids of elements, and new ones for those that have none.
-struct Ids<'a> {
+pub(super) struct Ids<'a> {
     source: &'a str,
     given: Vec<(usize, String)>,
     used: Vec<String>,
 }
 
 impl<'a> Ids<'a> {
-    fn new(analysis: &'a Analysis) -> Self {
+    pub(super) fn new(analysis: &'a Analysis) -> Self {
         Self {
             source: &analysis.source,
             given: Vec::new(),
@@ -152,7 +152,7 @@ impl<'a> Ids<'a> {
     }
 
     /// An id that nothing has: a word with a number.
-    fn free(&mut self, word: &str) -> String {
+    pub(super) fn free(&mut self, word: &str) -> String {
         let mut number = 1;
         loop {
             let id = format!("{word}-{number}");

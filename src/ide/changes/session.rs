@@ -6,7 +6,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::{Change, History, Refusal, Step, check, edits, no_worse};
+use super::{Change, History, Refusal, Step, check, edits, no_worse, part_after};
 use crate::compile::{Compiler, Options};
 use crate::diagnostic::{Edit, applied};
 use crate::ide::Analysis;
@@ -55,6 +55,8 @@ pub(crate) struct Pending {
     edits: Vec<Edit>,
     /// The drawing with this text; `None` if nothing changes.
     after: Option<Arc<Analysis>>,
+    /// The part that it is about, by the name that it has then.
+    part: Option<String>,
     note: Option<String>,
 }
 
@@ -155,12 +157,23 @@ impl Session {
             Action::Make(change) => self.possible(before, change, shown, reading)?,
             Action::Undo | Action::Redo => self.stepped(before, action, reading)?,
         };
+        let named =
+            |change: &Change| part_after(before, after.as_ref().unwrap_or(before), change, &edits);
+        let part = match action {
+            Action::Make(change) => named(change),
+            Action::Redo => self.history.next().and_then(|step| named(&step.change)),
+            Action::Undo => {
+                let undone = self.history.last();
+                undone.and_then(|step| step.change.part().map(str::to_owned))
+            }
+        };
         let before = before.source().clone();
         Ok(Pending {
             text: applied(&before, &edits).into(),
             before,
             edits,
             after,
+            part,
             note,
         })
     }
@@ -172,16 +185,10 @@ impl Session {
             before,
             edits,
             after,
+            part,
             note,
         } = pending;
         let history = &mut self.history;
-        let part = match action {
-            Action::Make(change) => change.part_after(),
-            Action::Undo => history
-                .last()
-                .and_then(|step| step.change.part().map(str::to_owned)),
-            Action::Redo => history.next().and_then(|step| step.change.part_after()),
-        };
         match action {
             Action::Make(_) if text == before => {}
             Action::Make(change) if goes_on(history, change, &before) => {

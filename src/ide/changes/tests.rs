@@ -5,6 +5,7 @@ use super::*;
 use crate::diagnostic::applied;
 
 mod clips;
+mod drawn;
 mod poses;
 
 fn set(part: &str, attribute: Keyword, value: &str, place: Place) -> Change {

@@ -10,6 +10,24 @@ export type Change =
   /** Without a motion the clip is taken away; the number after that of the last clip adds one. */
   | { readonly change: "clip"; readonly part: string; readonly clip: number; readonly motion: string | null; readonly limited: string | null; readonly held: string | null };
 
+/** A shape, in user units of the drawing, y down. */
+export type NewShape =
+  /** Path data; each of its pieces is closed. */
+  | { readonly path: string }
+  /** Centre and radii. */
+  | { readonly ellipse: readonly [number, number, number, number] }
+  /** Left, top, width and height. */
+  | { readonly rect: readonly [number, number, number, number] };
+
+/** A change of what is drawn. */
+export type DrawnChange =
+  | { readonly change: "draw"; readonly shape: NewShape; readonly fill: string }
+  /** To the right and down, in user units. */
+  | { readonly change: "move"; readonly part: string; readonly by: readonly [number, number] }
+  | { readonly change: "restack"; readonly part: string; readonly to: "front" | "forward" | "backward" | "back" }
+  | { readonly change: "erase"; readonly part: string }
+  | { readonly change: "paint"; readonly part: string; readonly fill: string };
+
 /** A change that keeps a pose: the parts that are turned, by degrees from how they are drawn, counter-clockwise. */
 export interface KeepPose {
   readonly change: "keep-pose";

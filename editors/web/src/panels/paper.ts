@@ -15,6 +15,8 @@ const REACH = 6;
 /** How far the pointer goes in a click, in pixels: from there on it drags. */
 const CLICK = 4;
 const NEAREST = 40;
+/** Two clicks within so many milliseconds are a double-click. */
+const TWICE = 500;
 
 /** A part of the page that is looked at: how many times as large as all of it, and where its left top corner is, in pixels. */
 interface Look {
@@ -25,12 +27,28 @@ interface Look {
 
 const ALL: Look = { zoom: 1, x: 0, y: 0 };
 
+/** What a press on the drawing does instead of looking around. */
+export interface Hand {
+  /** Whether it takes a press at a point of the page, on a part or beside all; `shape` is what lies there, if that only belongs to the part. */
+  press(at: Point, part: string | null, shape: string | null): boolean;
+  /** The pointer has gone over points; with Shift it is held to what is even or straight. */
+  drag(over: readonly Point[], shift: boolean): void;
+  /** It is released; `false` if that was a click. */
+  release(): boolean;
+  cancel(): void;
+}
+
 export class PaperPanel {
   readonly element = h("section", { class: "paper", hidden: true, attributes: { "aria-label": "Drawing" } });
+  /** Where the page lies. */
+  readonly desk = h("div", { class: "paper-desk", attributes: { role: "group", "aria-label": "Page" } });
+  /** What is being drawn, in units of the drawing. */
+  readonly drafts = svg("svg", { class: "paper-drafts", "aria-hidden": "true" });
+  hand: Hand | null = null;
   isOn = isRemembered(SHOWN);
   private readonly picture = h("img", { attributes: { alt: "", draggable: "false" } });
   private readonly marks = svg("svg", { class: "paper-marks", "aria-hidden": "true" });
-  private readonly sheet = h("div", { class: "paper-sheet" }, this.picture, this.marks);
+  private readonly sheet = h("div", { class: "paper-sheet" }, this.picture, this.marks, this.drafts);
   private readonly whole = button({ icon: Maximize, label: "Show all of the drawing", class: "paper-all", press: () => this.see(ALL) });
   private readonly note = h("p", { class: "paper-note muted", hidden: true, attributes: { role: "status" } });
   private readonly lacking = h("p", { class: "paper-lacking muted", hidden: true, attributes: { role: "status" } });
@@ -42,6 +60,12 @@ export class PaperPanel {
   private asked: string | null = null;
   private look = ALL;
   private fails = false;
+  /** The build whose page is shown. */
+  private revision = 0;
+  /** When the last click was. */
+  private clicked = 0;
+  /** Whether the pointer is the hand's. */
+  private holds = false;
   /** How far the pointer has gone since it was pressed. */
   private gone = 0;
   private readonly latest: Latest<string, Paper>;
@@ -53,14 +77,15 @@ export class PaperPanel {
       // The address of what replaced it is on its way.
       (error) => !(error instanceof Replaced) && this.say("The drawing could not be fetched."),
     );
-    fill(this.element, this.sheet, this.whole, this.note, this.lacking);
+    fill(this.desk, this.sheet, this.whole, this.note, this.lacking);
+    fill(this.element, this.desk);
     this.picture.addEventListener("error", () => {
       // What browsers do not read as a picture is at least shown as areas.
       this.fails = this.picture.hasAttribute("src");
       this.draw();
     });
     this.listenToPointer();
-    new ResizeObserver(() => this.place()).observe(this.element);
+    new ResizeObserver(() => this.place()).observe(this.desk);
     state.on(["current", "build"], () => this.ask());
     state.on(["selection", "hover", "light", "hidden"], () => this.draw());
   }
@@ -108,10 +133,54 @@ export class PaperPanel {
     // As a picture, a drawing runs no scripts and loads nothing.
     this.picture.src = URL.createObjectURL(new Blob([paper.picture], { type: "image/svg+xml" }));
     if (before) URL.revokeObjectURL(before);
-    this.marks.setAttribute("viewBox", paper.page.join(" "));
+    for (const layer of [this.marks, this.drafts]) layer.setAttribute("viewBox", paper.page.join(" "));
+    this.revision = this.state.drawing.build.revision;
+    this.sweep();
     if (moved) this.look = ALL;
     this.place();
     this.draw();
+  }
+
+  /** Left, top, width and height of the page. */
+  get page(): Box {
+    return this.paper?.page ?? [0, 0, 1, 1];
+  }
+
+  /** How long a pixel is, in units of the drawing. */
+  get unit(): number {
+    return 1 / (this.scale * this.look.zoom);
+  }
+
+  /** The corners of what is seen of the page. */
+  get seen(): { readonly from: Point; readonly to: Point } {
+    const { left, top, right, bottom } = this.desk.getBoundingClientRect();
+    const [x, y, width, height] = this.page;
+    const [from, to] = [this.onPage({ x: left, y: top }), this.onPage({ x: right, y: bottom })];
+    return { from: { x: Math.max(from.x, x), y: Math.max(from.y, y) }, to: { x: Math.min(to.x, x + width), y: Math.min(to.y, y + height) } };
+  }
+
+  /** The area of a part, as path data. */
+  areaOf(part: string): string {
+    return this.shapesOf(part).map(({ area }) => area).join("");
+  }
+
+  /** A draft is decided: it is shown until the drawing, which showed the build `since`, shows it itself. */
+  settle(draft: SVGElement, made: boolean, since: number): void {
+    if (!made) return draft.remove();
+    draft.dataset["since"] = String(since);
+    this.sweep();
+  }
+
+  private sweep(): void {
+    for (const draft of this.drafts.querySelectorAll<SVGElement>("[data-since]")) if (Number(draft.dataset["since"]) < this.revision) draft.remove();
+  }
+
+  /** Takes the pointer from the hand; true if it had it. */
+  letGo(): boolean {
+    if (!this.holds) return false;
+    this.holds = false;
+    this.hand?.cancel();
+    return true;
   }
 
   private say(words: string): void {
@@ -130,7 +199,7 @@ export class PaperPanel {
   private get scale(): number {
     if (!this.paper) return 1;
     const [, , width, height] = this.paper.page;
-    return Math.max(Math.min((this.element.clientWidth - 24) / width, (this.element.clientHeight - 24) / height), 1e-9);
+    return Math.max(Math.min((this.desk.clientWidth - 24) / width, (this.desk.clientHeight - 24) / height), 1e-9);
   }
 
   private place(): void {
@@ -152,16 +221,22 @@ export class PaperPanel {
 
   /** The part that is meant by a point of the window. */
   private at(point: Point): string | null {
+    const { x, y } = this.onPage(point);
+    const written = this.paper?.strings.findLast(({ box: [left, top, right, bottom] }) => x >= left && x <= right && y >= top && y <= bottom);
+    if (written) return this.carrier(written.part);
+    const part = this.shapeAt(point);
+    return part === null ? null : this.carrier(part);
+  }
+
+  /** What is drawn at a point of the window, by itself. */
+  private shapeAt(point: Point): string | null {
     const { paper, context } = this;
     if (!paper || !context) return null;
     const { x, y } = this.onPage(point);
-    const written = paper.strings.findLast(({ box: [left, top, right, bottom] }) => x >= left && x <= right && y >= top && y <= bottom);
-    if (written) return this.carrier(written.part);
     const hit = this.paths.findLastIndex((path) => context.isPointInPath(path, x, y, "evenodd"));
     context.lineWidth = (2 * REACH) / (this.scale * this.look.zoom);
     const found = hit >= 0 ? hit : this.paths.findLastIndex((path) => context.isPointInStroke(path, x, y));
-    const part = paper.shapes[found]?.part;
-    return part === undefined ? null : this.carrier(part);
+    return paper.shapes[found]?.part ?? null;
   }
 
   /** What a click on a shape selects: as on the model, the part that shows it. */
@@ -171,15 +246,21 @@ export class PaperPanel {
   }
 
   private listenToPointer(): void {
-    const { element } = this;
+    const element = this.desk;
     element.addEventListener("wheel", (event) => {
       event.preventDefault();
       this.zoom(Math.exp(-event.deltaY / 400), { x: event.clientX, y: event.clientY });
     }, { passive: false });
     element.addEventListener("pointerdown", (event) => {
       if (event.button !== 0 || (event.target as Element).closest("button")) return;
-      if (this.pointers.size === 0) this.gone = 0;
-      this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+      const at = { x: event.clientX, y: event.clientY };
+      // A second finger looks around.
+      this.letGo();
+      if (this.pointers.size === 0) {
+        this.gone = 0;
+        this.holds = this.paper !== null && this.hand?.press(this.onPage(at), this.at(at), this.shapeAt(at)) === true;
+      }
+      this.pointers.set(event.pointerId, at);
       element.setPointerCapture(event.pointerId);
     });
     element.addEventListener("pointermove", (event) => {
@@ -189,17 +270,28 @@ export class PaperPanel {
       this.gone += Math.hypot(now.x - before.x, now.y - before.y);
       const other = [...this.pointers].find(([id]) => id !== event.pointerId)?.[1];
       this.pointers.set(event.pointerId, now);
+      if (this.holds) return this.hand?.drag(passed(event).map((point) => this.onPage(point)), event.shiftKey);
       if (this.gone <= CLICK) return;
       if (other) this.zoom(apart(now, other) / Math.max(apart(before, other), 1), other);
       else this.see({ ...this.look, x: this.look.x + now.x - before.x, y: this.look.y + now.y - before.y });
     });
     element.addEventListener("pointerup", (event) => {
-      if (!this.pointers.delete(event.pointerId) || this.pointers.size > 0 || this.gone > CLICK) return;
-      const part = this.at({ x: event.clientX, y: event.clientY });
-      this.state.select(part);
+      if (!this.pointers.delete(event.pointerId) || this.pointers.size > 0) return;
+      const { holds } = this;
+      this.holds = false;
+      if (holds ? this.hand?.release() : this.gone > CLICK) return;
+      const at = { x: event.clientX, y: event.clientY };
+      const part = this.at(at);
+      const inner = this.shapeAt(at);
+      // A click into the selected part means the shape there, unless it is the second half of a double-click.
+      const goesIn = this.hand !== null && part !== null && part === this.state.selected && inner !== null && this.state.parts.get(inner) !== undefined && event.timeStamp - this.clicked > TWICE;
+      this.clicked = event.timeStamp;
+      this.state.select(goesIn ? inner : part);
       if (part !== null) this.picked(part);
     });
-    element.addEventListener("pointercancel", ({ pointerId }) => this.pointers.delete(pointerId));
+    element.addEventListener("pointercancel", ({ pointerId }) => {
+      if (this.pointers.delete(pointerId)) this.letGo();
+    });
     element.addEventListener("pointerleave", () => this.state.hover(null));
     element.addEventListener("dblclick", (event) => {
       if (!(event.target as Element).closest("button")) this.renamed();
@@ -210,7 +302,7 @@ export class PaperPanel {
   private zoom(by: number, { x, y }: Point): void {
     const zoom = Math.min(Math.max(this.look.zoom * by, 1), NEAREST);
     if (zoom === 1) return this.see(ALL);
-    const { left, top, width, height } = this.element.getBoundingClientRect();
+    const { left, top, width, height } = this.desk.getBoundingClientRect();
     const grown = zoom / this.look.zoom;
     const [dx, dy] = [x - left - width / 2, y - top - height / 2];
     this.see({ zoom, x: dx - (dx - this.look.x) * grown, y: dy - (dy - this.look.y) * grown });
@@ -228,8 +320,12 @@ export class PaperPanel {
     );
   }
 
+  private shapesOf(part: string): Paper["shapes"] {
+    return this.paper?.shapes.filter((shape) => shape.part === part || this.carrier(shape.part) === part) ?? [];
+  }
+
   private marksOf(paper: Paper, part: string, kind: string): SVGElement[] {
-    const shapes = paper.shapes.filter((shape) => shape.part === part || this.carrier(shape.part) === part);
+    const shapes = this.shapesOf(part);
     const area = shapes.map((shape) => shape.area).join("");
     const strings = paper.strings.filter((string) => string.part === part);
     const corners = shapes.flatMap((shape) => points(shape.area));
@@ -240,6 +336,12 @@ export class PaperPanel {
     });
     return [...(area === "" ? [] : [svg("path", { class: `paper-mark ${kind}`, d: area })]), ...boxes, ...leads];
   }
+}
+
+/** The points that a pointer has gone over since the last event, which may be several in a frame. */
+function passed(event: PointerEvent): readonly Point[] {
+  const events = event.getCoalescedEvents?.() ?? [];
+  return (events.length > 0 ? events : [event]).map(({ clientX: x, clientY: y }) => ({ x, y }));
 }
 
 const apart = (a: Point, b: Point): number => Math.hypot(a.x - b.x, a.y - b.y);
