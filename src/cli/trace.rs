@@ -5,7 +5,7 @@ use super::new::{explained, quoted};
 use super::progress::spinning;
 use super::rewriting::is_svg;
 use super::{Failure, Outcome, counted, print_out};
-use crate::disk::{is_standard_stream, read_file, write_new};
+use crate::disk::{ReadError, is_standard_stream, read_file, write_new};
 use crate::trace::trace;
 
 /// Writes a drawing with the regions of a picture as shapes, and suggests the next commands.
@@ -14,7 +14,12 @@ pub(super) fn run(arguments: &Trace, common: Common) -> Result<Outcome, Failure>
     let output = arguments.output.clone();
     let output = output.unwrap_or_else(|| picture.with_extension("svg"));
     is_svg(&output)?;
-    let file = read_file(picture).map_err(|error| error.to_string())?;
+    let file = read_file(picture).map_err(|error| match error {
+        ReadError::Folder { path, .. } => {
+            format!("`{}` is a folder; name a picture in it", path.display())
+        }
+        error => error.to_string(),
+    })?;
     let name = picture.display();
     let traced = spinning("looking for shapes", || trace(&file));
     let traced = traced.map_err(|error| format!("`{name}` {error}"))?;
