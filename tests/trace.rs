@@ -65,7 +65,8 @@ fn what_is_no_picture_of_a_drawing_is_refused() {
     room.run(&["trace", "text.jpg"])
         .ends(2, "", "`text.jpg` cannot be read");
     room.run(&["trace", "gone.png"]).ends(2, "", "gone.png");
-    room.run(&["trace", "."]).ends(2, "", "name a picture in it");
+    room.run(&["trace", "."])
+        .ends(2, "", "name a picture in it");
     room.run(&["trace", "text.jpg", "-o", "a.glb"])
         .ends(2, "", "must end in .svg");
     assert_eq!(room.files(), ["text.jpg"]);
