@@ -13,13 +13,13 @@ pub(super) fn run(arguments: &Trace, common: Common) -> Result<Outcome, Failure>
     let picture = &arguments.picture;
     let output = arguments.output.clone();
     let output = output.unwrap_or_else(|| picture.with_extension("svg"));
-    is_svg(&output)?;
     let file = read_file(picture).map_err(|error| match error {
         ReadError::Folder { path, .. } => {
             format!("`{}` is a folder; name a picture in it", path.display())
         }
         error => error.to_string(),
     })?;
+    is_svg(&output)?;
     let name = picture.display();
     let traced = spinning("looking for shapes", || trace(&file));
     let traced = traced.map_err(|error| format!("`{name}` {error}"))?;
