@@ -109,6 +109,9 @@ export async function type(field: Locator, text: string): Promise<void> {
   await field.pressSequentially(text);
 }
 
+/** Moves the slider of the time, whose steps are milliseconds. */
+export const seekTo = (page: Page, seconds: number): Promise<void> => page.locator(".slider").fill(String(Number(seconds.toFixed(3))));
+
 /** Resizes the window, and waits until the page is laid out for it. */
 export async function resize(page: Page, width: number, height: number): Promise<void> {
   await page.setViewportSize({ width, height });

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { camera, overlaps, picture, project, resize, shown, still, type Colour } from "./browser";
+import { camera, overlaps, picture, project, resize, seekTo, shown, still, type Colour } from "./browser";
 import { aside, EXPOSURE, FACTS, FRAMES, FPS, FULL, kick, LEG, OMITTED, raised, SECONDS, SSD } from "./kick";
 import type { MockHost } from "./mock";
 import { assertLike, browse, build, FIGURE, isLike } from "./setup";
@@ -54,7 +54,7 @@ browse("a limited clip counts drawings and frames over its full duration, with i
   assert.equal(boxes.length, DRAWINGS);
   boxes.forEach(([left], at) => assert.ok(Math.abs(left! - (begins(at) * 1000) / FRAMES) < 0.02, `box ${at + 1} begins at ${left}`));
   assert.ok(Math.abs(boxes.at(-1)![2]! - 998) < 0.02, "the last box ends where the clip does");
-  await page.locator(".slider").fill(String(SECONDS));
+  await seekTo(page, SECONDS);
   assert.equal(await readout(page), `drawing ${DRAWINGS} of ${DRAWINGS} · frame 60 of 60 · 2.50 s`);
   await page.locator("canvas").focus();
   await page.keyboard.press("k");
@@ -67,12 +67,12 @@ browse("a limited clip counts drawings and frames over its full duration, with i
   assert.match(await readout(page), /^drawing 6 of /);
   // From within a drawing back to its beginning.
   const held = EXPOSURE.findIndex(([, frames]) => frames === 3);
-  await page.locator(".slider").fill(String((begins(held) + 2.5) / FPS));
+  await seekTo(page, (begins(held) + 2.5) / FPS);
   await page.locator("canvas").focus();
   await page.keyboard.press("j");
   assert.match(await readout(page), new RegExp(`^drawing ${held + 1} of .* frame ${begins(held) + 1} of `));
   // The last drawing is held for its full time before the clip starts over.
-  await page.locator(".slider").fill(String((begins(DRAWINGS - 1) + 0.2) / FPS));
+  await seekTo(page, (begins(DRAWINGS - 1) + 0.2) / FPS);
   await page.locator("canvas").focus();
   await page.keyboard.press("Space");
   await page.waitForFunction(() => Number(/([\d.]+) s$/.exec(document.querySelector(".readout")!.textContent!)![1]) < 2);
@@ -82,7 +82,7 @@ browse("a limited clip counts drawings and frames over its full duration, with i
 browse("a clip that does not repeat stops at its true end", kicking(), async (page) => {
   await shown(page);
   await page.getByRole("button", { name: "Loop" }).click();
-  await page.locator(".slider").fill(String((begins(DRAWINGS - 1) + 0.5) / FPS));
+  await seekTo(page, (begins(DRAWINGS - 1) + 0.5) / FPS);
   await page.locator("canvas").focus();
   await page.keyboard.press("Space");
   await page.waitForSelector(".clips[data-playing=false]");
@@ -150,7 +150,7 @@ browse("a frame has the same place on the slider, among the keys and in the char
     await resize(page, width, width === 844 ? 390 : 800);
     const left = (await page.locator(".chart .chart-picture").boundingBox())!.x;
     for (const frame of [0, 17, 59]) {
-      await page.locator(".slider").fill(String((frame + 0.02) / FPS));
+      await seekTo(page, (frame + 0.02) / FPS);
       await still(page);
       const wanted = await onAxis(page, frame / FPS);
       assert.ok(Math.abs(left + (await playhead(page)) - wanted) < 1, `the playhead at ${width} pixels`);
@@ -170,7 +170,7 @@ browse("an onion skin shows the drawings before and after, while the clip is pau
   const skins = () => page.getAttribute("canvas", "data-onion-skin").then(Number);
   const at = EXPOSURE.findIndex(([source]) => source === OMITTED.at(-1)! + 2);
   const seek = async (drawing: number): Promise<void> => {
-    await page.locator(".slider").fill(String((begins(drawing) + 0.02) / FPS));
+    await seekTo(page, (begins(drawing) + 0.02) / FPS);
     await still(page);
   };
   await seek(at);
@@ -215,13 +215,13 @@ browse("full and limited clips play side by side", kicking(), async (page, host)
   const held = EXPOSURE.findIndex(([source, frames]) => frames === 3 && source > 36);
   const [source] = EXPOSURE[held]!;
   const frame = begins(held) + 2;
-  await page.locator(".slider").fill(String((frame + 0.02) / FPS));
+  await seekTo(page, (frame + 0.02) / FPS);
   await still(page);
   await picture(page, "beside");
   assertLike(await leg(page, source), LEG, "the limited leg");
   assertLike(await leg(page, frame, offset), LEG, "the full leg");
   // The difference is largest among the omitted in-betweens.
-  await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
+  await seekTo(page, (OMITTED[1]! + 0.02) / FPS);
   await still(page);
   assertLike(await leg(page, OMITTED[1]!, offset), LEG, "the full leg between");
   assert.ok(!isLike(await leg(page, OMITTED[1]!), LEG), "the limited leg is elsewhere");
@@ -238,11 +238,11 @@ browse("full and limited clips play side by side", kicking(), async (page, host)
   // Another clip is compared too; both sides of one that is not limited are the same.
   await page.locator(".clip-choice").selectOption({ index: 1 });
   assert.deepEqual(await page.locator(".caption").allInnerTexts(), ["full", "full"]);
-  await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
+  await seekTo(page, (OMITTED[1]! + 0.02) / FPS);
   await still(page);
   for (const to of [0, offset]) assertLike(await leg(page, OMITTED[1]!, to), LEG, `the leg ${to} m to the right`);
   await page.locator(".clip-choice").selectOption({ index: 0 });
-  await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
+  await seekTo(page, (OMITTED[1]! + 0.02) / FPS);
   await page.locator("canvas").focus();
 
   // A new build changes both, and its full clips are fetched.
@@ -319,7 +319,7 @@ browse("the view goes along with a figure that travels, and stays where it is af
   const button = page.getByRole("button", { name: "Follow the figure" });
   const numbers = async () => (await camera(page)).split(" ").slice(0, 6).map(Number);
   const seek = async (time: number) => {
-    await page.locator(".slider").fill(String(time));
+    await seekTo(page, time);
     await still(page);
     return numbers();
   };

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { camera, overlaps, picture, resize, shown, still } from "./browser";
+import { camera, overlaps, picture, resize, seekTo, shown, still } from "./browser";
 import { film } from "./film";
 import { aside, EXPOSURE, kick, SECONDS } from "./kick";
 import type { MockHost } from "./mock";
@@ -23,7 +23,7 @@ const filmed = (host: MockHost): void => {
 const button = (page: Page) => page.getByRole("button", { name: "Camera", exact: true });
 const isOn = async (page: Page): Promise<boolean> => (await button(page).getAttribute("aria-pressed")) === "true";
 const seek = async (page: Page, time: number): Promise<void> => {
-  await page.locator(".slider").fill(String(time));
+  await seekTo(page, time);
   await page.locator("canvas").focus();
   await still(page);
 };

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
-import { manual, noBrowser, overlaps, picture, project, resize, shown, still } from "./browser";
+import { manual, noBrowser, overlaps, picture, project, resize, seekTo, shown, still } from "./browser";
 import type { Made } from "./drawings";
 import type { MockHost } from "./mock";
 import { performed, puppet } from "./performed";
@@ -29,7 +29,7 @@ const at = (page: Page) => drawing(page).evaluate((element) => [(element as SVGE
 const readout = (page: Page) => page.locator(".clips .readout").innerText();
 const choose = (page: Page, clip: number) => page.locator(".clip-choice").selectOption({ index: clip });
 const seek = async (page: Page, frame: number): Promise<void> => {
-  await page.locator(".slider").fill(String((frame + 0.02) / FPS));
+  await seekTo(page, (frame + 0.02) / FPS);
   await still(page);
 };
 const open = async (page: Page): Promise<void> => {
