@@ -302,7 +302,7 @@ fn requests_of_others_are_refused() {
     }
     for wrong in [
         json!({"change": "set", "part": "Body", "attribute": "Nonsense", "value": "1"}),
-        json!({"change": "erase", "part": "Body"}),
+        json!({"change": "vanish", "part": "Body"}),
         json!({"change": "name", "part": "Body"}),
         json!({"change": "name", "part": "Body", "name": "X", "more": 1}),
     ] {
