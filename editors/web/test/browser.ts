@@ -110,7 +110,7 @@ export async function type(field: Locator, text: string): Promise<void> {
 }
 
 /** Moves the slider of the time, whose steps are milliseconds. */
-export const seekTo = (page: Page, seconds: number): Promise<void> => page.locator(".slider").fill(String(Number(seconds.toFixed(3))));
+export const seekTo = (page: Page, seconds: number): Promise<void> => page.locator(".slider").fill(String(Math.round(seconds * 1e3) / 1e3));
 
 /** Resizes the window, and waits until the page is laid out for it. */
 export async function resize(page: Page, width: number, height: number): Promise<void> {
