@@ -261,6 +261,9 @@ edit("from an empty page a figure is drawn by hand, named and moved", async (edi
   await page.getByRole("button", { name: "Draw something" }).click();
   await page.getByText("Draw each part as a shape of its own").waitFor();
   for (const [at, points] of FIRST_FIGURE.entries()) {
+    // Until the page has its place, the pointer would be elsewhere on it.
+    await settled(page);
+    await still(page);
     await drag(page, points, PAGE);
     await edited.until(() => (edited.text().match(/<path\b/g) ?? []).length === at + 1, `shape ${at + 1}`);
   }
