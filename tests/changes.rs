@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use common::changed::{analysis, applied};
 use common::law::Tally;
-use okoshi::FolderResolver;
 use okoshi::compile::Compiled;
 use okoshi::diagnostic::{Edit, Severity};
 use okoshi::internals::bind::{PartId, PartKind};
@@ -183,23 +183,6 @@ impl Drawing {
         }
         all
     }
-}
-
-fn analysis(folder: &Path, text: &str) -> Analysis {
-    let compiled = common::compiled(text, &FolderResolver::new(folder));
-    Analysis::new(text, compiled)
-}
-
-fn applied(text: &str, edits: &[Edit]) -> String {
-    let mut out = String::new();
-    let mut at = 0;
-    for edit in edits {
-        assert!(at <= edit.span.start, "{edits:?} are in order");
-        out += &text[at..edit.span.start];
-        out += &edit.text;
-        at = edit.span.end;
-    }
-    out + &text[at..]
 }
 
 /// The attribute of a change, and the part's place in the list.

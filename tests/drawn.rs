@@ -8,29 +8,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use okoshi::FolderResolver;
+use common::changed::{analysis, applied};
 use okoshi::compile::Compiled;
-use okoshi::diagnostic::{Edit, Severity};
+use okoshi::diagnostic::Severity;
 use okoshi::internals::bind::PartKind;
 use okoshi::internals::ide::Analysis;
 use okoshi::internals::ide::changes::{Change, NewShape, Stacking, Step, check, edits, part_after};
-
-fn analysis(folder: &Path, text: &str) -> Analysis {
-    let compiled = common::compiled(text, &FolderResolver::new(folder));
-    Analysis::new(text, compiled)
-}
-
-fn applied(text: &str, edits: &[Edit]) -> String {
-    let mut out = String::new();
-    let mut at = 0;
-    for edit in edits {
-        assert!(at <= edit.span.start, "{edits:?} are in order");
-        out += &text[at..edit.span.start];
-        out += &edit.text;
-        at = edit.span.end;
-    }
-    out + &text[at..]
-}
 
 /// The names of parts that people gave, what they hang on by their strings, and how many errors there are.
 fn said(compiled: &Compiled) -> Vec<String> {

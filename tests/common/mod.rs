@@ -4,6 +4,8 @@
     reason = "each test file is a crate of its own and uses its share"
 )]
 
+#[cfg(feature = "disk")]
+pub(crate) mod changed;
 #[cfg(feature = "cli")]
 pub(crate) mod editor;
 pub(crate) mod law;
