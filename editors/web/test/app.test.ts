@@ -77,12 +77,7 @@ inBrowser("a drop brings a drawing with what it links to; what is no drawing is 
   await app.drop({ name: "figure.svg", text: TEXT });
   await app.part("Arm");
   assert.equal(await page.title(), "figure.svg · okoshi");
-  await page.getByRole("button", { name: "Edit" }).click();
-  await app.select("Arm");
-  const name = page.getByLabel("Name", { exact: true });
-  await type(name, "Wing");
-  await name.press("Enter");
-  await app.part("Wing");
+  await app.rename("Arm", "Wing");
   await app.drop({ name: "figure.svg", text: TEXT });
   await app.part("Arm");
   assert.equal(await page.title(), "figure-2.svg · okoshi");
@@ -201,12 +196,7 @@ inBrowser("a second tab goes on with the drawings of the first when that is clos
   const { page } = app;
   await app.drop({ name: "figure.svg", text: TEXT }, { name: "only-there.svg", text: TEXT });
   await app.part("Arm");
-  await page.getByRole("button", { name: "Edit" }).click();
-  await app.select("Arm");
-  const name = page.getByLabel("Name", { exact: true });
-  await type(name, "Wing");
-  await name.press("Enter");
-  await app.part("Wing");
+  await app.rename("Arm", "Wing");
   const context = page.context();
   const other = new App(await context.newPage(), () => app.leave());
   await other.page.goto(page.url());

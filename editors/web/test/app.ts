@@ -9,7 +9,7 @@ import { tmpdir } from "node:os";
 import { extname, join, resolve } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, BrowserContext, Download, Page } from "playwright-core";
-import { isFirefox, launch, noBrowser, open, type PageOptions } from "./browser";
+import { isFirefox, launch, noBrowser, open, type, type PageOptions } from "./browser";
 import { closeAll, closing, TEST_LIMIT } from "./closing";
 
 const module = process.env["OKOSHI_MODULE"] ?? "";
@@ -122,6 +122,17 @@ export class App {
     await this.page.locator(`[data-part="${part}"]`).click();
     if (isSmall) await this.page.locator(".drawer-tab", { hasText: part }).click();
     await this.page.locator(`.part-form[data-form-of="${part}"]:not([inert])`).waitFor();
+  }
+
+  /** Renames a part in its form, and waits until the list has it. */
+  async rename(from: string, to: string): Promise<void> {
+    const start = this.page.getByRole("button", { name: "Edit", exact: true });
+    if ((await start.count()) > 0 && (await start.getAttribute("aria-pressed")) === "false") await start.click();
+    await this.select(from);
+    const name = this.page.getByLabel("Name", { exact: true });
+    await type(name, to);
+    await name.press("Enter");
+    await this.part(to);
   }
 
   /** Waits until a notice says something. */

@@ -7,9 +7,9 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import type { Page } from "playwright-core";
-import { inBrowser, type App } from "./app";
+import { inBrowser } from "./app";
 import { found } from "./axe";
-import { picture, shown, type } from "./browser";
+import { picture, shown } from "./browser";
 import { FIGURE, source } from "./setup";
 import { SIZES } from "./sizes";
 
@@ -33,21 +33,11 @@ async function link(page: Page): Promise<string> {
   return link;
 }
 
-async function rename(app: App, from: string, to: string): Promise<void> {
-  const start = app.page.getByRole("button", { name: "Edit", exact: true });
-  if ((await start.count()) > 0 && (await start.getAttribute("aria-pressed")) === "false") await start.click();
-  await app.select(from);
-  const name = app.page.getByLabel("Name", { exact: true });
-  await type(name, to);
-  await name.press("Enter");
-  await app.part(to);
-}
-
 inBrowser("a link opens its drawing for whoever has it, beside what is there, and nothing of that is lost", async (app) => {
   const { page } = app;
   await app.drop({ name: "figure.svg", text: TEXT });
   await app.part("Arm");
-  await rename(app, "Arm", "Wing");
+  await app.rename("Arm", "Wing");
   const shared = await link(page);
   const address = page.url().replace(/#.*/, "");
 
@@ -60,7 +50,7 @@ inBrowser("a link opens its drawing for whoever has it, beside what is there, an
   await other.context().close();
 
   // The drawing was changed here since: that stays, also after a reload.
-  await rename(app, "Wing", "Fin");
+  await app.rename("Wing", "Fin");
   await page.goto(shared);
   await app.part("Wing");
   assert.equal(await page.title(), "figure-2.svg · okoshi");
@@ -89,7 +79,7 @@ inBrowser("a link without a drawing is said to be one, and the drawings are as t
   const { page } = app;
   await app.drop({ name: "figure.svg", text: TEXT });
   await app.part("Arm");
-  await rename(app, "Arm", "Wing");
+  await app.rename("Arm", "Wing");
   const good = await link(page);
   await page.goto(good.slice(0, -20));
   await app.says("There is no drawing in this link: it was cut off or changed on its way.");
@@ -196,7 +186,7 @@ inBrowser("a moving picture is made while the drawing is changed", async (app) =
   await shown(page);
   const made = page.waitForEvent("download");
   await exported(page, "Moving picture (GIF)");
-  await rename(app, "Arm", "Wing");
+  await app.rename("Arm", "Wing");
   const film = await made;
   assert.equal(film.suggestedFilename(), "figure.gif");
   assert.equal(readFileSync(await film.path()).subarray(0, 6).toString("latin1"), "GIF89a");
