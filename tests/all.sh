@@ -199,11 +199,23 @@ wasm() {
   else echo "skipped: the size of the module, which is checked as Debian's compiler makes it"; fi
 }
 
+# Tests of the page, which several steps run at the same time: each has a folder of its own, and only the installing and bundling is done
+# one at a time.
+page_tests() { # FOLDER [WRAPPER…] -- NAMES…
+  local OKOSHI_OUT=test/out/$1 wrapper=()
+  export OKOSHI_OUT
+  shift
+  while [ "$1" != -- ]; do wrapper+=("$1"); shift; done
+  shift
+  with_web npm test --prefix editors/web -- --bundle "$@"
+  "${wrapper[@]}" npm test --prefix editors/web -- --run
+}
+
 # The page that has the module, in Chromium.
 app() {
   need npm
   [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
-  OKOSHI_MODULE=$(realpath "$target/module") with_web npm test --prefix editors/web -- app. worker. bytes. sharing. strings. welcome. lessons.
+  OKOSHI_MODULE=$(realpath "$target/module") page_tests app -- app. worker. bytes. sharing. strings. welcome. lessons.
 }
 
 # The same in Firefox.
@@ -214,7 +226,7 @@ firefox() {
     [ $quick = no ] || skip "--quick, and Firefox or Xvfb is not installed"
     install "Firefox or Xvfb" firefox-esr xvfb xauth libgl1-mesa-dri
   fi
-  BROWSER=firefox OKOSHI_MODULE=$(realpath "$target/module") with_web xvfb-run -a npm test --prefix editors/web -- app.
+  BROWSER=firefox OKOSHI_MODULE=$(realpath "$target/module") page_tests firefox xvfb-run -a -- app.
 }
 
 # What a package holds is enough: installed from it without npm, the program serves the page.
@@ -400,13 +412,13 @@ gallery() {
   local elsewhere=("editors/*" tiled-map.png)
   # Those of the page were made by its tests. They are full of text, which looks different in another font.
   local without=
-  if ! [ -d editors/web/test/out/manual ]; then
+  if ! [ -d editors/web/test/out/page/manual ]; then
     without="which its tests in a browser make"
   elif [ "$(fc-match -f '%{family}' system-ui 2> /dev/null)" != "DejaVu Sans" ]; then
     without="whose font is not DejaVu Sans here"
   fi
   if [ -z "$without" ]; then
-    cp -r editors/web/test/out/manual/. "$OUT"
+    cp -r editors/web/test/out/page/manual/. "$OUT"
   else
     echo "skipped: pictures of the page are not compared, $without"
     elsewhere+=("preview*.png" "without-strings/*")
@@ -466,7 +478,7 @@ page() {
   # Without a browser, the modules of the page are tested.
   if [ $quick = no ] && ! has_chromium; then (install Chromium chromium) || [ $? = 77 ] || exit 1; fi
   use_program
-  OKOSHI=$(realpath "$okoshi") with_web npm test --prefix editors/web
+  OKOSHI=$(realpath "$okoshi") page_tests page --
 }
 
 # Eglot is a package of its own before Emacs 29.
@@ -499,23 +511,22 @@ inkscape_extension() {
 
 step format formatting
 step clippy lints
-# Each of the two rows takes about one core: what needs cargo, and what needs the program.
+# Each of the two rows takes about one core: what needs cargo, and what needs the program. `firefox` needs the module, which is there long
+# before.
 if program; then is_built=yes; fi
 begin_aside examples:examples validator:validator schemas:schemas extension:extension workbench:workbench page:page editors:editors inkscape:inkscape_extension \
-  blender:blender_import blender-light:blender_light sides:sides gallery:gallery readme:readme
-step test tests
+  blender:blender_import blender-light:blender_light sides:sides gallery:gallery readme:readme firefox:firefox
 step package package
+step wasm wasm
+step test tests
 step clip-art clip_art
 step doc manual
 step features features
-step wasm wasm
 step licences licences
 step site site
 step packages packages
-end_aside
-# Not beside the other tests of the page, which are bundled into the same folder.
 step app app
-step firefox firefox
+end_aside
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"

@@ -23,6 +23,9 @@ use crate::watch::Editor as FileEditor;
 
 /// The longest request, in bytes.
 const MAX_REQUEST: usize = 64 << 10;
+/// The longest request that is read to its end, in bytes. A browser that is still sending when the connection closes reports a network
+/// error instead of the answer that says why.
+const MAX_READ: usize = 4 << 20;
 /// How long a request may take to arrive.
 const ARRIVAL: Duration = Duration::from_secs(5);
 /// The header with the key of the server.
@@ -136,22 +139,20 @@ async fn asked<T: DeserializeOwned>(
             "a change is sent as JSON",
         ));
     }
-    let length = headers.get(header::CONTENT_LENGTH);
-    let length = length.and_then(|length| length.to_str().ok()?.parse::<u64>().ok());
-    if length.is_some_and(|length| length > MAX_REQUEST as u64) {
-        return Err(said(
+    let too_long = || {
+        said(
             StatusCode::PAYLOAD_TOO_LARGE,
             "that is too much for one change",
-        ));
+        )
+    };
+    let length = headers.get(header::CONTENT_LENGTH);
+    let length = length.and_then(|length| length.to_str().ok()?.parse::<u64>().ok());
+    if length.is_some_and(|length| length > MAX_READ as u64) {
+        return Err(too_long());
     }
-    let arrived: Bytes = match tokio::time::timeout(ARRIVAL, to_bytes(body, MAX_REQUEST)).await {
-        Ok(Ok(bytes)) => bytes,
-        Ok(Err(_)) => {
-            return Err(said(
-                StatusCode::PAYLOAD_TOO_LARGE,
-                "that is too much for one change",
-            ));
-        }
+    let arrived: Bytes = match tokio::time::timeout(ARRIVAL, to_bytes(body, MAX_READ)).await {
+        Ok(Ok(bytes)) if bytes.len() <= MAX_REQUEST => bytes,
+        Ok(_) => return Err(too_long()),
         Err(_) => {
             return Err(said(
                 StatusCode::REQUEST_TIMEOUT,

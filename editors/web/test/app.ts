@@ -10,7 +10,7 @@ import { extname, join, resolve } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, BrowserContext, Download, Page } from "playwright-core";
 import { isFirefox, launch, noBrowser, open, type, type PageOptions } from "./browser";
-import { closeAll, closing, TEST_LIMIT } from "./closing";
+import { closeAll, closing, TEST_LIMIT, type Close } from "./closing";
 
 const module = process.env["OKOSHI_MODULE"] ?? "";
 export const skip = noBrowser !== false ? noBrowser : module === "" || !existsSync(module) ? "there is no module; OKOSHI_MODULE names the folder that editors/web/wasm/build.sh made" : false;
@@ -147,30 +147,35 @@ interface InBrowser extends PageOptions {
   readonly prepare?: (context: BrowserContext) => Promise<void>;
 }
 
-/** A test of the program in a browser of its own; it fails at any error or violation of the policy that is not among those that it expects. */
-export function inBrowser(name: string, run: (app: App) => Promise<void>, { expected = /^$/, prepare, ...options }: InBrowser = {}): void {
-  test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
-    const onClose = closing(t);
-    const { address, close } = await host(made());
-    let closed = false;
-    const stop = async (): Promise<void> => {
-      if (!closed) await close();
-      closed = true;
-    };
-    onClose(stop);
-    browser ??= launch();
-    const { page, wrong } = await open(await browser, address, onClose, options, async (context) => {
-      // A test cannot choose a file that the browser then lets the page at: without that, files are chosen and saved as in other browsers.
-      await context.addInitScript(() => ["showOpenFilePicker", "showSaveFilePicker"].forEach((name) => delete (globalThis as unknown as Record<string, unknown>)[name]));
-      await context.addInitScript(() => {
-        addEventListener("securitypolicyviolation", ({ violatedDirective, blockedURI }) => console.error(`policy: ${violatedDirective} ${blockedURI}`));
-      });
-      if (isFirefox) await context.addInitScript(noteDownloads);
-      await prepare?.(context);
+/** Opens the program in the browser; what it reports that it should not is added to `wrong`. */
+export async function openApp(onClose: (close: Close) => void, { expected = /^$/, prepare, ...options }: InBrowser = {}): Promise<{ app: App; wrong: () => string[] }> {
+  const { address, close } = await host(made());
+  let closed = false;
+  const stop = async (): Promise<void> => {
+    if (!closed) await close();
+    closed = true;
+  };
+  onClose(stop);
+  browser ??= launch();
+  const { page, wrong } = await open(await browser, address, onClose, options, async (context) => {
+    // A test cannot choose a file that the browser then lets the page at: without that, files are chosen and saved as in other browsers.
+    await context.addInitScript(() => ["showOpenFilePicker", "showSaveFilePicker"].forEach((name) => delete (globalThis as unknown as Record<string, unknown>)[name]));
+    await context.addInitScript(() => {
+      addEventListener("securitypolicyviolation", ({ violatedDirective, blockedURI }) => console.error(`policy: ${violatedDirective} ${blockedURI}`));
     });
-    await run(new App(page, stop));
-    // Playwright adds a style for each screenshot, which Firefox holds against the page's policy.
-    const own = isFirefox ? /style-src-elem/ : /^$/;
-    assert.deepEqual(wrong.filter((one) => !expected.test(one) && !own.test(one)), []);
+    if (isFirefox) await context.addInitScript(noteDownloads);
+    await prepare?.(context);
+  });
+  // Playwright adds a style for each screenshot, which Firefox holds against the page's policy.
+  const own = isFirefox ? /style-src-elem/ : /^$/;
+  return { app: new App(page, stop), wrong: () => wrong.filter((one) => !expected.test(one) && !own.test(one)) };
+}
+
+/** A test of the program in a browser of its own; it fails at any error or violation of the policy that is not among those that it expects. */
+export function inBrowser(name: string, run: (app: App) => Promise<void>, options: InBrowser = {}): void {
+  test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
+    const { app, wrong } = await openApp(closing(t), options);
+    await run(app);
+    assert.deepEqual(wrong(), []);
   });
 }

@@ -21,7 +21,7 @@ export const isFirefox = process.env["BROWSER"] === "firefox";
 const PROGRAM = isFirefox ? first(process.env["FIREFOX"], "/usr/bin/firefox-esr", "/usr/bin/firefox") : first(process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome");
 /** Why there is no browser; `false` if there is one. */
 export const noBrowser = PROGRAM !== undefined ? false : isFirefox ? "there is no Firefox; FIREFOX names one" : "there is no Chromium; CHROMIUM names one";
-export const OUT = join("test", "out");
+export const OUT = process.env["OKOSHI_OUT"] ?? join("test", "out");
 
 /** Starts the browser, with more arguments for Chromium. */
 export async function launch(more: readonly string[] = []): Promise<Browser> {

@@ -83,6 +83,22 @@ edit("an ellipse, a rectangle and a shape by hand are written in front of the ot
   await edited.has(BEFORE, "undone");
 });
 
+edit("a page that moves while a shape is drawn does not tear it apart", async (edited) => {
+  const { page } = edited;
+  await begin(page);
+  await tool(page, "Rectangle").click();
+  const [from, to] = [await spot(page, [20, 220], SIZE), await spot(page, [100, 270], SIZE)];
+  await page.mouse.move(from.x, from.y);
+  await page.mouse.down();
+  await page.mouse.move(from.x + 20, from.y + 20, { steps: 2 });
+  await page.locator(".paper-desk").evaluate((desk) => (desk.style.transform = "translate(60px, -40px)"));
+  await page.mouse.move(to.x, to.y, { steps: 2 });
+  await page.mouse.up();
+  await edited.until(() => edited.text() !== BEFORE, "a rectangle");
+  const numbers = /x="([\d.]+)" y="([\d.]+)" width="([\d.]+)" height="([\d.]+)"/.exec(added(edited))!.slice(1).map(Number);
+  [20, 220, 80, 50].forEach((wanted, at) => assert.ok(Math.abs(numbers[at]! - wanted) < 1, added(edited)));
+});
+
 edit("a part is moved with its string, by the mouse and by keys, and what hangs on it stays", async (edited) => {
   const { page } = edited;
   await begin(page);

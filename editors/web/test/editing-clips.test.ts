@@ -1,8 +1,7 @@
 // Clips that are chosen in the form of a part, with the real program: what a person does on the page, and the bytes of the file.
 
 import assert from "node:assert/strict";
-import { copyFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { join } from "node:path";
 import { manual, picture, still } from "./browser";
 import { edit } from "./edited";
 import { example, FIGURE, source } from "./setup";
@@ -111,7 +110,7 @@ edit("a clip that the drawing's text gives to the figure is changed in that text
 
 edit("a motion file beside the drawing is chosen, with its range and speed", async (edited) => {
   const { page } = edited;
-  copyFileSync(join("..", "..", "examples", "motion", "kick.bvh"), join(dirname(edited.file), "kick.bvh"));
+  await edited.link(join("..", "..", "examples", "motion", "kick.bvh"));
   await page.getByRole("button", { name: "Edit" }).click();
   await edited.select("Body");
   const says = (words: string): Promise<void> => edited.has(BEFORE.replace(BODY, `${BODY} Motion ${words}`), words);

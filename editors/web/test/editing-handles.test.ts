@@ -1,7 +1,6 @@
 // Handles over the model, with the real program: what a person drags, and the bytes of the file.
 
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { picture, shown, still } from "./browser";
 import { edit, type Edited } from "./edited";
@@ -141,7 +140,7 @@ for (const [kind, says, label] of [
 ] as const) {
   edit(`an arrow makes a part of the kind ${kind} thinner and thicker, and undo takes it back`, async (edited) => {
     const before = BEFORE.replace("default -8 8 Bend 0", `${kind} Bend 0`);
-    writeFileSync(edited.file, before);
+    await edited.save(before);
     await shown(edited.page, 2);
     const page = await arm(edited, "3");
     const [front, back] = [await grip(page, "front"), await grip(page, "back")];

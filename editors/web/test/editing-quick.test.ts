@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { shown } from "./browser";
 import { PATIENCE } from "./closing";
-import { edit } from "./edited";
+import { BY_OTHERS, edit, HELD_BACK } from "./edited";
 import { FIGURE, source } from "./setup";
 
 const BEFORE = source(FIGURE);
@@ -126,7 +126,7 @@ edit("a form that arrives leaves the control alone that a person is in, and what
   await edited.formOf("Alrm");
   await bend(5);
   await says("a", "Alrm@", "Alarm@");
-});
+}, { program: BY_OTHERS });
 
 edit("a change that is built before the page knows that it is made is shown as the drawing, not as what is tried", async (edited) => {
   const { page } = edited;
@@ -146,7 +146,7 @@ edit("a change that is built before the page knows that it is made is shown as t
   assert.ok(tries >= 2);
   await page.locator(".part-form[aria-busy=false]").waitFor();
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["tried"] === "");
-});
+}, { program: HELD_BACK });
 
 edit("a model that newer ones replace while it is asked for is no error, and the newest is shown", async ({ page, file }) => {
   const answers: string[] = [];
@@ -167,4 +167,4 @@ edit("a model that newer ones replace while it is asked for is no error, and the
   await built(2);
   await shown(page, 4);
   assert.deepEqual(answers.filter((one) => one.includes("/builds/")), ["204 /builds/2.glb", "200 /builds/4.glb"]);
-});
+}, { program: HELD_BACK });

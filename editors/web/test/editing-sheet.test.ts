@@ -1,7 +1,7 @@
 // The drawings of a limited clip above its timeline, with the real program: what a person drags, and the bytes of the file.
 
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -51,7 +51,7 @@ test("a drawing comes back in the last frame of the one before, one that was lef
 /** A limited clip that is edited. */
 async function limited(edited: Edited): Promise<Page> {
   const { page } = edited;
-  writeFileSync(edited.file, BEFORE);
+  await edited.save(BEFORE);
   await shown(page, 2);
   await page.getByRole("button", { name: "Edit" }).click();
   await page.locator(".sheet").waitFor();
@@ -164,7 +164,7 @@ edit("by keyboard: arrow keys, Delete and Insert, and of quick presses none is l
 for (const [held, width, height] of [["upright", 390, 844], ["lying", 844, 390]] as const) {
   edit(`a finger drags the end of a drawing on a phone that is held ${held}`, async (edited) => {
     const { page } = edited;
-    writeFileSync(edited.file, BEFORE);
+    await edited.save(BEFORE);
     await shown(page, 2);
     await page.getByRole("button", { name: "Edit" }).click();
     await page.locator(".sheet").waitFor();
@@ -185,7 +185,7 @@ for (const [held, width, height] of [["upright", 390, 844], ["lying", 844, 390]]
 
 edit("the page of the manual shows how a drawing is dragged", async (edited) => {
   const { page } = edited;
-  writeFileSync(edited.file, edited.text().replace("Motion walk", "Motion dance Limited 4 16"));
+  await edited.save(edited.text().replace("Motion walk", "Motion dance Limited 4 16"));
   await shown(page, 2);
   await page.getByRole("button", { name: "Edit" }).click();
   await page.locator(".sheet").waitFor();

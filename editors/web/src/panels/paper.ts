@@ -27,6 +27,15 @@ interface Look {
 
 const ALL: Look = { zoom: 1, x: 0, y: 0 };
 
+/** Where the page lies in the window, and what of the drawing it is. */
+interface Placed {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
+  readonly page: Box;
+}
+
 /** What a press on the drawing does instead of looking around. */
 export interface Hand {
   /** Whether it takes a press at a point of the page, on a part or beside all; `shape` is what lies there, if that only belongs to the part. */
@@ -64,8 +73,8 @@ export class PaperPanel {
   private revision = 0;
   /** When the last click was. */
   private clicked = 0;
-  /** Whether the pointer is the hand's. */
-  private holds = false;
+  /** Where the page lay when the hand took the pointer; null while it has not. What moves the page meanwhile must not tear a line apart. */
+  private held: Placed | null = null;
   /** How far the pointer has gone since it was pressed. */
   private gone = 0;
   private readonly latest: Latest<string, Paper>;
@@ -177,8 +186,8 @@ export class PaperPanel {
 
   /** Takes the pointer from the hand; true if it had it. */
   letGo(): boolean {
-    if (!this.holds) return false;
-    this.holds = false;
+    if (!this.held) return false;
+    this.held = null;
     this.hand?.cancel();
     return true;
   }
@@ -212,10 +221,14 @@ export class PaperPanel {
     style.transform = `translate(-50%, -50%) translate(${this.look.x}px, ${this.look.y}px) scale(${this.look.zoom})`;
   }
 
-  /** A point of the window on the page, in units of the drawing. */
-  private onPage({ x, y }: Point): Point {
+  private get placed(): Placed {
     const { left, top, width, height } = this.sheet.getBoundingClientRect();
-    const [minX, minY, w, h] = this.paper?.page ?? [0, 0, 1, 1];
+    return { left, top, width, height, page: this.page };
+  }
+
+  /** A point of the window on the page, in units of the drawing. */
+  private onPage({ x, y }: Point, { left, top, width, height, page }: Placed = this.placed): Point {
+    const [minX, minY, w, h] = page;
     return { x: minX + ((x - left) / width) * w, y: minY + ((y - top) / height) * h };
   }
 
@@ -258,7 +271,7 @@ export class PaperPanel {
       this.letGo();
       if (this.pointers.size === 0) {
         this.gone = 0;
-        this.holds = this.paper !== null && this.hand?.press(this.onPage(at), this.at(at), this.shapeAt(at)) === true;
+        this.held = this.paper !== null && this.hand?.press(this.onPage(at), this.at(at), this.shapeAt(at)) === true ? this.placed : null;
       }
       this.pointers.set(event.pointerId, at);
       element.setPointerCapture(event.pointerId);
@@ -270,16 +283,17 @@ export class PaperPanel {
       this.gone += Math.hypot(now.x - before.x, now.y - before.y);
       const other = [...this.pointers].find(([id]) => id !== event.pointerId)?.[1];
       this.pointers.set(event.pointerId, now);
-      if (this.holds) return this.hand?.drag(passed(event).map((point) => this.onPage(point)), event.shiftKey);
+      const { held } = this;
+      if (held) return this.hand?.drag(passed(event).map((point) => this.onPage(point, held)), event.shiftKey);
       if (this.gone <= CLICK) return;
       if (other) this.zoom(apart(now, other) / Math.max(apart(before, other), 1), other);
       else this.see({ ...this.look, x: this.look.x + now.x - before.x, y: this.look.y + now.y - before.y });
     });
     element.addEventListener("pointerup", (event) => {
       if (!this.pointers.delete(event.pointerId) || this.pointers.size > 0) return;
-      const { holds } = this;
-      this.holds = false;
-      if (holds ? this.hand?.release() : this.gone > CLICK) return;
+      const { held } = this;
+      this.held = null;
+      if (held ? this.hand?.release() : this.gone > CLICK) return;
       const at = { x: event.clientX, y: event.clientY };
       const part = this.at(at);
       const inner = this.shapeAt(at);
