@@ -1,14 +1,15 @@
 //! `okoshi edit`: changes of a drawing that speak of its parts.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use super::args::{Common, Edit};
 use super::loading::compiled;
 use super::rewriting::{Original, Rewriting};
 use super::{Failure, Outcome, print_out};
-use crate::diagnostic::applied;
 use crate::ide::Analysis;
-use crate::ide::changes::{self, Change, Choice, Refusal};
+use crate::ide::changes::{Change, Choice, Possible, Refusal, possible};
 
 /// What became of the changes.
 #[derive(Debug, Serialize)]
@@ -90,7 +91,7 @@ pub(super) fn run(arguments: &Edit, common: Common) -> Result<Outcome, Failure> 
 
 /// The text after all changes, and what they did; otherwise the one that is refused.
 fn made(
-    mut before: Analysis,
+    before: Analysis,
     arguments: &Edit,
 ) -> Result<(String, Vec<Made<'_>>), (&Change, Refusal)> {
     let Edit {
@@ -99,12 +100,13 @@ fn made(
         reading,
         ..
     } = arguments;
+    let mut before = Arc::new(before);
     let mut all = vec![];
     for change in changes {
-        let Stepped { after, part, note } = step(&before, change, |text| {
-            Analysis::new(text, compiled(text, drawing, reading))
-        })
-        .map_err(|refusal| (change, refusal))?;
+        let read = |text: &str| Arc::new(Analysis::new(text, compiled(text, drawing, reading)));
+        let Possible {
+            after, part, note, ..
+        } = possible(&before, change, read).map_err(|refusal| (change, refusal))?;
         all.push(Made {
             change,
             title: change.title(),
@@ -116,41 +118,6 @@ fn made(
         }
     }
     Ok((before.source().to_string(), all))
-}
-
-/// What a change made of a drawing.
-struct Stepped {
-    /// The drawing after it; `None` if everything is so already.
-    after: Option<Analysis>,
-    /// The part that it is about, by its name after it.
-    part: Option<String>,
-    /// What else has changed.
-    note: Option<String>,
-}
-
-/// Makes a change.
-fn step(
-    before: &Analysis,
-    change: &Change,
-    read: impl Fn(&str) -> Analysis,
-) -> Result<Stepped, Refusal> {
-    let edits = changes::edits(before, change)?;
-    let text = applied(before.source(), &edits);
-    if text == **before.source() {
-        return Ok(Stepped {
-            after: None,
-            part: changes::part_after(before, before, change, &edits),
-            note: None,
-        });
-    }
-    let after = read(&text);
-    let note = changes::check(before, &after, change)?;
-    let part = changes::part_after(before, &after, change, &edits);
-    Ok(Stepped {
-        after: Some(after),
-        part,
-        note,
-    })
 }
 
 fn json(

@@ -1,6 +1,8 @@
 //! Changes that a panel of the client asks for. The client applies their edits to its text, so that its own undo takes them back;
 //! nothing is written here.
 
+use std::sync::Arc;
+
 use base64::Engine;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -10,11 +12,10 @@ use tower_lsp::ls_types::{TextDocumentIdentifier, TextEdit};
 use super::backend::Backend;
 use super::documents::{Analyzed, Document};
 use crate::compile::{Options, compile};
-use crate::diagnostic::{Edit, applied};
 use crate::disk::motions;
 use crate::export::{self, GLB};
 use crate::ide::Analysis;
-use crate::ide::changes::{Change, Refusal, check, edits, part_after};
+use crate::ide::changes::{Change, Possible, Refusal, possible};
 
 /// A request for what can be changed about a part.
 #[derive(Debug, Deserialize)]
@@ -30,17 +31,6 @@ pub(super) struct FormParams {
 pub(super) struct ChangeParams {
     text_document: TextDocumentIdentifier,
     change: Change,
-}
-
-/// A change that is possible.
-struct Possible {
-    edits: Vec<Edit>,
-    /// The drawing with it.
-    after: Analysis,
-    /// The part that it is about, by the name that it has then.
-    part: Option<String>,
-    /// What else it does, as a sentence without a full stop.
-    note: Option<String>,
 }
 
 impl Backend {
@@ -59,7 +49,7 @@ impl Backend {
         let (document, analyzed) = self.shown(&params.text_document).await?;
         let change = params.change;
         let text = document.clone();
-        let found = tokio::task::spawn_blocking(move || possible(&text, &analyzed, &change));
+        let found = tokio::task::spawn_blocking(move || wanted(&text, &analyzed, &change));
         Ok(match found.await.map_err(|_| Error::internal_error())? {
             Ok(Possible {
                 edits, part, note, ..
@@ -75,11 +65,11 @@ impl Backend {
         })
     }
 
-    /// A model of what a change would make of the drawing, in Base64; none if the change would be refused.
+    /// A model of what a change would make of the drawing, in Base64; none if the change would be refused, or changes nothing.
     pub(super) async fn preview_try(&self, params: ChangeParams) -> Result<Option<Value>> {
         let (document, analyzed) = self.shown(&params.text_document).await?;
         let model = tokio::task::spawn_blocking(move || {
-            let after = possible(&document, &analyzed, &params.change).ok()?.after;
+            let after = wanted(&document, &analyzed, &params.change).ok()?.after?;
             let model = export::to_memory(&GLB, &after.compiled().scene, None).ok()?;
             Some(base64::engine::general_purpose::STANDARD.encode(model.bytes))
         });
@@ -90,7 +80,7 @@ impl Backend {
     async fn shown(
         &self,
         text: &TextDocumentIdentifier,
-    ) -> Result<(std::sync::Arc<Document>, std::sync::Arc<Analyzed>)> {
+    ) -> Result<(Arc<Document>, Arc<Analyzed>)> {
         let (_, analyzed) = self
             .analyzed(&text.uri)
             .await?
@@ -100,24 +90,15 @@ impl Backend {
     }
 }
 
-/// The edits of a change, which was made in a copy of the text and does nothing else.
-fn possible(
+/// What a change makes of a copy of the text.
+fn wanted(
     document: &Document,
     before: &Analyzed,
     change: &Change,
 ) -> std::result::Result<Possible, Refusal> {
-    let before = &before.analysis;
-    let edits = edits(before, change)?;
-    let text = applied(before.source(), &edits);
-    let compiled = compile(&text, &Options::default(), document.resolver().as_ref());
-    let after = Analysis::new(text, compiled);
-    let note = check(before, &after, change)?;
-    let part = part_after(before, &after, change, &edits);
-    Ok(Possible {
-        edits,
-        after,
-        part,
-        note,
+    possible(&before.analysis, change, |text| {
+        let compiled = compile(text, &Options::default(), document.resolver().as_ref());
+        Arc::new(Analysis::new(text, compiled))
     })
 }
 

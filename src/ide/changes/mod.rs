@@ -35,12 +35,14 @@ pub(crate) use unnamed::Suggestion;
 
 pub(super) use given::{as_description, string_for};
 
+use std::sync::Arc;
+
 use clips::ClipWords;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Analysis, Subject, Which};
 use crate::bind::{PartId, PartKind};
-use crate::diagnostic::Edit;
+use crate::diagnostic::{Edit, applied};
 use crate::lang::keyword::Keyword;
 
 /// So much of a text is in the title of what was written.
@@ -358,6 +360,47 @@ pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal>
     edits.dedup();
     edits.retain(|edit| analysis.source[edit.span.start..edit.span.end] != edit.text);
     Ok(edits)
+}
+
+/// What a change makes of a drawing.
+#[derive(Debug)]
+pub(crate) struct Possible {
+    pub(crate) edits: Vec<Edit>,
+    /// The drawing with them; `None` if everything is so already.
+    pub(crate) after: Option<Arc<Analysis>>,
+    /// The part that it is about, by the name that it has then.
+    pub(crate) part: Option<String>,
+    /// What else it does, as a sentence without a full stop.
+    pub(crate) note: Option<String>,
+}
+
+/// Finds what a change makes of a drawing; `read` compiles the new text.
+///
+/// # Errors
+/// If it is refused.
+pub(crate) fn possible(
+    before: &Analysis,
+    change: &Change,
+    read: impl FnOnce(&str) -> Arc<Analysis>,
+) -> Result<Possible, Refusal> {
+    let edits = edits(before, change)?;
+    let text = applied(before.source(), &edits);
+    if text == **before.source() {
+        return Ok(Possible {
+            part: part_after(before, before, change, &edits),
+            edits,
+            after: None,
+            note: None,
+        });
+    }
+    let after = read(&text);
+    let note = check(before, &after, change)?;
+    Ok(Possible {
+        part: part_after(before, &after, change, &edits),
+        edits,
+        after: Some(after),
+        note,
+    })
 }
 
 /// The part of a change that was made by some edits, by its name after it.

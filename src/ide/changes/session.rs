@@ -6,7 +6,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::{Change, History, Refusal, Step, check, edits, no_worse, part_after};
+use super::{Change, History, Possible, Refusal, Step, no_worse, part_after, possible};
 use crate::compile::{Compiler, Options};
 use crate::diagnostic::{Edit, applied};
 use crate::ide::Analysis;
@@ -80,15 +80,6 @@ pub(crate) struct Reading<'a> {
     pub(crate) resolver: &'a dyn Resolver,
 }
 
-/// A change that is possible.
-struct Possible {
-    edits: Vec<Edit>,
-    /// The drawing with the change; `None` if nothing changes.
-    after: Option<Arc<Analysis>>,
-    /// What else it does, as a sentence without a full stop.
-    note: Option<String>,
-}
-
 impl Session {
     /// Forgets what was compiled: a file that the drawing links to may have changed.
     pub(crate) fn forget(&mut self) {
@@ -153,19 +144,14 @@ impl Session {
         shown: Option<&str>,
         reading: Reading<'_>,
     ) -> Result<Pending, Refusal> {
-        let Possible { edits, after, note } = match action {
-            Action::Make(change) => self.possible(before, change, shown, reading)?,
+        let Possible {
+            edits,
+            after,
+            part,
+            note,
+        } = match action {
+            Action::Make(change) => self.wanted(before, change, shown, reading)?,
             Action::Undo | Action::Redo => self.stepped(before, action, reading)?,
-        };
-        let named =
-            |change: &Change| part_after(before, after.as_ref().unwrap_or(before), change, &edits);
-        let part = match action {
-            Action::Make(change) => named(change),
-            Action::Redo => self.history.next().and_then(|step| named(&step.change)),
-            Action::Undo => {
-                let undone = self.history.last();
-                undone.and_then(|step| step.change.part().map(str::to_owned))
-            }
         };
         let before = before.source().clone();
         Ok(Pending {
@@ -218,16 +204,16 @@ impl Session {
         shown: Option<&str>,
         reading: Reading<'_>,
     ) -> Result<Arc<Analysis>, Refusal> {
-        let possible = self.possible(before, change, shown, reading)?;
-        let tried = possible.after.ok_or_else(|| {
+        let wanted = self.wanted(before, change, shown, reading)?;
+        let tried = wanted.after.ok_or_else(|| {
             Refusal::without_choice("the drawing says so already: nothing is changed by it")
         })?;
         self.tried = Some(tried.clone());
         Ok(tried)
     }
 
-    /// A change that a person wants.
-    fn possible(
+    /// What a change makes that a person wants.
+    fn wanted(
         &mut self,
         before: &Analysis,
         change: &Change,
@@ -245,16 +231,7 @@ impl Session {
             let shown = self.compiled(&shown, reading);
             before.still_means(&shown, change)?;
         }
-        let edits = edits(before, change)?;
-        let text = before.source();
-        let new = applied(text, &edits);
-        let (mut after, mut note) = (None, None);
-        if new != **text {
-            let compiled = self.compiled(&new, reading);
-            note = check(before, &compiled, change)?;
-            after = Some(compiled);
-        }
-        Ok(Possible { edits, after, note })
+        possible(before, change, |text| self.compiled(text, reading))
     }
 
     /// What undoes or redoes a step. A step that does not fit any more is forgotten, so that those before it can be undone.
@@ -275,12 +252,12 @@ impl Session {
                 false => "there is nothing to redo",
             })
         })?;
-        let title = step.change.title();
+        let (change, title) = (step.change.clone(), step.change.title());
         let text = before.source();
         let found = step.undone(text).ok_or_else(|| {
             format!("what was changed is not there any more, because another program saved the drawing: {title} stays as it is")
         });
-        let is_typed = matches!(step.change, Change::Write { .. } | Change::Apply { .. });
+        let is_typed = matches!(change, Change::Write { .. } | Change::Apply { .. });
         let found = found.and_then(|edits| {
             let after = self.compiled(&applied(text, &edits), reading);
             // What was typed is undone and made again with its mistakes.
@@ -288,9 +265,14 @@ impl Session {
                 let worse = no_worse(before, &after);
                 worse.map_err(|refusal| refusal.why)?;
             }
+            let part = match is_undo {
+                true => change.part().map(str::to_owned),
+                false => part_after(before, &after, &change, &edits),
+            };
             Ok(Possible {
                 edits,
                 after: Some(after),
+                part,
                 note: None,
             })
         });
