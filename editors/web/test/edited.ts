@@ -46,6 +46,17 @@ export class Edited {
     assert.ok(holds(), `${what}: ${this.text()}`);
   }
 
+  /** Waits until the file matches, and returns how. */
+  async matches(pattern: RegExp): Promise<RegExpExecArray> {
+    await this.until(() => pattern.test(this.text()), String(pattern));
+    return pattern.exec(this.text())!;
+  }
+
+  /** Waits until the page says that a change is made. */
+  async made(): Promise<void> {
+    await this.page.locator(".edit-words").filter({ hasText: /^(Saved|Changed)/ }).waitFor();
+  }
+
   private async wait(holds: () => boolean): Promise<void> {
     const end = Date.now() + PATIENCE;
     while (!holds() && Date.now() < end) await new Promise((resolve) => setTimeout(resolve, 20));

@@ -84,7 +84,7 @@ edit("another part of the figure has its clips in a field of its own, and a clip
   await edited.label("Motion: clip").selectOption("=");
   await edited.has(BEFORE.replace(BODY, `${BODY} Motion`), "the one that fits");
   await page.locator("[data-part=Arm][aria-selected=true]").waitFor();
-  await page.locator(".edit-words").filter({ hasText: /^Saved/ }).waitFor();
+  await edited.made();
   // It is still open, and says what the drawing says.
   await page.waitForFunction(() => document.querySelector<HTMLSelectElement>('[aria-label="Motion: clip"]')?.value === "=");
 });

@@ -55,6 +55,7 @@ edit("arrows make a part thicker on both sides, or with Alt on one, and move it;
   await drag("front", out * 60);
   await page.mouse.up();
   await page.getByRole("button", { name: /^Undo: / }).waitFor();
+  await edited.until(() => edited.text() !== BEFORE, "thicker");
   const [, low, high] = /default (-[\d.]+) ([\d.]+) Bend 0/.exec(edited.text())!.map(Number);
   assert.ok(high! > 9 && low === -high!, edited.text());
   assert.equal(edited.text().replace(/default -[\d.]+ [\d.]+ Bend/, "default -8 8 Bend"), BEFORE);
@@ -67,6 +68,7 @@ edit("arrows make a part thicker on both sides, or with Alt on one, and move it;
   await page.mouse.up();
   await page.keyboard.up("Alt");
   await page.waitForFunction(([low]) => document.querySelector<HTMLInputElement>('[aria-label="Shape: z0, as a number"]')?.value !== low, [String(low)]);
+  await edited.until(() => edited.text() !== thick, "thicker at the back");
   const [, lower, same] = /default (-[\d.]+) ([\d.]+) Bend 0/.exec(edited.text())!.map(Number);
   assert.ok(lower! < low! && same === high, edited.text());
   await page.keyboard.press("Control+z");
@@ -76,7 +78,7 @@ edit("arrows make a part thicker on both sides, or with Alt on one, and move it;
   await drag("offset", out * 50);
   await page.mouse.up();
   await page.getByRole("button", { name: "Reset Offset" }).waitFor();
-  assert.match(edited.text(), /Bend 0 Offset \d/);
+  await edited.matches(/Bend 0 Offset \d/);
 });
 
 edit("the joint is dragged in the plane of the drawing, and snaps to what has a word", async (edited) => {
@@ -107,7 +109,7 @@ edit("the joint is dragged in the plane of the drawing, and snaps to what has a 
   assert.match(await page.locator(".handle-label").innerText(), /^joint: [\d.]+, [\d.]+$/);
   await page.mouse.up();
   await page.getByRole("button", { name: "Reset Origin" }).waitFor();
-  const [, x, y] = /Bend 0 Origin ([\d.]+) ([\d.]+)/.exec(edited.text())!.map(Number);
+  const [, x, y] = (await edited.matches(/Bend 0 Origin ([\d.]+) ([\d.]+)/)).map(Number);
   assert.ok(Math.abs(x! - 190) < 2 && Math.abs(y! - 150) < 2, edited.text());
 });
 
@@ -129,7 +131,7 @@ edit("a finger drags a handle, and the view does not turn", async (edited) => {
   await picture(page, "edit-handle-phone");
   await touch("touchEnd");
   await page.locator('button[aria-label^="Undo: "]').waitFor();
-  assert.notEqual(edited.text(), BEFORE);
+  await edited.until(() => edited.text() !== BEFORE, "thicker");
   assert.match(edited.text(), /default -[\d.]+ [\d.]+ Bend 0/);
   assert.equal(await view(), before);
 }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
@@ -158,7 +160,7 @@ for (const [kind, says, label] of [
     await page.mouse.up();
     await edited.until(() => says.test(edited.text()), "thinner");
     const thin = edited.text();
-    await page.locator(".edit-words").filter({ hasText: /^Saved/ }).waitFor();
+    await edited.made();
     await page.waitForFunction(() => document.querySelector("canvas")!.dataset["tried"] === "");
     // The arrow is where the part ends.
     const nearer = await grip(page, "front");
