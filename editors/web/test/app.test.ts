@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import type { BrowserContext, Page } from "playwright-core";
-import { App, inBrowser } from "./app";
+import { App, byOkoshi, inBrowser } from "./app";
 import { found } from "./axe";
 import { overlaps, picture, shown, still, type } from "./browser";
 import { drag, FIRST_FIGURE } from "./drawn";
@@ -228,6 +228,22 @@ inBrowser("without a network the program opens as it was left", async (app) => {
   await page.goto(`${page.url().split("#")[0]}index.html`);
   await shown(page);
 });
+
+inBrowser("`okoshi app` serves the program, which draws a figure, and opens again when that has ended", async (app) => {
+  const { page } = app;
+  await page.locator(".welcome-stage canvas[data-revision]").waitFor();
+  await picture(page, "app-served");
+  await page.locator("[data-starter=robot]").click();
+  await shown(page);
+  assert.equal(await page.title(), "robot.svg · okoshi");
+  const { data } = await picture(page, "app-served-robot");
+  assert.ok(new Set(data.toString("latin1").match(/.{4}/gs)).size > 500, "it is drawn");
+  await page.evaluate(() => navigator.serviceWorker.ready.then(() => {}));
+  await app.leave();
+  await page.reload();
+  await shown(page);
+  assert.equal(await page.title(), "robot.svg · okoshi");
+}, { server: byOkoshi });
 
 /** The browser's own files stand for those of the computer: a page is let at both in the same way. */
 const withFiles = async (context: BrowserContext): Promise<void> => {
