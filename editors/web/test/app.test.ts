@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { join } from "node:path";
+import { gzipSync } from "node:zlib";
 import type { BrowserContext, Page } from "playwright-core";
 import { App, byOkoshi, inBrowser } from "./app";
 import { found } from "./axe";
@@ -155,14 +156,58 @@ inBrowser("a drawing with a mistake says where it is, and the next text of the f
 
 inBrowser("a drawing that is no text is refused in words, and what was shown of it before stays", async (app) => {
   const { page } = app;
-  const packed = { name: "figure.svg", mimeType: "image/svg+xml", buffer: Buffer.from([0x1f, 0x8b, 8, 0, 0xff]) };
-  await app.choose(packed);
+  const foreign = { name: "figure.svg", mimeType: "image/svg+xml", buffer: Buffer.from("<svg>\xe9</svg>", "latin1") };
+  await app.choose(foreign);
   await app.says("figure.svg cannot be shown: the drawing is not text in UTF-8: save it as plain SVG.");
   await page.getByRole("button", { name: "Close the file" }).click();
   await app.drop({ name: "figure.svg", text: TEXT });
   await app.part("Arm");
-  await app.choose(packed);
+  await app.choose(foreign);
   await app.says("figure.svg cannot be shown");
+  await app.part("Arm");
+  assert.equal(await page.title(), "figure.svg · okoshi");
+});
+
+/** A file that is not text. */
+const file = (name: string, buffer: Buffer): { name: string; mimeType: string; buffer: Buffer } => ({ name, mimeType: "application/octet-stream", buffer });
+
+inBrowser("a compressed drawing is unpacked, changed, and saved as plain SVG", async (app) => {
+  const { page } = app;
+  await app.choose(file("figure.svgz", gzipSync(TEXT)));
+  await app.says("figure.svgz was compressed, and is open as plain SVG: Save writes figure.svg.");
+  await shown(page);
+  await picture(page, "app-compressed");
+  assert.equal(await page.title(), "figure.svg · okoshi");
+  await app.rename("Arm", "Wing");
+  const saved = await app.saved(() => page.getByRole("button", { name: "Save" }).click());
+  assert.deepEqual([saved.name, saved.text], ["figure.svg", TEXT.replaceAll("Arm@", "Wing@")]);
+  await page.reload();
+  await app.part("Wing");
+  assert.equal(await page.title(), "figure.svg · okoshi");
+
+  // A plain drawing of the same name keeps it.
+  await app.choose(file("hat.svgz", gzipSync(TEXT)), file("hat.svg", Buffer.from(TEXT.replaceAll("Arm@", "Hat@"))));
+  await app.says("hat.svgz was compressed, and is open as plain SVG: Save writes hat-2.svg.");
+  await app.part("Hat");
+  // The first bytes tell, not the name.
+  await app.choose(file("a.svgz", gzipSync(TEXT)), file("b.svg", gzipSync(TEXT)), file("c.svgz", Buffer.from(TEXT)));
+  await app.says("a.svgz, b.svg were compressed, and are open as plain SVG.");
+  await page.getByRole("link", { name: "Drawings" }).click();
+  await page.getByText("6 drawings").waitFor();
+  for (const name of ["figure.svg", "hat.svg", "hat-2.svg", "a.svg", "b.svg", "c.svg"]) await page.locator(".card", { hasText: name }).waitFor();
+});
+
+inBrowser("a compressed drawing that is damaged, or unpacks to far too much, is said to; what was opened with it opens", async (app) => {
+  const { page } = app;
+  const whole = gzipSync(TEXT);
+  const bomb = gzipSync(Buffer.alloc(65 << 20, " "));
+  assert.ok(bomb.length < 100_000);
+  await app.choose(file("cut.svgz", whole.subarray(0, whole.length - 20)), file("bomb.svgz", bomb), file("figure.svg", Buffer.from(TEXT)));
+  await app.says("cut.svgz is compressed, but damaged: save it again, or as plain SVG. bomb.svgz is larger than 64 MiB when it is unpacked: save it as plain SVG.");
+  await app.part("Arm");
+  await app.choose(file("more.svgz", Buffer.concat([whole, Buffer.from("more")])));
+  await app.says("more.svgz is compressed, but damaged");
+  await page.reload();
   await app.part("Arm");
   assert.equal(await page.title(), "figure.svg · okoshi");
 });
