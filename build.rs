@@ -54,6 +54,7 @@ fn main() {
 /// Puts the files of okoshi in the browser into the program, packed; or none.
 fn embed_app(folder: &Path, out: &Path) {
     println!("cargo::rerun-if-env-changed=OKOSHI_APP");
+    // One that is not there is not named either.
     let ready = Some(folder.join("dist/app")).filter(|ready| ready.exists());
     let named = env::var_os("OKOSHI_APP").filter(|named| !named.is_empty());
     let Some(app) = named.map(PathBuf::from).or(ready) else {

@@ -222,6 +222,11 @@ fn ports_are_the_apps_own() {
     let taken = address.port().to_string();
     let live = Live::start(&room.path(""), &["app", "made", "--port", &taken]);
     live.line(&format!("error: port {taken} is not available"));
+    // Whoever has it: the usual port is taken now.
+    let _usual = std::net::TcpListener::bind("127.0.0.1:4174");
+    let live = Live::start(&room.path(""), &["app", "made"]);
+    let [address, _] = live.lines(["http://127.0.0.1:", "port 4174 is taken"]);
+    assert!(!address.ends_with(":4174/"), "{address}");
     let run = room.run(&["app", "made", "--port", "4173"]);
     assert_eq!(run.status, 2);
     assert!(
