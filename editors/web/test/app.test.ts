@@ -354,6 +354,30 @@ inBrowser("where the browser lets a page at files, a drawing is saved in its fil
   assert.equal(await page.locator("[data-part=Leg]").count(), 0);
 }, { prepare: withFiles });
 
+inBrowser("where the browser lets a page at files, a compressed drawing takes no other's place, and is not written", async (app) => {
+  const { page } = app;
+  await page.locator("[data-starter]").first().waitFor();
+  await writeFile(page, TEXT);
+  await page.keyboard.press("Control+o");
+  await app.part("Arm");
+  await page.evaluate((bytes) => {
+    const data = new DataTransfer();
+    data.items.add(new File([Uint8Array.from(bytes)], "figure.svgz"));
+    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+  }, [...gzipSync(TEXT.replaceAll("Arm@", "Hat@"))]);
+  await app.says("figure.svgz was compressed, and is open as plain SVG: Save writes figure-2.svg.");
+  await app.part("Hat");
+  await app.rename("Hat", "Cap");
+  assert.equal(await fileText(page), TEXT);
+  // It is in no file that may be written, so that a place is asked for.
+  await page.evaluate(() => Object.assign(globalThis, { showSaveFilePicker: () => Promise.reject(new DOMException("", "AbortError")) }));
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByRole("link", { name: "Drawings" }).click();
+  await page.locator(".card", { hasText: "figure.svg" }).click();
+  await app.part("Arm");
+  assert.equal(await fileText(page), TEXT);
+}, { prepare: withFiles });
+
 /** Makes the module stop as it does at a fault: at files and at requests that have a word in them. */
 const withFaults = async (context: BrowserContext): Promise<void> => {
   await context.route("**/okoshi_web.js", async (route) => {

@@ -99,7 +99,9 @@ export class Files {
         words.push(why);
         continue;
       }
-      const path = kind === "drawing" ? numbered(name, (path) => drawings.includes(path) || this.isLost(path, bytes)) : name;
+      // What was compressed is not the plain file of the same name that is open.
+      const isOther = (path: string): boolean => packedAs !== undefined && this.all.get(path)?.handle != null;
+      const path = kind === "drawing" ? numbered(name, (path) => drawings.includes(path) || isOther(path) || this.isLost(path, bytes)) : name;
       (kind === "drawing" ? drawings : linked).push(path);
       if (packedAs !== undefined) packed.push({ from: packedAs, to: path });
       this.take({ path, bytes, handle, seen, order: this.all.get(path)?.order ?? this.order++, changed: false });
