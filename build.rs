@@ -1,10 +1,19 @@
 //! Embeds the preview page in the program. A package has it ready-made in `editors/web/dist`; in a clone, npm builds it from
 //! its lock file, in cargo's folder for such results. If npm is missing or fails, the program gets a plain page that says so.
+//!
+//! And embeds okoshi in the browser for `okoshi app`, if there is one: the folder that OKOSHI_APP names, or `editors/web/dist/app`.
 
+#[path = "src/preview/complete.rs"]
+mod complete;
+
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::SystemTime;
 use std::{env, fs, io};
+
+use flate2::Compression;
+use flate2::read::GzEncoder;
 
 const FILES: [&str; 3] = ["page.html", "page.js", "page.css"];
 /// What the page is built from.
@@ -26,6 +35,7 @@ fn main() {
     let Some(out) = env::var_os("OUT_DIR").map(PathBuf::from) else {
         panic!("cargo tells where to build");
     };
+    embed_app(folder, &out);
     match built(folder, &out.join("web")) {
         Ok(files) => {
             for (name, bytes) in FILES.iter().zip(files) {
@@ -39,6 +49,64 @@ fn main() {
             write(&out.join("page.css"), b"");
         }
     }
+}
+
+/// Puts the files of okoshi in the browser into the program, packed; or none.
+fn embed_app(folder: &Path, out: &Path) {
+    println!("cargo::rerun-if-env-changed=OKOSHI_APP");
+    // One that is not there is not named either.
+    let ready = Some(folder.join("dist/app")).filter(|ready| ready.exists());
+    let named = env::var_os("OKOSHI_APP").filter(|named| !named.is_empty());
+    let Some(app) = named.map(PathBuf::from).or(ready) else {
+        return write(&out.join("app.rs"), b"&[]");
+    };
+    println!("cargo::rerun-if-changed={}", app.display());
+    let mut files = Vec::new();
+    if let Err(error) = list(&app, "", &mut files) {
+        panic!("{}: {error}", app.display());
+    }
+    files.sort();
+    // Nobody is to notice this after a release.
+    if let Some(lacks) = complete::lacking(&files) {
+        panic!(
+            "{} has no {lacks}: name a folder that editors/web/app.sh made, as an absolute path",
+            app.display()
+        );
+    }
+    let packed = out.join("app");
+    let _ = fs::remove_dir_all(&packed);
+    let mut table = String::from("&[\n");
+    for (number, name) in files.iter().enumerate() {
+        let pack = || {
+            fs::create_dir_all(&packed)?;
+            let file = fs::File::open(app.join(name))?;
+            let mut out = fs::File::create(packed.join(number.to_string()))?;
+            io::copy(&mut GzEncoder::new(file, Compression::best()), &mut out)
+        };
+        if let Err(error) = pack() {
+            panic!("{name}: {error}");
+        }
+        let _ = writeln!(
+            table,
+            "    ({name:?}, include_bytes!(concat!(env!(\"OUT_DIR\"), \"/app/{number}\"))),"
+        );
+    }
+    table.push(']');
+    write(&out.join("app.rs"), table.as_bytes());
+}
+
+/// The paths of the files below a folder, with `/` between names.
+fn list(folder: &Path, above: &str, files: &mut Vec<String>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let name = format!("{above}{}", entry.file_name().to_string_lossy());
+        if entry.file_type()?.is_dir() {
+            list(&entry.path(), &format!("{name}/"), files)?;
+        } else {
+            files.push(name);
+        }
+    }
+    Ok(())
 }
 
 /// The files of the page, ready-made or built in `room`, or why there are none.

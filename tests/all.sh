@@ -211,11 +211,12 @@ page_tests() { # FOLDER [WRAPPER…] -- NAMES…
   "${wrapper[@]}" npm test --prefix editors/web -- --run
 }
 
-# The page that has the module, in Chromium.
+# The page that has the module, in Chromium. The program serves it, too.
 app() {
   need npm
   [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
-  OKOSHI_MODULE=$(realpath "$target/module") page_tests app -- app. worker. bytes. sharing. strings. welcome. lessons.
+  use_program
+  OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests app -- app. worker. bytes. sharing. strings. welcome. lessons.
 }
 
 # The same in Firefox.
@@ -226,7 +227,8 @@ firefox() {
     [ $quick = no ] || skip "--quick, and Firefox or Xvfb is not installed"
     install "Firefox or Xvfb" firefox-esr xvfb xauth libgl1-mesa-dri
   fi
-  BROWSER=firefox OKOSHI_MODULE=$(realpath "$target/module") page_tests firefox xvfb-run -a -- app.
+  use_program
+  BROWSER=firefox OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests firefox xvfb-run -a -- app.
 }
 
 # What a package holds is enough: installed from it without npm, the program serves the page.

@@ -289,7 +289,14 @@ const USES: &[(&str, &[&str])] = &[
     ),
     (
         "preview",
-        &["ide", "mark_tracks", "page", "tracking", "watch"],
+        &[
+            "ide",
+            "mark_tracks",
+            "page",
+            "resolver",
+            "tracking",
+            "watch",
+        ],
     ),
     (
         "puppet",

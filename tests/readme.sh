@@ -3,7 +3,7 @@
 #
 # Taken are the lines of its ```sh blocks that begin with `okoshi` or with `cargo run --release --`, which both become the
 # given binary. They run in order, in a copy of what lies in the repository, so that one may use what another made. Not
-# run: commands that stay (watch, preview, lsp) and lines with `…` or capitals for the reader to fill in.
+# run: commands that stay (watch, preview, app, lsp) and lines with `…` or capitals for the reader to fill in.
 set -euo pipefail
 okoshi=$1
 cd "$(dirname "$0")/.."
@@ -23,7 +23,7 @@ while IFS= read -r line; do
   command=${command/#cargo run --release -- /okoshi }
   command=${command/#cargo run --release --quiet -- /okoshi }
   case $command in
-    "okoshi watch"* | "okoshi preview"* | "okoshi lsp"*) echo "not run, it stays: $line"; continue ;;
+    "okoshi watch"* | "okoshi preview"* | "okoshi app"* | "okoshi lsp"*) echo "not run, it stays: $line"; continue ;;
     *…* | *...*) echo "not run, to be filled in: $line"; continue ;;
     "okoshi "*) ;;
     *) echo "not run, another program: $line"; continue ;;

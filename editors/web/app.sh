@@ -15,4 +15,4 @@ if [ -z "$module" ]; then
 fi
 node -e 'import("./scripts/install.mjs").then(({ install }) => install())'
 node scripts/app.mjs "$folder" "$module"
-echo "To see it: python3 -m http.server --directory '$folder', then http://localhost:8000"
+echo "To see it: okoshi app '$folder' --open; or python3 -m http.server --directory '$folder', then http://localhost:8000"

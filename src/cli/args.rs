@@ -36,6 +36,7 @@ Examples:
   okoshi render human.svg                draws a picture of the model, human.png
   okoshi watch human.svg                 builds it again on every save
   okoshi preview human.svg --open        shows it in the browser, live
+  okoshi app --open                      opens a page in the browser to draw on, and to change drawings
   okoshi motion kick.bvh -o snappy.bvh   reduces a motion to limited animation, as if drawn by hand
   okoshi puppet human.svg                a sheet to cut out a puppet from, human-puppet.svg
   okoshi track puppet.gif --mark red     follows a coloured mark through a clip
@@ -109,6 +110,8 @@ pub(super) enum Command {
     Watch(Watch),
     /// Show drawings on a live page in the browser
     Preview(Preview),
+    /// Serve okoshi in the browser: a page to open, draw and change drawings on
+    App(App),
     /// Edit a motion on its own: limited animation, frame rates, charts
     Motion(Motion),
     /// Write a sheet of paper pieces to cut out: a puppet of the figure, to move by hand and film
@@ -292,6 +295,30 @@ pub(super) struct Preview {
     pub(super) noticing: Noticing,
     #[command(flatten)]
     pub(super) reading: Reading,
+}
+
+const APP_EXAMPLES: &str = "\
+Examples:
+  okoshi app --open      opens okoshi in the browser
+  okoshi app okoshi-app  serves a folder that `bash editors/web/app.sh okoshi-app` made
+
+The address of the page is printed. It can be opened on this machine only. Drawings are opened,
+drawn, changed and saved on the page. The browser keeps them for this address, and none is sent
+anywhere, not even to this server. Once it was opened, the page also opens while the server is not
+running. Press Ctrl-C to stop.";
+
+#[derive(Debug, Args)]
+#[command(after_help = APP_EXAMPLES)]
+pub(super) struct App {
+    /// A folder that is okoshi in the browser [default: the one in this program]
+    #[arg(value_name = "FOLDER")]
+    pub(super) folder: Option<PathBuf>,
+    /// The port on 127.0.0.1; 0 takes any free one [default: 4174, or any free one]
+    #[arg(long, value_name = "N")]
+    pub(super) port: Option<u16>,
+    /// Open the browser
+    #[arg(long)]
+    pub(super) open: bool,
 }
 
 /// How changes of files are detected.

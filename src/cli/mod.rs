@@ -9,6 +9,7 @@
 )]
 
 mod annotate;
+mod app;
 mod args;
 mod build;
 mod check;
@@ -117,6 +118,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Track(arguments) => track::run(arguments, cli.common),
         Command::Watch(arguments) => watch::run(arguments, cli.common),
         Command::Preview(arguments) => preview::run(arguments, cli.common),
+        Command::App(arguments) => app::run(arguments, cli.common),
         Command::Lsp => lsp(),
         Command::Man { command } => man::run(command.as_deref()),
         Command::Completions { shell } => {

@@ -10,7 +10,7 @@ use super::{Failure, Outcome};
 use crate::compile;
 use crate::disk::{ReadError, write_new};
 use crate::page::{Editing, Hub, Shown, Starters, Times, random_key};
-use crate::preview::{bind, serve};
+use crate::preview::{PORT, bind, serve};
 use crate::resolver::Resolver;
 use crate::watch::{Build, Editor, Event, Options};
 
@@ -23,7 +23,7 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
     if arguments.unsaved.is_some() && path.is_dir() {
         return Err("--unsaved names the copy of one drawing, and this is a folder".into());
     }
-    let bound = bind(arguments.port).map_err(|error| {
+    let bound = bind(arguments.port, PORT).map_err(|error| {
         let port = arguments.port.unwrap_or_default();
         format!("port {port} is not available ({error}); choose another with --port, or leave --port out")
     })?;

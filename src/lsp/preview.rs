@@ -22,7 +22,7 @@ use crate::crash;
 use crate::export::{self, GLB};
 use crate::memo::Memo;
 use crate::page::{Builds, Hub, Picked, Shown, Times, editing_in_client};
-use crate::preview::{bind, serve};
+use crate::preview::{PORT, bind, serve};
 use crate::source::Span;
 
 /// The texts that are previewed, and the connections to panel and page.
@@ -262,7 +262,7 @@ impl Previews {
         let url = match self.page.get() {
             Some(url) => url.clone(),
             None => {
-                let bound = bind(None)?;
+                let bound = bind(None, PORT)?;
                 let url = bound.url();
                 if self.page.set(url.clone()).is_ok() {
                     self.runtime.spawn(serve(bound, self.hub.clone()));

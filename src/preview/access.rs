@@ -32,13 +32,19 @@ impl Hosts {
     }
 }
 
+/// What a server's own page may do.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Access {
+    /// The addresses to which the page may send something other than a question.
+    pub(super) posted: &'static [&'static str],
+    /// The content security policy of every response; without one, pages have their own.
+    pub(super) policy: Option<&'static str>,
+    /// How browsers may keep responses that do not say so themselves.
+    pub(super) caching: &'static str,
+}
+
 /// The headers of every response: no other page may embed it, guess another content type, or send it as a referrer.
-const HEADERS: [(HeaderName, &str); 6] = [
-    (
-        header::CONTENT_SECURITY_POLICY,
-        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
-         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
-    ),
+const HEADERS: [(HeaderName, &str); 4] = [
     (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
     (header::X_FRAME_OPTIONS, "DENY"),
     (header::REFERRER_POLICY, "no-referrer"),
@@ -46,28 +52,40 @@ const HEADERS: [(HeaderName, &str); 6] = [
         HeaderName::from_static("cross-origin-resource-policy"),
         "same-origin",
     ),
-    (header::CACHE_CONTROL, "no-store"),
 ];
 
 /// Refuses requests that do not come from the page itself.
-pub(super) async fn control(State(hosts): State<Hosts>, request: Request, next: Next) -> Response {
+pub(super) async fn control(
+    State((hosts, access)): State<(Hosts, Access)>,
+    request: Request,
+    next: Next,
+) -> Response {
     let (method, path) = (request.method(), request.uri().path());
-    let refusal = refusal(&hosts, method, path, request.headers());
+    let refusal = refusal(&hosts, access.posted, method, path, request.headers());
     let mut response = match refusal {
         Some(refusal) => refusal.into_response(),
         None => next.run(request).await,
     };
+    let headers = response.headers_mut();
     for (name, value) in HEADERS {
-        response
-            .headers_mut()
-            .insert(name, HeaderValue::from_static(value));
+        headers.insert(name, HeaderValue::from_static(value));
     }
+    if let Some(policy) = access.policy {
+        headers.insert(
+            header::CONTENT_SECURITY_POLICY,
+            HeaderValue::from_static(policy),
+        );
+    }
+    headers
+        .entry(header::CACHE_CONTROL)
+        .or_insert(HeaderValue::from_static(access.caching));
     response
 }
 
 /// The response to a request that is refused.
 fn refusal(
     hosts: &Hosts,
+    posted: &[&str],
     method: &Method,
     path: &str,
     headers: &HeaderMap,
@@ -101,7 +119,7 @@ fn refusal(
         return Some((StatusCode::FORBIDDEN, "other pages may not read this one\n"));
     }
     // Browsers name the origin of whatever is not only read.
-    let is_posted = *method == Method::POST && super::server::POSTED.contains(&path);
+    let is_posted = *method == Method::POST && posted.contains(&path);
     if is_posted && !headers.contains_key(header::ORIGIN) {
         return Some((
             StatusCode::FORBIDDEN,
@@ -128,7 +146,7 @@ mod tests {
         for (name, value) in headers {
             map.append(*name, value.parse().unwrap());
         }
-        let refusal = refusal(&hosts, method, path, &map);
+        let refusal = refusal(&hosts, &["/changes", "/forms"], method, path, &map);
         refusal.map(|(status, _)| status.as_u16())
     }
 

@@ -1,9 +1,8 @@
-//! The HTTP server, on loopback, with limits on everything.
+//! What the server of the live page answers.
 
+use std::convert::Infallible;
 use std::io;
-use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
-use std::time::Duration;
 
 use axum::Router;
 use axum::body::Bytes;
@@ -13,32 +12,21 @@ use axum::http::{StatusCode, Uri, header};
 use axum::middleware::from_fn_with_state;
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
-use hyper::server::conn::http1;
-use hyper_util::rt::{TokioIo, TokioTimer};
-use hyper_util::service::TowerToHyperService;
-use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 
-use super::access::{Hosts, control};
+use super::access::{Access, Hosts, control};
+use super::loopback::{self, Bound};
 use super::{assets, camera, changes, socket};
 use crate::page::{self, Export, Hub, Shot};
 
 /// The port that is tried first, so that an open page finds the server again after a restart.
-const PORT: u16 = 4173;
+pub(crate) const PORT: u16 = 4173;
 /// The media type of models.
 pub(super) const GLB: &str = "model/gltf-binary";
-/// The most connections; a page needs a few. Further ones are closed at once.
-const MAX_CONNECTIONS: usize = 256;
 /// The most pages that may be connected.
 pub(super) const MAX_PAGES: usize = 64;
 /// The most pages that may record at the same time: each recording is held in memory.
 const MAX_RECORDERS: usize = 2;
-/// How long the headers of a request may take to arrive.
-const HEADER_TIMEOUT: Duration = Duration::from_secs(5);
-/// How long a connection other than a WebSocket may stay open.
-const CONNECTION_TIMEOUT: Duration = Duration::from_secs(300);
-/// How long to wait after the system refused a connection.
-const ACCEPT_RETRY_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Where changes are sent to.
 const CHANGES: &str = "/changes";
@@ -46,77 +34,22 @@ const CHANGES: &str = "/changes";
 const TRIES: &str = "/tries";
 /// Where pages ask what can be changed.
 const FORMS: &str = "/forms";
-/// The addresses to which a page may send something other than a question.
-pub(super) const POSTED: [&str; 3] = [CHANGES, TRIES, FORMS];
+/// The rules of the live page.
+const ACCESS: Access = Access {
+    posted: &[CHANGES, TRIES, FORMS],
+    policy: Some(
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
+         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    ),
+    caching: "no-store",
+};
 
-/// A port to serve on.
-#[derive(Debug)]
-pub(crate) struct Bound {
-    listener: std::net::TcpListener,
-    address: SocketAddr,
-}
-
-impl Bound {
-    /// The page's address.
-    pub(crate) fn url(&self) -> String {
-        format!("http://{}/", self.address)
-    }
-}
-
-/// Binds a port on loopback: the given one, where 0 stands for any free one, or else the default one or any free one.
-///
-/// # Errors
-/// If the given port is not available.
-pub(crate) fn bind(port: Option<u16>) -> io::Result<Bound> {
-    let take = |port| std::net::TcpListener::bind((Ipv4Addr::LOCALHOST, port));
-    let listener = match port {
-        Some(port) => take(port),
-        None => take(PORT).or_else(|_| take(0)),
-    }?;
-    listener.set_nonblocking(true)?;
-    let address = listener.local_addr()?;
-    Ok(Bound { listener, address })
-}
-
-/// Serves pages until the program ends.
+/// Serves the live page until the program ends.
 ///
 /// # Errors
 /// If the system cannot listen.
-pub(crate) async fn serve(bound: Bound, hub: Arc<Hub>) -> io::Result<std::convert::Infallible> {
-    let router = router(hub, Hosts::of(bound.address));
-    let listener = TcpListener::from_std(bound.listener)?;
-    let permits = Arc::new(Semaphore::new(MAX_CONNECTIONS));
-    loop {
-        let stream = match listener.accept().await {
-            Ok((stream, _)) => stream,
-            Err(_) => {
-                tokio::time::sleep(ACCEPT_RETRY_INTERVAL).await;
-                continue;
-            }
-        };
-        // A connection beyond the limit is closed by dropping it.
-        let Ok(permit) = permits.clone().try_acquire_owned() else {
-            continue;
-        };
-        let router = router.clone();
-        tokio::spawn(async move {
-            let _ = tokio::time::timeout(CONNECTION_TIMEOUT, converse(stream, router)).await;
-            drop(permit);
-        });
-    }
-}
-
-async fn converse(stream: TcpStream, router: Router) {
-    // Small messages are sent at once.
-    let _ = stream.set_nodelay(true);
-    let service = TowerToHyperService::new(router);
-    let connection = http1::Builder::new()
-        .timer(TokioTimer::new())
-        .header_read_timeout(HEADER_TIMEOUT)
-        .serve_connection(TokioIo::new(stream), service)
-        .with_upgrades();
-    // A client that disconnects is not an error.
-    let _ = connection.await;
+pub(crate) async fn serve(bound: Bound, hub: Arc<Hub>) -> io::Result<Infallible> {
+    loopback::serve(bound, |hosts| router(hub, hosts)).await
 }
 
 #[derive(Clone)]
@@ -154,7 +87,7 @@ fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
     router
         .fallback(|| async { (StatusCode::NOT_FOUND, "not found\n") })
         .with_state(shared)
-        .layer(from_fn_with_state(hosts, control))
+        .layer(from_fn_with_state((hosts, ACCESS), control))
 }
 
 async fn build(State(shared): State<Shared>, Path(file): Path<String>, uri: Uri) -> Response {

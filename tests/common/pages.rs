@@ -22,7 +22,7 @@ pub(crate) fn served(folder: &Path, target: &str) -> (Live, u16) {
 
 /// The port of a server that was started, once it watches.
 pub(crate) fn port_of(live: &Live) -> u16 {
-    // Drawings are watched, or waited for.
+    // Drawings are watched, or waited for; or the program is served.
     let [address, _] = live.lines(["http://127.0.0.1:", "press Ctrl-C to stop"]);
     let port = address.rsplit_once("127.0.0.1:").map(|(_, rest)| rest);
     let port = port.and_then(|port| port.trim_end_matches('/').parse().ok());
@@ -31,6 +31,12 @@ pub(crate) fn port_of(live: &Live) -> u16 {
 
 /// The status and the body of the answer to a raw request.
 pub(crate) fn asked(port: u16, request: &str) -> (u16, Vec<u8>) {
+    let (status, _, body) = answered(port, request);
+    (status, body)
+}
+
+/// The status, the head and the body of the answer to a raw request.
+pub(crate) fn answered(port: u16, request: &str) -> (u16, String, Vec<u8>) {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("connected");
     stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
     let request = request
@@ -40,13 +46,14 @@ pub(crate) fn asked(port: u16, request: &str) -> (u16, Vec<u8>) {
     let mut answer = Vec::new();
     let _ = stream.read_to_end(&mut answer);
     let head = answer.windows(4).position(|bytes| bytes == b"\r\n\r\n");
+    let body = head.map_or_else(Vec::new, |head| answer[head + 4..].to_vec());
+    answer.truncate(head.unwrap_or(answer.len()));
     let text = String::from_utf8_lossy(&answer).into_owned();
     let status = text
         .split(' ')
         .nth(1)
         .and_then(|status| status.parse().ok());
-    let body = head.map_or_else(Vec::new, |head| answer[head + 4..].to_vec());
-    (status.unwrap_or(0), body)
+    (status.unwrap_or(0), text, body)
 }
 
 pub(crate) fn got(port: u16, path: &str) -> (u16, Vec<u8>) {

@@ -6,7 +6,8 @@
 PROGRAM is `cargo build --profile dist`'s, or any other with the page inside, for this system and its processor; on Linux it needs glibc, or is
 static. On Linux: an archive, a Debian package, a Python wheel (`pip install` puts `okoshi` on the path), an npm package, and the extension
 for VS Code with the program inside; on macOS and Windows the same but for the Debian package, which was not run there yet. And Inkscape's
-extension with its installers. Beside them are their checksums and a list of what is inside (SBOM, CycloneDX). first_figure.py installs each
+extension with its installers. All hold okoshi in the browser, for `okoshi app`, if the program does: build it with OKOSHI_APP=FOLDER,
+a folder that `bash editors/web/app.sh FOLDER` made. Beside them are their checksums and a list of what is inside (SBOM, CycloneDX). first_figure.py installs each
 as docs/install.md says, and makes a figure with it as the tutorial says. Requires cargo, pip and npm, and on Linux binutils and dpkg-deb.
 """
 
@@ -221,6 +222,27 @@ def extension_tried(package, program, room):
     assert said == f"okoshi {program.version}", said
 
 
+def app_tried(program):
+    """Whether okoshi in the browser is in the program; then its page and the module come."""
+    server = subprocess.Popen([program.path, "app", "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        address = server.stdout.readline().strip()
+        if not address:
+            said = server.stderr.read()
+            assert "is not in this program" in said, said
+            return False
+        page = first_figure.DIRECTLY.open(address, timeout=60).read().decode()
+        script = re.search(r'src="(v-[0-9a-f]+)/app\.js"', page)
+        assert script, page
+        with first_figure.DIRECTLY.open(f"{address}{script[1]}/okoshi_web_bg.wasm", timeout=60) as module:
+            assert module.headers["Content-Type"] == "application/wasm", module.headers
+            assert module.read(4) == b"\0asm"
+        return True
+    finally:
+        server.kill()
+        server.wait()
+
+
 def main():
     out = Path(sys.argv[1]).resolve()
     okoshi = Path(os.environ.get("OKOSHI", ROOT / "target/dist" / NAME)).resolve()
@@ -259,6 +281,10 @@ def main():
             tutorial, readme = first_figure.tried(package, scratch / "rooms", to_the_end=package is archived)
             print(f"{package.name}: installed as the page says; {tutorial} commands to a walking figure with the tutorial, {readme} with the README")
         extension_tried(extension, program, scratch / "rooms/extension")
+        if app_tried(program):
+            print("`okoshi app` serves okoshi in the browser from the program")
+        else:
+            print("okoshi in the browser is not in the program, which was built without OKOSHI_APP")
     made = sorted(out.iterdir())
     (out / "SHA256SUMS").write_text("".join(f"{hashlib.sha256(file.read_bytes()).hexdigest()}  {file.name}\n" for file in made), encoding="utf-8", newline="\n")
     for file in made:

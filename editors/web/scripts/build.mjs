@@ -41,7 +41,8 @@ export async function bundle() {
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   await bundle();
-  for (const name of readdirSync(dist)) {
+  // okoshi in the browser may be in a folder beside the page.
+  for (const { name } of readdirSync(dist, { withFileTypes: true }).filter((one) => one.isFile())) {
     const file = join(dist, name);
     console.log(`dist/${name}: ${statSync(file).size} bytes, ${gzipSync(readFileSync(file)).length} gzipped`);
   }

@@ -2,8 +2,9 @@
 
 import assert from "node:assert/strict";
 import { join } from "node:path";
+import { gzipSync } from "node:zlib";
 import type { BrowserContext, Page } from "playwright-core";
-import { App, inBrowser } from "./app";
+import { App, byOkoshi, inBrowser } from "./app";
 import { found } from "./axe";
 import { overlaps, picture, shown, still, type } from "./browser";
 import { drag, FIRST_FIGURE } from "./drawn";
@@ -155,14 +156,58 @@ inBrowser("a drawing with a mistake says where it is, and the next text of the f
 
 inBrowser("a drawing that is no text is refused in words, and what was shown of it before stays", async (app) => {
   const { page } = app;
-  const packed = { name: "figure.svg", mimeType: "image/svg+xml", buffer: Buffer.from([0x1f, 0x8b, 8, 0, 0xff]) };
-  await app.choose(packed);
+  const foreign = { name: "figure.svg", mimeType: "image/svg+xml", buffer: Buffer.from("<svg>\xe9</svg>", "latin1") };
+  await app.choose(foreign);
   await app.says("figure.svg cannot be shown: the drawing is not text in UTF-8: save it as plain SVG.");
   await page.getByRole("button", { name: "Close the file" }).click();
   await app.drop({ name: "figure.svg", text: TEXT });
   await app.part("Arm");
-  await app.choose(packed);
+  await app.choose(foreign);
   await app.says("figure.svg cannot be shown");
+  await app.part("Arm");
+  assert.equal(await page.title(), "figure.svg · okoshi");
+});
+
+/** A file that is not text. */
+const file = (name: string, buffer: Buffer): { name: string; mimeType: string; buffer: Buffer } => ({ name, mimeType: "application/octet-stream", buffer });
+
+inBrowser("a compressed drawing is unpacked, changed, and saved as plain SVG", async (app) => {
+  const { page } = app;
+  await app.choose(file("figure.svgz", gzipSync(TEXT)));
+  await app.says("figure.svgz was compressed, and is open as plain SVG: Save writes figure.svg.");
+  await shown(page);
+  await picture(page, "app-compressed");
+  assert.equal(await page.title(), "figure.svg · okoshi");
+  await app.rename("Arm", "Wing");
+  const saved = await app.saved(() => page.getByRole("button", { name: "Save" }).click());
+  assert.deepEqual([saved.name, saved.text], ["figure.svg", TEXT.replaceAll("Arm@", "Wing@")]);
+  await page.reload();
+  await app.part("Wing");
+  assert.equal(await page.title(), "figure.svg · okoshi");
+
+  // A plain drawing of the same name keeps it.
+  await app.choose(file("hat.svgz", gzipSync(TEXT)), file("hat.svg", Buffer.from(TEXT.replaceAll("Arm@", "Hat@"))));
+  await app.says("hat.svgz was compressed, and is open as plain SVG: Save writes hat-2.svg.");
+  await app.part("Hat");
+  // The first bytes tell, not the name.
+  await app.choose(file("a.svgz", gzipSync(TEXT)), file("b.svg", gzipSync(TEXT)), file("c.svgz", Buffer.from(TEXT)));
+  await app.says("a.svgz, b.svg were compressed, and are open as plain SVG.");
+  await page.getByRole("link", { name: "Drawings" }).click();
+  await page.getByText("6 drawings").waitFor();
+  for (const name of ["figure.svg", "hat.svg", "hat-2.svg", "a.svg", "b.svg", "c.svg"]) await page.locator(".card", { hasText: name }).waitFor();
+});
+
+inBrowser("a compressed drawing that is damaged, or unpacks to far too much, is said to; what was opened with it opens", async (app) => {
+  const { page } = app;
+  const whole = gzipSync(TEXT);
+  const bomb = gzipSync(Buffer.alloc(65 << 20, " "));
+  assert.ok(bomb.length < 100_000);
+  await app.choose(file("cut.svgz", whole.subarray(0, whole.length - 20)), file("bomb.svgz", bomb), file("figure.svg", Buffer.from(TEXT)));
+  await app.says("cut.svgz is compressed, but damaged: save it again, or as plain SVG. bomb.svgz is larger than 64 MiB when it is unpacked: save it as plain SVG.");
+  await app.part("Arm");
+  await app.choose(file("more.svgz", Buffer.concat([whole, Buffer.from("more")])));
+  await app.says("more.svgz is compressed, but damaged");
+  await page.reload();
   await app.part("Arm");
   assert.equal(await page.title(), "figure.svg · okoshi");
 });
@@ -229,6 +274,22 @@ inBrowser("without a network the program opens as it was left", async (app) => {
   await shown(page);
 });
 
+inBrowser("`okoshi app` serves the program, which draws a figure, and opens again when that has ended", async (app) => {
+  const { page } = app;
+  await page.locator(".welcome-stage canvas[data-revision]").waitFor();
+  await picture(page, "app-served");
+  await page.locator("[data-starter=robot]").click();
+  await shown(page);
+  assert.equal(await page.title(), "robot.svg · okoshi");
+  const { data } = await picture(page, "app-served-robot");
+  assert.ok(new Set(data.toString("latin1").match(/.{4}/gs)).size > 500, "it is drawn");
+  await page.evaluate(() => navigator.serviceWorker.ready.then(() => {}));
+  await app.leave();
+  await page.reload();
+  await shown(page);
+  assert.equal(await page.title(), "robot.svg · okoshi");
+}, { server: byOkoshi });
+
 /** The browser's own files stand for those of the computer: a page is let at both in the same way. */
 const withFiles = async (context: BrowserContext): Promise<void> => {
   await context.addInitScript(() => {
@@ -291,6 +352,30 @@ inBrowser("where the browser lets a page at files, a drawing is saved in its fil
   await page.getByRole("button", { name: "Show the file" }).click();
   await app.part("Theirs");
   assert.equal(await page.locator("[data-part=Leg]").count(), 0);
+}, { prepare: withFiles });
+
+inBrowser("where the browser lets a page at files, a compressed drawing takes no other's place, and is not written", async (app) => {
+  const { page } = app;
+  await page.locator("[data-starter]").first().waitFor();
+  await writeFile(page, TEXT);
+  await page.keyboard.press("Control+o");
+  await app.part("Arm");
+  await page.evaluate((bytes) => {
+    const data = new DataTransfer();
+    data.items.add(new File([Uint8Array.from(bytes)], "figure.svgz"));
+    document.body.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+  }, [...gzipSync(TEXT.replaceAll("Arm@", "Hat@"))]);
+  await app.says("figure.svgz was compressed, and is open as plain SVG: Save writes figure-2.svg.");
+  await app.part("Hat");
+  await app.rename("Hat", "Cap");
+  assert.equal(await fileText(page), TEXT);
+  // It is in no file that may be written, so that a place is asked for.
+  await page.evaluate(() => Object.assign(globalThis, { showSaveFilePicker: () => Promise.reject(new DOMException("", "AbortError")) }));
+  await page.getByRole("button", { name: "Save" }).click();
+  await page.getByRole("link", { name: "Drawings" }).click();
+  await page.locator(".card", { hasText: "figure.svg" }).click();
+  await app.part("Arm");
+  assert.equal(await fileText(page), TEXT);
 }, { prepare: withFiles });
 
 /** Makes the module stop as it does at a fault: at files and at requests that have a word in them. */

@@ -3,14 +3,14 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
-import { createServer, type Server } from "node:http";
+import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { tmpdir } from "node:os";
 import { extname, join, resolve } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, BrowserContext, Download, Page } from "playwright-core";
 import { isFirefox, launch, noBrowser, open, type, type PageOptions } from "./browser";
-import { closeAll, closing, TEST_LIMIT, type Close } from "./closing";
+import { closeAll, closing, serving, TEST_LIMIT, type Close, type Serving } from "./closing";
 
 const module = process.env["OKOSHI_MODULE"] ?? "";
 export const skip = noBrowser !== false ? noBrowser : module === "" || !existsSync(module) ? "there is no module; OKOSHI_MODULE names the folder that editors/web/wasm/build.sh made" : false;
@@ -33,7 +33,7 @@ function made(): string {
 }
 
 /** A static host, which can be away. */
-async function host(root: string): Promise<{ address: string; server: Server; close(): Promise<void> }> {
+async function host(root: string, onClose: (close: Close) => void): Promise<Serving> {
   const server = createServer(({ url = "/" }, response) => {
     const { pathname } = new URL(url, "http://localhost");
     const file = join(root, pathname.endsWith("/") ? `${pathname}index.html` : pathname);
@@ -41,13 +41,20 @@ async function host(root: string): Promise<{ address: string; server: Server; cl
     response.writeHead(found ? 200 : 404, { "content-type": TYPES[extname(file)] ?? "text/plain" }).end(found ? readFileSync(file) : "");
   });
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
-  const close = (): Promise<void> =>
+  const stop = (): Promise<void> =>
     new Promise((resolve) => {
       server.close(() => resolve());
       server.closeAllConnections();
     });
-  return { address: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`, server, close };
+  onClose(stop);
+  return { address: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`, stop };
 }
+
+/** The program that serves the folder itself. */
+const okoshi = process.env["OKOSHI"] ?? "";
+const skipServed = skip !== false ? skip : okoshi === "" ? "there is no okoshi program; OKOSHI names one" : false;
+/** `okoshi app` as the host. */
+export const byOkoshi = (root: string, onClose: (close: Close) => void): Promise<Serving> => serving(okoshi, root, ["app", root, "--port", "0"], onClose);
 
 interface Handed {
   readonly name: string;
@@ -145,17 +152,13 @@ interface InBrowser extends PageOptions {
   /** Messages of the browser that belong to the test. */
   readonly expected?: RegExp;
   readonly prepare?: (context: BrowserContext) => Promise<void>;
+  /** What serves the folder. */
+  readonly server?: typeof host;
 }
 
 /** Opens the program in the browser; what it reports that it should not is added to `wrong`. */
-export async function openApp(onClose: (close: Close) => void, { expected = /^$/, prepare, ...options }: InBrowser = {}): Promise<{ app: App; wrong: () => string[] }> {
-  const { address, close } = await host(made());
-  let closed = false;
-  const stop = async (): Promise<void> => {
-    if (!closed) await close();
-    closed = true;
-  };
-  onClose(stop);
+export async function openApp(onClose: (close: Close) => void, { expected = /^$/, prepare, server = host, ...options }: InBrowser = {}): Promise<{ app: App; wrong: () => string[] }> {
+  const { address, stop } = await server(made(), onClose);
   browser ??= launch();
   const { page, wrong } = await open(await browser, address, onClose, options, async (context) => {
     // A test cannot choose a file that the browser then lets the page at: without that, files are chosen and saved as in other browsers.
@@ -173,7 +176,7 @@ export async function openApp(onClose: (close: Close) => void, { expected = /^$/
 
 /** A test of the program in a browser of its own; it fails at any error or violation of the policy that is not among those that it expects. */
 export function inBrowser(name: string, run: (app: App) => Promise<void>, options: InBrowser = {}): void {
-  test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
+  test(name, { skip: options.server === byOkoshi ? skipServed : skip, timeout: TEST_LIMIT }, async (t) => {
     const { app, wrong } = await openApp(closing(t), options);
     await run(app);
     assert.deepEqual(wrong(), []);

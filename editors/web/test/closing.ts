@@ -38,17 +38,27 @@ export function closing(t: Pick<TestContext, "after">): (close: Close) => void {
   return (close) => void open.push(close);
 }
 
+/** A program that serves a page. */
+export interface Serving {
+  readonly address: string;
+  stop(): Promise<void>;
+}
+
 /** Starts `okoshi preview` in a folder, with more arguments. Returns its address. */
-export async function preview(okoshi: string, folder: string, target: string, onClose: (close: Close) => void, more: readonly string[] = []): Promise<{ address: string; stop(): void }> {
-  const program = spawn(okoshi, ["preview", target, "--quiet", ...more], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+export const preview = (okoshi: string, folder: string, target: string, onClose: (close: Close) => void, more: readonly string[] = []): Promise<Serving> => serving(okoshi, folder, ["preview", target, ...more], onClose);
+
+/** Starts a command of okoshi that serves a page, in a folder. Returns its address. */
+export async function serving(okoshi: string, folder: string, words: readonly string[], onClose: (close: Close) => void): Promise<Serving> {
+  const program = spawn(okoshi, [...words, "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
   const ended = new Promise<void>((resolve) => program.once("close", () => resolve()));
-  onClose(() => stopped(program, ended));
+  const stop = (): Promise<void> => stopped(program, ended);
+  onClose(stop);
   const address = new Promise<string>((found, failed) => {
     createInterface(program.stdout).once("line", found);
     program.once("error", failed);
-    program.once("exit", (code) => failed(new Error(`okoshi preview ended with ${code}`)));
+    program.once("exit", (code) => failed(new Error(`okoshi ${words[0]} ended with ${code}`)));
   });
-  return { address: await within(PATIENCE, "the start of okoshi preview", address), stop: () => program.kill() };
+  return { address: await within(PATIENCE, `the start of okoshi ${words[0]}`, address), stop };
 }
 
 /** Ends a program, by force if it does not end by itself. */

@@ -93,8 +93,8 @@ test("a script that does not load is a failure, and one that ends while it reads
 });
 
 test("files are told apart by the ends of their names", () => {
-  assert.deepEqual(["a.svg", "folder/A.SVG", "a.bvh", "map.tmx", "hands.json", "a.glb", "a.PNG"].map(kindOf), ["drawing", "drawing", "linked", "linked", "linked", "linked", "linked"]);
-  for (const [path, why] of [["a.svgz", "it is packed: save it as plain SVG"], ["a.psd", "save it as PNG and open that"], ["svg", "okoshi reads SVG, and the motions, pictures and maps that a drawing links to"]]) {
+  assert.deepEqual(["a.svg", "folder/A.SVG", "a.svgz", "a.bvh", "map.tmx", "hands.json", "a.glb", "a.PNG"].map(kindOf), ["drawing", "drawing", "drawing", "linked", "linked", "linked", "linked", "linked"]);
+  for (const [path, why] of [["a.psd", "save it as PNG and open that"], ["svg", "okoshi reads SVG, and the motions, pictures and maps that a drawing links to"]]) {
     assert.deepEqual(kindOf(path!), { why: `${path} is no drawing: ${why}.` });
   }
 });

@@ -2,10 +2,15 @@
 
 import type { ProjectFile } from "../host/worker/calls";
 import { kindOf } from "./kinds";
+import { unpacked } from "./packed";
 
 export interface Opened extends ProjectFile {
   readonly handle: FileSystemFileHandle | null;
   readonly seen: number;
+  /** What a drawing was called that was compressed. */
+  readonly packedAs?: string;
+  /** Why it cannot be opened, as a sentence. */
+  readonly trouble?: string;
 }
 
 /** The part of the File System Access API that TypeScript does not know. */
@@ -34,12 +39,15 @@ export async function read(file: File, path: string, handle: FileSystemFileHandl
   return { path, bytes: new Uint8Array(await file.arrayBuffer()), handle, seen: file.lastModified };
 }
 
+/** Reads a file that a person opens. */
+const take = async (file: File, path: string, handle: FileSystemFileHandle | null): Promise<Opened> => unpacked(await read(file, path, handle));
+
 /** Lets a person choose files; nothing if they give up. */
 export async function choose(): Promise<readonly Opened[]> {
   if (!access.showOpenFilePicker) return chooseByInput();
   try {
     const handles = await access.showOpenFilePicker({ multiple: true });
-    return await Promise.all(handles.map(async (handle) => read(await handle.getFile(), handle.name, handle)));
+    return await Promise.all(handles.map(async (handle) => take(await handle.getFile(), handle.name, handle)));
   } catch (error) {
     if (gaveUp(error)) return [];
     throw error;
@@ -53,7 +61,7 @@ function chooseByInput(): Promise<readonly Opened[]> {
   input.multiple = true;
   return new Promise((resolve, reject) => {
     input.addEventListener("cancel", () => resolve([]));
-    input.addEventListener("change", () => Promise.all([...(input.files ?? [])].map((file) => read(file, file.name, null))).then(resolve, reject));
+    input.addEventListener("change", () => Promise.all([...(input.files ?? [])].map((file) => take(file, file.name, null))).then(resolve, reject));
     input.click();
   });
 }
@@ -66,13 +74,13 @@ export async function dropped({ items, files }: DataTransfer): Promise<readonly 
     entry: item.webkitGetAsEntry(),
     file: item.getAsFile(),
   }));
-  if (asked.length === 0) return Promise.all([...files].map((file) => read(file, file.name, null)));
+  if (asked.length === 0) return Promise.all([...files].map((file) => take(file, file.name, null)));
   const found = await Promise.all(
     asked.map(async ({ handle, entry, file }) => {
       const held = await handle;
       if (held) return inHandle(held, held.name);
       if (entry?.isDirectory) return inEntry(entry, entry.name);
-      return file ? [await read(file, file.name, null)] : [];
+      return file ? [await take(file, file.name, null)] : [];
     }),
   );
   return found.flat();
@@ -82,7 +90,7 @@ export async function dropped({ items, files }: DataTransfer): Promise<readonly 
 const isWanted = ({ name }: { readonly name: string }, isFile: boolean): boolean => !name.startsWith(".") && (!isFile || typeof kindOf(name) === "string");
 
 async function inHandle(handle: FileSystemHandle, path: string): Promise<readonly Opened[]> {
-  if (isFile(handle)) return [await read(await handle.getFile(), path, handle)];
+  if (isFile(handle)) return [await take(await handle.getFile(), path, handle)];
   const all: (readonly Opened[])[] = [];
   for await (const one of (handle as unknown as { values(): AsyncIterable<FileSystemHandle> }).values()) {
     if (isWanted(one, one.kind === "file")) all.push(await inHandle(one, `${path}/${one.name}`));
@@ -95,7 +103,7 @@ const isFile = (handle: FileSystemHandle): handle is FileSystemFileHandle => han
 async function inEntry(entry: FileSystemEntry, path: string): Promise<readonly Opened[]> {
   if (entry.isFile) {
     const file = await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject));
-    return [await read(file, path, null)];
+    return [await take(file, path, null)];
   }
   const reader = (entry as FileSystemDirectoryEntry).createReader();
   const all: (readonly Opened[])[] = [];

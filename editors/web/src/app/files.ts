@@ -6,7 +6,7 @@ import type { ProjectFile } from "../host/worker/calls";
 import type { State } from "../state";
 import { chooseTarget, canSaveAs, mayRead, mayWrite, read, write, type Opened } from "./access";
 import { isPicture, kindOf } from "./kinds";
-import { ask, type Notices } from "./notices";
+import { ask, listed, type Notices } from "./notices";
 import type { Kept, Store } from "./store";
 
 /** How often files are looked at, in milliseconds. */
@@ -90,16 +90,25 @@ export class Files {
     const drawings: string[] = [];
     const linked: string[] = [];
     const words: string[] = [];
-    for (const file of opened) {
-      const kind = kindOf(file.path);
-      if (typeof kind === "object") {
-        words.push(kind.why);
+    const packed: { readonly from: string; readonly to: string }[] = [];
+    // Compressed drawings last: a plain one of the same name keeps it.
+    for (const { path: name, bytes, handle, seen, packedAs, trouble } of [...opened].sort((a, b) => Number(a.packedAs !== undefined) - Number(b.packedAs !== undefined))) {
+      const kind = kindOf(name);
+      const why = typeof kind === "object" ? kind.why : trouble;
+      if (why !== undefined) {
+        words.push(why);
         continue;
       }
-      const path = kind === "drawing" ? this.free(file) : file.path;
+      // What was compressed is not the plain file of the same name that is open.
+      const isOther = (path: string): boolean => packedAs !== undefined && this.all.get(path)?.handle != null;
+      const path = kind === "drawing" ? numbered(name, (path) => drawings.includes(path) || isOther(path) || this.isLost(path, bytes)) : name;
       (kind === "drawing" ? drawings : linked).push(path);
-      this.take({ ...file, path, order: this.all.get(path)?.order ?? this.order++, changed: false });
+      if (packedAs !== undefined) packed.push({ from: packedAs, to: path });
+      this.take({ path, bytes, handle, seen, order: this.all.get(path)?.order ?? this.order++, changed: false });
     }
+    const [first] = packed;
+    if (first && packed.length === 1) words.unshift(`${first.from} was compressed, and is open as plain SVG: Save writes ${first.to}.`);
+    else if (first) words.unshift(`${listed(packed.map(({ from }) => from))} were compressed, and are open as plain SVG.`);
     const picture = drawings.length === 0 && linked.length === 1 ? linked.find(isPicture) : undefined;
     if (picture !== undefined) {
       words.push(`${picture}: kept for drawings that link to it. Is it a drawing itself, or a photograph of one?`);
@@ -216,7 +225,13 @@ export class Files {
 
   /** The path of a drawing that is opened: another one if that of an open drawing would be lost. */
   private free({ path, bytes }: ProjectFile): string {
-    return numbered(path, (path) => this.all.get(path)?.changed === true && !same(this.all.get(path)!.bytes, bytes));
+    return numbered(path, (path) => this.isLost(path, bytes));
+  }
+
+  /** Whether changes would be lost if a file took the place of an open one. */
+  private isLost(path: string, bytes: Uint8Array): boolean {
+    const open = this.all.get(path);
+    return open?.changed === true && !same(open.bytes, bytes);
   }
 
   /** Shows the drawing that was opened. */

@@ -5,7 +5,6 @@ const LINKED = ["bvh", "png", "jpg", "jpeg", "gif", "webp", "json", "tmx", "tmj"
 
 /** How drawings are made of other files. */
 const WAYS: Readonly<Record<string, string>> = {
-  svgz: "it is packed: save it as plain SVG",
   ai: "save it as SVG in the program that made it",
   cdr: "save it as SVG in the program that made it",
   pdf: "open it in Inkscape and save it as SVG",
@@ -22,7 +21,7 @@ export type Kind = "drawing" | "linked";
 /** The kind of a file, or why it is none, as a sentence. */
 export function kindOf(path: string): Kind | { readonly why: string } {
   const ending = /\.([^./]+)$/.exec(path.toLowerCase())?.[1] ?? "";
-  if (ending === "svg") return "drawing";
+  if (ending === "svg" || ending === "svgz") return "drawing";
   if (LINKED.includes(ending)) return "linked";
   const way = WAYS[ending] ?? "okoshi reads SVG, and the motions, pictures and maps that a drawing links to";
   return { why: `${path} is no drawing: ${way}.` };

@@ -29,6 +29,12 @@ export class Notices {
   }
 }
 
+/** `a.bvh, b.bvh and 2 more` */
+export function listed(names: readonly string[]): string {
+  const shown = names.length > 3 ? names.slice(0, 2) : names;
+  return shown.join(", ") + (shown.length < names.length ? ` and ${names.length - shown.length} more` : "");
+}
+
 /** Asks for one of some choices; null if it was closed. The first is the one that loses nothing. */
 export function ask<Answer extends string>(place: HTMLElement, words: string, choices: readonly (readonly [answer: Answer, label: string])[]): Promise<Answer | null> {
   const dialog = h("dialog", { class: "ask", attributes: { "aria-label": words } });

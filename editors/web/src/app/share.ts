@@ -1,6 +1,7 @@
 // Links that hold a drawing: packed, behind the # of the page's address. Browsers send nothing of that to a server.
 
 import { toBase64 } from "../host/base64";
+import { collect } from "./collect";
 
 /** The longest link that is made, in letters: browsers take longer ones, but what people send links with cuts them off. */
 export const LONGEST = 32_000;
@@ -22,7 +23,7 @@ export const isShared = (hash: string): boolean => MARK.test(hash);
 /** A link to a drawing on a page. */
 export async function linkTo(page: string, { name, bytes }: Shared): Promise<string> {
   // With a checksum, unlike `deflate-raw`.
-  const packed = await collect(new Blob([bytes]).stream().pipeThrough(new CompressionStream("deflate")));
+  const packed = await collect(new Blob([bytes]).stream().pipeThrough(new CompressionStream("deflate")), Infinity);
   const letters = toBase64(packed).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
   return `${page.replace(/#.*$/s, "")}#name=${encodeURIComponent(name)}&drawing=${letters}`;
 }
@@ -31,7 +32,7 @@ export async function linkTo(page: string, { name, bytes }: Shared): Promise<str
 export async function sharedIn(hash: string): Promise<Shared> {
   const query = new URLSearchParams(hash.slice(1));
   const packed = Uint8Array.from(atob((query.get("drawing") ?? "").replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0));
-  const bytes = await collect(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate")));
+  const bytes = await collect(new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate")), LARGEST);
   // What is no text is no drawing.
   if (new TextDecoder("utf-8", { fatal: true }).decode(bytes).trim() === "") throw new Error("it is empty");
   return { name: fileName(query.get("name") ?? ""), bytes };
@@ -41,19 +42,4 @@ export async function sharedIn(hash: string): Promise<Shared> {
 function fileName(name: string): string {
   const own = name.replace(/^.*[\\/]/s, "").replace(/[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/gu, "").replace(/\.svg$/i, "").trim();
   return `${[...own].slice(0, LONGEST_NAME).join("") || "drawing"}.svg`;
-}
-
-async function collect(stream: ReadableStream<Uint8Array<ArrayBuffer>>): Promise<Uint8Array<ArrayBuffer>> {
-  const pieces: Uint8Array<ArrayBuffer>[] = [];
-  let length = 0;
-  for (const reader = stream.getReader(); ; ) {
-    const { done, value } = await reader.read();
-    if (done) return new Uint8Array(await new Blob(pieces).arrayBuffer());
-    length += value.length;
-    if (length > LARGEST) {
-      await reader.cancel();
-      throw new Error("it is too large");
-    }
-    pieces.push(value);
-  }
 }

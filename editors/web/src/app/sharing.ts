@@ -3,7 +3,7 @@
 import { fill, h } from "../dom";
 import type { WorkerHost } from "../host/worker";
 import { reason, type Files } from "./files";
-import type { Notices } from "./notices";
+import { listed, type Notices } from "./notices";
 import { isShared, linkTo, LONGEST, sharedIn, type Shared } from "./share";
 
 /** What can be taken instead of a link. */
@@ -88,9 +88,3 @@ export class Sharing {
 
 /** Whether the system can hand a link on to its other programs. */
 const canHandOn = (link: string): boolean => typeof navigator.canShare === "function" && navigator.canShare({ url: link });
-
-/** `a.bvh, b.bvh and 2 more` */
-function listed(names: readonly string[]): string {
-  const shown = names.length > 3 ? names.slice(0, 2) : names;
-  return shown.join(", ") + (shown.length < names.length ? ` and ${names.length - shown.length} more` : "");
-}
