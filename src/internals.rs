@@ -116,6 +116,10 @@ pub mod prepare {
 pub mod page {
     pub use crate::page::{Studio, Tried, film, trace};
 }
+#[cfg(feature = "protocol")]
+pub mod protocol {
+    pub use crate::protocol::Server;
+}
 pub mod puppet {
     pub use crate::puppet::{MarkOrigin, Options, PaperPiece, PuppetError, Sheet, pieces, sheet};
 }

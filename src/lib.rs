@@ -131,6 +131,8 @@ mod performance;
 mod prepare;
 #[cfg(feature = "preview")]
 mod preview;
+#[cfg(feature = "protocol")]
+mod protocol;
 mod puppet;
 mod raster;
 mod regions;

@@ -164,7 +164,7 @@ features() {
   local feature packages
   OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --lib --profile test
   # `watch` is `disk` and one module, which comes with `preview`.
-  for feature in disk render tracking page preview lsp; do
+  for feature in disk render tracking page protocol preview lsp; do
     OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features "$feature"
   done
   # The versions of the libraries are those of the program.
@@ -217,6 +217,18 @@ app() {
   [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
   use_program
   OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests app -- app. worker. bytes. sharing. strings. welcome. lessons.
+}
+
+# The extension of VS Code for the Web, which has the module; in a real workbench if that is installed.
+web_extension() {
+  need npm
+  [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
+  use_program
+  export OKOSHI_MODULE=$(realpath "$target/module") OKOSHI=$(realpath "$okoshi")
+  with_web npm test --prefix editors/vscode -- web vsix
+  if [ $quick = no ] && { [ -n "${CODE_SERVER:-}" ] || [ -e "$target/workbench/code-server/done" ]; }; then
+    ONLY="in the browser" with_web npm run workbench --prefix editors/vscode
+  else echo "skipped: the workbench, which npm run workbench --prefix editors/vscode installs"; fi
 }
 
 # The same in Firefox.
@@ -444,6 +456,8 @@ packages() {
   for tool in python3 npm objdump strip dpkg-deb curl; do need $tool; done
   python3 -c 'import ensurepip' 2> /dev/null || install "Python's venv" python3-venv
   use_program
+  # With the package for VS Code for the Web, if there is a module.
+  [ ! -e "$target/module/okoshi_web.js" ] || export OKOSHI_MODULE=$(realpath "$target/module")
   OKOSHI=$(realpath "$okoshi") with_web python3 $tools/release.py "$target/packages"
 }
 
@@ -529,6 +543,8 @@ step site site
 step packages packages
 step app app
 end_aside
+# Not beside the other tests of the extension, which are built in the same folder.
+step web-extension web_extension
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"

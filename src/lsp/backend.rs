@@ -10,20 +10,22 @@ use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
 use tower_lsp::ls_types::*;
 use tower_lsp::{Client, LanguageServer};
 
-use super::convert::{self, PositionMap};
-use super::documents::{Analyzed, Document, Documents, Snapshot, file_path};
+use super::capabilities::pulls_diagnostics;
+use super::documents::{Documents, Snapshot, file_path, files_in};
 use super::links::Links;
+use super::manual;
 use super::ordered::{SNAPSHOTS, task_error};
-use super::positions::Encoding;
 use super::preview::Previews;
 use super::scheduler::Scheduler;
 use super::worker::ClientSupport;
 use super::workspace::Workspace;
-use super::{capabilities, edits, manual, queries};
-use crate::ide::{self, Analysis};
-
-/// The command behind the code lens.
-pub(super) const PREVIEW: &str = "okoshi.preview";
+use crate::disk::FolderResolver;
+use crate::ide;
+use crate::protocol::capabilities::initialize_result;
+use crate::protocol::convert::{self, PositionMap};
+use crate::protocol::document::{Analyzed, Document, View};
+use crate::protocol::positions::Encoding;
+use crate::protocol::{edits, queries};
 
 #[derive(Debug)]
 pub(super) struct Backend {
@@ -36,31 +38,6 @@ pub(super) struct Backend {
     pub(super) previews: Arc<Previews>,
     pub(super) client_capabilities: Mutex<ClientCapabilities>,
     pub(super) shut_down: Arc<std::sync::atomic::AtomicBool>,
-}
-
-/// A text and its analysis, which may be one of an earlier state.
-pub(super) struct View {
-    pub(super) document: Arc<Document>,
-    pub(super) analyzed: Arc<Analyzed>,
-}
-
-impl View {
-    pub(super) fn analysis(&self) -> &Analysis {
-        &self.analyzed.analysis
-    }
-
-    pub(super) fn map(&self) -> PositionMap<'_> {
-        if Arc::ptr_eq(&self.document, &self.analyzed.document) {
-            PositionMap::identity(&self.document.positions)
-        } else {
-            PositionMap::after_edit(&self.document.positions, self.analyzed.document.text())
-        }
-    }
-
-    /// Whether the analysis is of this very text, so that it can be edited.
-    pub(super) fn is_current(&self) -> bool {
-        Arc::ptr_eq(&self.document, &self.analyzed.document) && self.analysis().is_sound()
-    }
 }
 
 impl Backend {
@@ -105,12 +82,8 @@ impl Backend {
     /// The text with its analysis, or, if it is not well-formed, the last analysis that was. Nothing for drawings
     /// without strings.
     pub(super) async fn view(&self, uri: &Uri) -> Result<Option<View>> {
-        let Some((document, analyzed)) = self.analyzed(uri).await? else {
-            return Ok(None);
-        };
-        let analyzed = analyzed.last_sound.clone().unwrap_or(analyzed);
-        let view = View { document, analyzed };
-        Ok(Some(view).filter(|view| view.analysis().is_annotated()))
+        let analyzed = self.analyzed(uri).await?;
+        Ok(analyzed.and_then(|(_, analyzed)| View::of(analyzed)))
     }
 
     /// Answers a request about a position in a text.
@@ -161,7 +134,7 @@ impl LanguageServer for Backend {
         let folders = params.workspace_folders.as_deref();
         self.workspace
             .change(folders.map_or_else(root, folder_paths), &[]);
-        let answer = capabilities::initialize_result(&can, encoding);
+        let answer = initialize_result(encoding, true, pulls_diagnostics(&can));
         let known = self.client_capabilities.lock();
         *known.unwrap_or_else(PoisonError::into_inner) = can;
         super::exit_with_client(params.process_id);
@@ -237,7 +210,9 @@ impl LanguageServer for Backend {
         let item = can.and_then(|can| can.completion_item);
         let snippets = item.and_then(|can| can.snippet_support) == Some(true);
         Ok(analyzed.and_then(|(document, analyzed)| {
-            queries::completion(&document, analyzed.known(), place.position, snippets)
+            let files = || files_in(document.folder());
+            let known = analyzed.known();
+            queries::completion(&document, known, place.position, snippets, &files)
         }))
     }
 
@@ -264,7 +239,11 @@ impl LanguageServer for Backend {
         let links = can.and_then(|can| can.link_support) == Some(true);
         let place = &params.text_document_position_params;
         self.at(place, |view, map, offset| {
-            queries::definition(view, map, offset, links)
+            let file = |name: &str| {
+                let path = FolderResolver::new(view.document.folder()?).place(name);
+                Uri::from_file_path(path.ok()?)
+            };
+            queries::definition(view, map, offset, links, &file)
         })
         .await
     }

@@ -1,12 +1,9 @@
-//! The capabilities of client and server.
+//! The capabilities of the client.
 
 use std::sync::atomic::Ordering;
 
-use tower_lsp::ls_types::*;
+use tower_lsp::ls_types::ClientCapabilities;
 
-use super::backend::PREVIEW;
-use super::convert;
-use super::positions::Encoding;
 use super::worker::ClientSupport;
 
 impl ClientSupport {
@@ -29,102 +26,11 @@ impl ClientSupport {
 
 /// Whether the client can request diagnostics and be asked to repeat that: a linked file may change while the text
 /// does not.
-fn pulls_diagnostics(can: &ClientCapabilities) -> bool {
+pub(super) fn pulls_diagnostics(can: &ClientCapabilities) -> bool {
     let text = can.text_document.as_ref();
     let workspace = can.workspace.as_ref();
     let again = workspace
         .and_then(|workspace| workspace.diagnostics.as_ref())
         .and_then(|can| can.refresh_support);
     text.is_some_and(|text| text.diagnostic.is_some()) && again.unwrap_or(false)
-}
-
-/// The answer to `initialize`.
-pub(super) fn initialize_result(can: &ClientCapabilities, encoding: Encoding) -> InitializeResult {
-    let words = |words: &[&str]| Some(words.iter().map(|word| (*word).to_owned()).collect());
-    let capabilities = ServerCapabilities {
-        position_encoding: Some(encoding.kind()),
-        text_document_sync: Some(TextDocumentSyncCapability::Options(
-            TextDocumentSyncOptions {
-                open_close: Some(true),
-                change: Some(TextDocumentSyncKind::INCREMENTAL),
-                save: Some(TextDocumentSyncSaveOptions::Supported(true)),
-                ..TextDocumentSyncOptions::default()
-            },
-        )),
-        hover_provider: Some(HoverProviderCapability::Simple(true)),
-        completion_provider: Some(CompletionOptions {
-            resolve_provider: Some(true),
-            trigger_characters: words(&[
-                "@", "$", "%", " ", "\"", "(", "-", "#", "＠", "＄", "％", "　",
-            ]),
-            ..CompletionOptions::default()
-        }),
-        signature_help_provider: Some(SignatureHelpOptions {
-            trigger_characters: words(&[" "]),
-            retrigger_characters: words(&[" "]),
-            ..SignatureHelpOptions::default()
-        }),
-        definition_provider: Some(OneOf::Left(true)),
-        references_provider: Some(OneOf::Left(true)),
-        document_highlight_provider: Some(OneOf::Left(true)),
-        document_symbol_provider: Some(OneOf::Left(true)),
-        workspace_symbol_provider: Some(OneOf::Left(true)),
-        code_action_provider: Some(CodeActionProviderCapability::Options(CodeActionOptions {
-            code_action_kinds: Some(vec![
-                CodeActionKind::QUICKFIX,
-                CodeActionKind::REFACTOR_REWRITE,
-            ]),
-            ..CodeActionOptions::default()
-        })),
-        code_lens_provider: Some(CodeLensOptions {
-            resolve_provider: Some(false),
-        }),
-        document_formatting_provider: Some(OneOf::Left(true)),
-        document_range_formatting_provider: Some(OneOf::Left(true)),
-        rename_provider: Some(OneOf::Right(RenameOptions {
-            prepare_provider: Some(true),
-            work_done_progress_options: WorkDoneProgressOptions::default(),
-        })),
-        color_provider: Some(ColorProviderCapability::Simple(true)),
-        folding_range_provider: Some(FoldingRangeProviderCapability::Simple(true)),
-        selection_range_provider: Some(SelectionRangeProviderCapability::Simple(true)),
-        semantic_tokens_provider: Some(
-            SemanticTokensOptions {
-                legend: convert::legend(),
-                range: Some(true),
-                full: Some(SemanticTokensFullOptions::Bool(true)),
-                ..SemanticTokensOptions::default()
-            }
-            .into(),
-        ),
-        inlay_hint_provider: Some(OneOf::Left(true)),
-        diagnostic_provider: pulls_diagnostics(can).then(|| {
-            DiagnosticServerCapabilities::Options(DiagnosticOptions {
-                identifier: Some(convert::SOURCE.to_owned()),
-                inter_file_dependencies: false,
-                workspace_diagnostics: false,
-                ..DiagnosticOptions::default()
-            })
-        }),
-        execute_command_provider: Some(ExecuteCommandOptions {
-            commands: vec![PREVIEW.to_owned()],
-            ..ExecuteCommandOptions::default()
-        }),
-        workspace: Some(WorkspaceServerCapabilities {
-            workspace_folders: Some(WorkspaceFoldersServerCapabilities {
-                supported: Some(true),
-                change_notifications: Some(OneOf::Left(true)),
-            }),
-            ..WorkspaceServerCapabilities::default()
-        }),
-        ..ServerCapabilities::default()
-    };
-    InitializeResult {
-        capabilities,
-        server_info: Some(ServerInfo {
-            name: "okoshi".to_owned(),
-            version: Some(env!("CARGO_PKG_VERSION").to_owned()),
-        }),
-        ..InitializeResult::default()
-    }
 }

@@ -12,62 +12,11 @@ use tower_lsp::ls_types::{
     TextDocumentContentChangeEvent, TextDocumentItem, Uri, VersionedTextDocumentIdentifier,
 };
 
-use super::positions::{Encoding, Positions};
-use crate::disk::FolderResolver;
-use crate::ide::Analysis;
+use crate::disk::{FolderResolver, below};
+use crate::protocol::document::{Analyzed, Document};
+use crate::protocol::positions::{Encoding, Positions};
 use crate::resolver::{MemoryResolver, Resolver};
 use crate::source::Span;
-
-/// A state of a text.
-#[derive(Debug)]
-pub(super) struct Document {
-    /// Its address, as the client writes it.
-    pub(super) uri: Uri,
-    /// The client's version number.
-    pub(super) version: i32,
-    /// The server's own version number: it also grows when only a linked file has changed.
-    pub(super) generation: u64,
-    /// The text with its line index.
-    pub(super) positions: Positions,
-    /// Its file, if it has one.
-    pub(super) path: Option<PathBuf>,
-}
-
-impl Document {
-    pub(super) fn text(&self) -> &Arc<str> {
-        self.positions.text()
-    }
-
-    /// The folder that its links are relative to.
-    pub(super) fn folder(&self) -> Option<&Path> {
-        self.path.as_deref().and_then(Path::parent)
-    }
-
-    /// What reads its links; a text without a file has none.
-    pub(super) fn resolver(&self) -> Box<dyn Resolver> {
-        match self.folder() {
-            Some(folder) => Box::new(FolderResolver::new(folder)),
-            None => Box::new(MemoryResolver::default()),
-        }
-    }
-}
-
-/// A state of a text with its analysis.
-#[derive(Debug)]
-pub(super) struct Analyzed {
-    pub(super) document: Arc<Document>,
-    pub(super) analysis: Analysis,
-    /// The last analysis of well-formed XML, if this is none.
-    pub(super) last_sound: Option<Arc<Analyzed>>,
-}
-
-/// Receives the analyses of a text.
-impl Analyzed {
-    /// What is known of the drawing: the last analysis that was sound, if this one is not.
-    pub(super) fn known(&self) -> &Self {
-        self.last_sound.as_deref().unwrap_or(self)
-    }
-}
 
 pub(super) type AnalysisReceiver = watch::Receiver<Option<Arc<Analyzed>>>;
 
@@ -231,10 +180,32 @@ impl Documents {
     }
 }
 
+/// What reads the links of a text; one without a file has none.
+pub(super) fn resolver(document: &Document) -> Box<dyn Resolver> {
+    match document.folder() {
+        Some(folder) => Box::new(FolderResolver::new(folder)),
+        None => Box::new(MemoryResolver::default()),
+    }
+}
+
 /// The path of a `file:` address.
 pub(super) fn file_path(uri: &Uri) -> Option<PathBuf> {
     let is_file = uri.scheme().as_str().eq_ignore_ascii_case("file");
     is_file.then(|| uri.to_file_path().map(|path| path.into_owned()))?
+}
+
+/// The files that a drawing in a folder can link to, as it names them.
+pub(super) fn files_in(folder: Option<&Path>) -> Vec<String> {
+    let Some(folder) = folder else {
+        return vec![];
+    };
+    let files = below(folder).files.into_iter();
+    let names = files.filter_map(|file| {
+        let parts = file.strip_prefix(folder).ok()?.components();
+        let parts: Option<Vec<_>> = parts.map(|part| part.as_os_str().to_str()).collect();
+        Some(parts?.join("/"))
+    });
+    names.collect()
 }
 
 fn replaced(text: &str, span: Span, new: &str) -> Arc<str> {

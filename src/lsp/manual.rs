@@ -1,6 +1,5 @@
 //! The manual of diagnostics as a file, so that an editor's links at codes work offline.
 
-use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use tower_lsp::ls_types::Uri;
@@ -8,9 +7,7 @@ use tower_lsp::ls_types::Uri;
 use crate::diagnostic::Code;
 use crate::disk::write_cached;
 use crate::lang::reference;
-
-/// Where each code is explained.
-pub(super) type Pages = BTreeMap<Code, Uri>;
+use crate::protocol::document::Pages;
 
 /// The file with the line of each code, written on first use. Empty if it cannot be written.
 static PAGES: LazyLock<Pages> = LazyLock::new(|| pages().unwrap_or_default());

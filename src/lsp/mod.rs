@@ -1,14 +1,14 @@
 //! The language server: the strings of drawings, understood in any editor that speaks the protocol.
 //!
 //! ```text
-//!  stdin ─► messages ─► Ordered ─► Backend ─► ide          (requests, answered from the state when they came)
+//!  stdin ─► messages ─► Ordered ─► Backend ─► protocol ─► ide          (requests, answered from the state when they came)
 //!                          │                   ▲
 //!                          └► Documents ─► Scheduler ─► Worker ─► diagnostics     (one thread, the newest state of each text)
 //!                                              ▲
 //!                                    Links ────┘           (linked files that change)
 //! ```
 //!
-//! Only this module names the protocol's types; what is said about drawings comes from [`crate::ide`]. The framework is
+//! Answers to requests are those of [`crate::protocol`], which come from [`crate::ide`]. The framework is
 //! tower-lsp, in its maintained continuation `tower-lsp-server` under the old name: the original has had no release
 //! since 2023 and depends on an unmaintained crate of types. What it leaves open, the order of changes and panics of handlers, is
 //! handled by the service in `ordered`; messages that it cannot decode, by `messages`.
@@ -16,17 +16,14 @@
 mod backend;
 mod capabilities;
 mod changes;
-mod convert;
 mod documents;
 mod edits;
 mod links;
 mod manual;
 mod messages;
 mod ordered;
-mod positions;
 mod preview;
 mod progress;
-mod queries;
 mod scheduler;
 #[cfg(test)]
 mod tests;

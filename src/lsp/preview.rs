@@ -16,13 +16,14 @@ use tower_lsp::ls_types::notification::Notification;
 use tower_lsp::ls_types::*;
 
 use super::backend::Backend;
-use super::documents::{Analyzed, Documents};
+use super::documents::Documents;
 use crate::compile::Compiled;
 use crate::crash;
-use crate::export::{self, GLB};
 use crate::memo::Memo;
-use crate::page::{Builds, Hub, Picked, Shown, Times, editing_in_client};
+use crate::page::{Builds, Hub, Picked, editing_in_client};
 use crate::preview::{PORT, bind, serve};
+use crate::protocol::document::Analyzed;
+use crate::protocol::news::Showing;
 use crate::source::Span;
 
 /// The texts that are previewed, and the connections to panel and page.
@@ -184,40 +185,20 @@ impl Previews {
     }
 
     fn publish(&self, uri: &str, analyzed: &Analyzed, compiled: &Compiled, memory: &mut Memo) {
-        let begun = SystemTime::now();
-        // At first the page shows what can be built of a drawing with errors. Later on, most errors are half typed words, and
-        // the last good model stays.
-        let empty = compiled.scene.nodes.is_empty();
-        let keep = compiled.has_errors() && (empty || self.hub.was_good(uri));
-        let model = if keep {
-            None
-        } else {
-            match export::to_memory(&GLB, &compiled.scene, Some(memory)) {
-                Ok(model) => Some((model.bytes.into(), model.written)),
-                Err(_) if compiled.has_errors() => None,
-                Err(error) => {
-                    return self.publish(uri, analyzed, &Compiled::unwritten(&error), memory);
-                }
-            }
-        };
-        let path = analyzed.document.path.as_deref();
+        let document = &analyzed.document;
+        let path = document.path.as_deref();
         let name = path.and_then(|path| path.file_name());
         let name = name.map_or("untitled".into(), |name| name.to_string_lossy());
-        let shown = Shown {
-            text: analyzed.document.text(),
+        let showing = Showing {
+            hub: &self.hub,
+            document,
+            name: &name,
             compiled,
-            model: model.as_ref().map(|(bytes, written)| (bytes, *written)),
-            times: Times {
-                noticed: begun,
-                started: begun,
-                finished: SystemTime::now(),
-                pushed: SystemTime::now(),
-            },
+            clock: &SystemTime::now,
+            // The text may have been closed meanwhile.
+            is_open: &|| self.queue().open.contains_key(uri),
         };
-        // The text may have been closed meanwhile.
-        if self.queue().open.contains_key(uri) {
-            self.hub.publish(uri, ["", &name], &shown);
-        }
+        showing.publish(memory);
     }
 
     /// Sends the client's panels all events, until the client disconnects.

@@ -7,7 +7,7 @@ use tokio::sync::oneshot;
 use tower_lsp::Client;
 use tower_lsp::ls_types::ProgressToken;
 
-use super::documents::Document;
+use crate::protocol::document::Document;
 
 /// Shown only after this time, so that it does not flicker.
 const SHOW_AFTER: Duration = Duration::from_millis(500);

@@ -7,7 +7,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 use tower_lsp::ls_types::Uri;
 
-use super::documents::{Analyzed, Document, Documents};
+use super::documents::Documents;
+use crate::protocol::document::{Analyzed, Document};
 
 /// When texts are analysed without a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

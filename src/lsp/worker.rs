@@ -14,14 +14,16 @@ use tokio::runtime::Handle;
 use tower_lsp::Client;
 use tower_lsp::ls_types::{Diagnostic, Uri};
 
-use super::documents::{Analyzed, Document, Documents};
+use super::documents::{Documents, resolver};
 use super::preview::Previews;
 use super::scheduler::{Scheduler, Task};
-use super::{convert, links::Links, manual, progress};
+use super::{links::Links, manual, progress};
 use crate::compile::{Compiled, Compiler, Options};
 use crate::crash::{self, Crash};
 use crate::disk::FolderResolver;
 use crate::ide::Analysis;
+use crate::protocol::convert;
+use crate::protocol::document::{Analyzed, Document};
 use crate::threads;
 
 /// How long after a text was closed the allocator is used, and how many bytes it is asked for: enough to go beyond what
@@ -145,14 +147,15 @@ impl Worker {
         let shows_progress = self.client_support.progress.load(Ordering::Relaxed);
         let progress =
             shows_progress.then(|| progress::begin(&self.client, &self.runtime, &document));
-        let resolver = document.resolver();
+        let resolver = resolver(&document);
         let compiler = self.compilers.entry(uri.clone()).or_default();
         let compiled = compiler.compile(document.text(), &Options::default(), resolver.as_ref());
         self.links.watch(&uri, linked_files(&document, &compiled));
         let only_links_changed = last
             .as_ref()
             .is_some_and(|last| last.document.version == document.version);
-        let analyzed = new_analyzed(document, compiled, last);
+        let analysis = Analysis::new(document.text().clone(), compiled);
+        let analyzed = Analyzed::new(document, analysis, last);
         drop(progress);
         let arrived = self.documents.publish(analyzed.clone());
         arrived.then_some((analyzed, only_links_changed))
@@ -164,30 +167,13 @@ impl Worker {
         self.compilers.remove(uri);
         if let Some(document) = self.documents.current(uri) {
             let last = self.documents.last(uri);
-            let analyzed = new_analyzed(document, Compiled::crashed(crash), last);
+            let analysis = Analysis::new(document.text().clone(), Compiled::crashed(crash));
+            let analyzed = Analyzed::new(document, analysis, last);
             if self.documents.publish(analyzed.clone()) {
                 self.publish_diagnostics(&analyzed, false);
             }
         }
     }
-}
-
-fn new_analyzed(
-    document: Arc<Document>,
-    compiled: Compiled,
-    last: Option<Arc<Analyzed>>,
-) -> Arc<Analyzed> {
-    let analysis = Analysis::new(document.text().clone(), compiled);
-    let last_sound = match (analysis.is_sound(), last) {
-        (false, Some(last)) if last.analysis.is_sound() => Some(last),
-        (false, Some(last)) => last.last_sound.clone(),
-        _ => None,
-    };
-    Arc::new(Analyzed {
-        document,
-        analysis,
-        last_sound,
-    })
 }
 
 /// The files that a drawing links to, also those that do not exist yet.

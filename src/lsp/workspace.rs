@@ -7,12 +7,12 @@ use std::time::SystemTime;
 
 use tower_lsp::ls_types::{Location, OneOf, Range, Uri, WorkspaceSymbol};
 
-use super::convert;
 use super::documents::Snapshot;
-use super::positions::{Encoding, Positions};
 use crate::compile::{Options, compile};
 use crate::disk::{FolderResolver, below, decode, is_drawing, read_drawing, stamp};
 use crate::ide::{Analysis, Outline, has_letters};
+use crate::protocol::convert;
+use crate::protocol::positions::{Encoding, Positions};
 
 /// The most symbols in an answer; a longer query finds the rest.
 const MAX_SYMBOLS: usize = 500;

@@ -212,6 +212,11 @@ def vscode(path, program):
     run("node", ROOT / "editors/vscode/scripts/package.mjs", path, program.path, cwd=ROOT)
 
 
+def vscode_web(path, module):
+    """The extension for VS Code for the Web, with the module inside."""
+    run("node", ROOT / "editors/vscode/scripts/package.mjs", path, "--web", module, cwd=ROOT)
+
+
 def extension_tried(package, program, room):
     """The program that the extension brings runs where it is unpacked."""
     with zipfile.ZipFile(package) as archive:
@@ -272,6 +277,8 @@ def main():
         npm(packages[-1], program)
         extension = out / f"okoshi-{'-'.join(node_platform())}-{version}.vsix"
         vscode(extension, program)
+        if module := os.environ.get("OKOSHI_MODULE"):
+            vscode_web(out / f"okoshi-web-{version}.vsix", Path(module).resolve())
         inkscape(out / f"okoshi-inkscape-{version}.zip")
         bill(out / f"okoshi-{version}.cdx.json", about["packages"], version)
 

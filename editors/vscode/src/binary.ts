@@ -1,9 +1,7 @@
 // Finds the program. Independent of the editor; touches the disk only through its arguments.
 
 import { posix, win32 } from "node:path";
-
-/** The program, if no other is set. */
-export const DEFAULT = "okoshi";
+import { DEFAULT } from "./settings";
 
 /** Where the extension runs. */
 export interface Environment {

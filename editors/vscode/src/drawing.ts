@@ -1,18 +1,21 @@
 // Which documents are drawings, and whether one has strings. Independent of the editor.
 
-/** The documents for the language server: `*.svg` files in XML or SVG, and untitled XML or SVG. */
-export const selector = [
-  { scheme: "file", language: "xml", pattern: "**/*.svg" },
-  { scheme: "file", language: "svg", pattern: "**/*.svg" },
-  { scheme: "untitled", language: "xml" },
-  { scheme: "untitled", language: "svg" },
-];
+const LANGUAGES = ["xml", "svg"];
+
+/** The documents for the language server: `*.svg` files of these schemes in XML or SVG, and untitled XML or SVG. */
+export function selector(schemes: readonly string[]): { scheme: string; language: string; pattern?: string }[] {
+  const files = schemes.flatMap((scheme) => LANGUAGES.map((language) => ({ scheme, language, pattern: "**/*.svg" })));
+  return [...files, ...LANGUAGES.map((language) => ({ scheme: "untitled", language }))];
+}
 
 /** `selector` as a function of a document's language, and its URI's scheme and path. */
-export function isDrawing(language: string, scheme: string, path: string): boolean {
-  if (language !== "xml" && language !== "svg") return false;
-  return scheme === "untitled" || (scheme === "file" && path.endsWith(".svg"));
+export function isDrawing(schemes: readonly string[], language: string, scheme: string, path: string): boolean {
+  if (!LANGUAGES.includes(language)) return false;
+  return scheme === "untitled" || (schemes.includes(scheme) && path.endsWith(".svg"));
 }
+
+/** The name of a file by the path of its URI. */
+export const nameOf = (path: string): string => path.slice(path.lastIndexOf("/") + 1);
 
 const annotated = /<(?:[\w-]+:)?(?:text|tspan|desc)\b[^<>]*>\s*(?:[%$*@％＄＊＠]|(?:"[^"<]*"|[^\s@$＠＄"()<>]+)[@$＠＄])/u;
 

@@ -1,32 +1,15 @@
-// The entry points of the extension.
+// The entry points of the extension where there is a program.
 
-import * as vscode from "vscode";
-import { register } from "./commands";
-import { Formatting } from "./formatting";
-import { Previews } from "./preview/panels";
-import { isDrawingDocument, Server } from "./server";
-import { Status } from "./status";
+import type * as vscode from "vscode";
+import { Installed } from "./installed";
+import { ofProgram } from "./program-commands";
+import type { Server } from "./server";
+import { start } from "./start";
 
 let server: Server | undefined;
 
 export function activate(context: vscode.ExtensionContext): void {
-  const output = vscode.window.createOutputChannel("Okoshi", { log: true });
-  server = new Server(context.extensionUri, output);
-  const started = server;
-  const previews = new Previews(context.extensionUri, started, output);
-  context.subscriptions.push(
-    output,
-    started,
-    new Status(started),
-    new Formatting(started),
-    previews,
-    vscode.workspace.onDidChangeConfiguration((event) => started.settingsChanged(event)),
-    vscode.workspace.onDidOpenTextDocument((document) => {
-      if (isDrawingDocument(document)) void started.start();
-    }),
-  );
-  register(context, started, previews, output);
-  void started.start();
+  server = start(context, (output) => new Installed(context.extensionUri, output), ofProgram);
 }
 
 export async function deactivate(): Promise<void> {

@@ -1,9 +1,9 @@
 // Formatting, offered for annotated drawings only: for other SVG files the editor would ask which of several formatters it should use.
 
 import * as vscode from "vscode";
-import { DocumentFormattingRequest, DocumentRangeFormattingRequest, type TextEdit } from "vscode-languageclient/node";
+import { DocumentFormattingRequest, DocumentRangeFormattingRequest, type TextEdit } from "vscode-languageclient";
 import { hasStrings } from "./drawing";
-import { isDrawingDocument, type Server } from "./server";
+import type { Server } from "./server";
 
 /** How long after the last change a text is searched for strings, in milliseconds. */
 const SETTLE_PAUSE = 300;
@@ -11,7 +11,7 @@ const SETTLE_PAUSE = 300;
 /** Registers a formatter for each open drawing while it has strings and the server runs. */
 export class Formatting implements vscode.Disposable {
   private readonly offered = new Map<string, vscode.Disposable>();
-  private readonly timers = new Map<string, NodeJS.Timeout>();
+  private readonly timers = new Map<string, ReturnType<typeof setTimeout>>();
   private readonly disposables: vscode.Disposable[];
 
   constructor(private readonly server: Server) {
@@ -34,7 +34,7 @@ export class Formatting implements vscode.Disposable {
   }
 
   private soon(document: vscode.TextDocument): void {
-    if (!isDrawingDocument(document)) return;
+    if (!this.server.handles(document)) return;
     const key = document.uri.toString();
     clearTimeout(this.timers.get(key));
     this.timers.set(key, setTimeout(() => this.update(document), SETTLE_PAUSE));
@@ -42,7 +42,7 @@ export class Formatting implements vscode.Disposable {
 
   private update(document: vscode.TextDocument): void {
     const key = document.uri.toString();
-    const wanted = this.server.running !== undefined && !document.isClosed && isDrawingDocument(document) && hasStrings(document.getText());
+    const wanted = this.server.running !== undefined && !document.isClosed && this.server.handles(document) && hasStrings(document.getText());
     if (!wanted) this.withdraw(key);
     else if (!this.offered.has(key)) this.offered.set(key, this.offer(document.uri));
   }

@@ -1,22 +1,18 @@
-// The language server: finds, starts, stops and restarts it.
+// The language server: finds, starts, stops and restarts it, wherever it comes from.
 
-import { execFile } from "node:child_process";
-import { access, constants, stat } from "node:fs/promises";
-import { homedir } from "node:os";
-import { promisify } from "node:util";
 import * as vscode from "vscode";
 import {
   CloseAction,
   DidChangeConfigurationNotification,
   ErrorAction,
-  LanguageClient,
   RevealOutputChannelOn,
   State as ClientState,
+  type BaseLanguageClient,
   type CloseHandlerResult,
   type ErrorHandler,
+  type LanguageClientOptions,
   type StaticFeature,
-} from "vscode-languageclient/node";
-import { candidates, firstExecutable, parseVersion } from "./binary";
+} from "vscode-languageclient";
 import { hasStrings, isDrawing, selector } from "./drawing";
 import { PREVIEW_NOTIFICATION, readNotification, type Message } from "./preview/messages";
 import { configuration, initializationOptions, settingsFrom, type Settings } from "./settings";
@@ -27,8 +23,6 @@ import { TraceChannel } from "./trace";
 const MAX_CRASHES = 4;
 /** In milliseconds. */
 const CRASH_WINDOW = 180_000;
-/** How long a program may take to report its version, in milliseconds. */
-const VERSION_TIMEOUT = 10_000;
 
 /** The current settings. */
 export function settings(): Settings {
@@ -36,9 +30,16 @@ export function settings(): Settings {
   return settingsFrom((name) => section.get(name));
 }
 
-/** Whether a document is a drawing, which the server handles. */
-export function isDrawingDocument(document: vscode.TextDocument): boolean {
-  return isDrawing(document.languageId, document.uri.scheme, document.uri.path);
+/** What a language server is started from. */
+export interface Program {
+  /** The schemes of the files that it can read. */
+  readonly schemes: readonly string[];
+  /** Looks for it. Undefined if there is none, which is logged. */
+  find(): Promise<string | undefined>;
+  /** Its version; undefined if what was found is not okoshi. */
+  version(found: string): Promise<string | undefined>;
+  /** A client that starts what was found. */
+  client(found: string, options: LanguageClientOptions): BaseLanguageClient;
 }
 
 /** Messages for the page that shows a drawing. */
@@ -52,7 +53,7 @@ export class Server implements vscode.Disposable {
   private readonly changes = new vscode.EventEmitter<void>();
   private readonly previewMessages = new vscode.EventEmitter<PreviewMessages>();
   private readonly tracing: TraceChannel;
-  private client: LanguageClient | undefined;
+  private client: BaseLanguageClient | undefined;
   private found: string | undefined;
   private reportedMissing = false;
   private crashes: number[] = [];
@@ -65,9 +66,18 @@ export class Server implements vscode.Disposable {
   /** Fires when the server has messages for a drawing's page. */
   readonly onPreviewMessages = this.previewMessages.event;
 
-  /** `extension`: the folder of the extension. */
-  constructor(private readonly extension: vscode.Uri, private readonly output: vscode.LogOutputChannel) {
+  constructor(private readonly from: Program, private readonly output: vscode.LogOutputChannel) {
     this.tracing = new TraceChannel(output, settings().traced);
+  }
+
+  /** The documents that the server handles. */
+  get selector(): ReturnType<typeof selector> {
+    return selector(this.from.schemes);
+  }
+
+  /** Whether a document is a drawing, which the server handles. */
+  handles(document: vscode.TextDocument): boolean {
+    return isDrawing(this.from.schemes, document.languageId, document.uri.scheme, document.uri.path);
   }
 
   get state(): State {
@@ -80,7 +90,7 @@ export class Server implements vscode.Disposable {
   }
 
   /** The running client. */
-  get running(): LanguageClient | undefined {
+  get running(): BaseLanguageClient | undefined {
     return this.client?.isRunning() ? this.client : undefined;
   }
 
@@ -93,7 +103,7 @@ export class Server implements vscode.Disposable {
   start(): Promise<void> {
     return this.enqueue(async () => {
       // A failure was reported already; only an explicit restart tries again.
-      if (this.client || this.now.kind === "failed" || !vscode.workspace.textDocuments.some(isDrawingDocument)) return;
+      if (this.client || this.now.kind === "failed" || !vscode.workspace.textDocuments.some((document) => this.handles(document))) return;
       await this.startNow();
     });
   }
@@ -120,19 +130,8 @@ export class Server implements vscode.Disposable {
 
   /** Finds the program; reports it if there is none. */
   async find(): Promise<string | undefined> {
-    const { path } = settings();
-    const places = candidates(path, {
-      platform: process.platform,
-      env: process.env,
-      home: homedir(),
-      folder: vscode.workspace.workspaceFolders?.find(({ uri }) => uri.scheme === "file")?.uri.fsPath,
-      extension: this.extension.fsPath,
-    });
-    this.found = await firstExecutable(places, canRun);
-    if (this.found === undefined) {
-      this.setState({ kind: "missing", path });
-      this.output.warn(`The program ${path} was not found. Looked at: ${places.join(", ") || "nowhere"}`);
-    }
+    this.found = await this.from.find();
+    if (this.found === undefined) this.setState({ kind: "missing", path: settings().path });
     return this.found;
   }
 
@@ -178,28 +177,22 @@ export class Server implements vscode.Disposable {
       return;
     }
     this.setState({ kind: "starting" });
-    const version = await askVersion(command);
+    const version = await this.from.version(command);
     if (version === undefined) {
       this.fail(`${command} is not okoshi: it does not report a version.`);
       return;
     }
-    this.output.info(`Starting ${command} lsp (okoshi ${version})`);
-    const client: LanguageClient = new LanguageClient(
-      "okoshi",
-      "Okoshi",
-      // Without `transport`, which would add the argument `--stdio`.
-      { command, args: ["lsp"] },
-      {
-        documentSelector: selector,
-        outputChannel: this.output,
-        traceOutputChannel: this.tracing,
-        revealOutputChannelOn: RevealOutputChannelOn.Never,
-        initializationOptions: initializationOptions(settings()),
-        initializationFailedHandler: () => false,
-        errorHandler: this.errorHandler(() => client),
-        markdown: { isTrusted: false, supportHtml: false },
-      },
-    );
+    this.output.info(`Starting ${command} (okoshi ${version})`);
+    const client: BaseLanguageClient = this.from.client(command, {
+      documentSelector: this.selector,
+      outputChannel: this.output,
+      traceOutputChannel: this.tracing,
+      revealOutputChannelOn: RevealOutputChannelOn.Never,
+      initializationOptions: initializationOptions(settings()),
+      initializationFailedHandler: () => false,
+      errorHandler: this.errorHandler(() => client),
+      markdown: { isTrusted: false, supportHtml: false },
+    });
     client.registerFeature(pushOnly);
     client.registerFeature(ownPreview);
     client.registerFeature(ownFormatting);
@@ -220,12 +213,12 @@ export class Server implements vscode.Disposable {
       await client.start();
     } catch (error) {
       // The library has shown a message already.
-      this.setState({ kind: "failed", why: `${command} lsp did not start` });
+      this.setState({ kind: "failed", why: `${command} did not start` });
       this.output.error(String(error));
     }
   }
 
-  private errorHandler(client: () => LanguageClient): ErrorHandler {
+  private errorHandler(client: () => BaseLanguageClient): ErrorHandler {
     return {
       error: () => ({ action: ErrorAction.Continue, handled: true }),
       closed: (): CloseHandlerResult => {
@@ -250,7 +243,7 @@ export class Server implements vscode.Disposable {
   }
 
   private reportMissing(): void {
-    const strings = vscode.workspace.textDocuments.some((document) => isDrawingDocument(document) && hasStrings(document.getText()));
+    const strings = vscode.workspace.textDocuments.some((document) => this.handles(document) && hasStrings(document.getText()));
     if (this.reportedMissing || !strings) return;
     this.reportedMissing = true;
     const { path } = settings();
@@ -311,23 +304,4 @@ async function choose(show: Show, message: string, buttons: Readonly<Record<stri
   await (command === "workbench.action.openSettings"
     ? vscode.commands.executeCommand(command, "okoshi.path")
     : vscode.commands.executeCommand(command));
-}
-
-async function canRun(path: string): Promise<boolean> {
-  try {
-    if (!(await stat(path)).isFile()) return false;
-    await access(path, constants.X_OK);
-    return true;
-  } catch {
-    return false;
-  }
-}
-
-async function askVersion(command: string): Promise<string | undefined> {
-  try {
-    const { stdout } = await promisify(execFile)(command, ["--version"], { timeout: VERSION_TIMEOUT, windowsHide: true });
-    return parseVersion(stdout);
-  } catch {
-    return undefined;
-  }
 }

@@ -1,6 +1,7 @@
 // Validates the settings, because settings.json may contain anything. Independent of the editor.
 
-import { DEFAULT } from "./binary";
+/** The program, if no other is set. */
+export const DEFAULT = "okoshi";
 
 /** When the server checks drawings. */
 export type Analyse = "onType" | "onSave";

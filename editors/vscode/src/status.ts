@@ -1,21 +1,22 @@
 // The status item of drawings, and the context keys for menus and the walkthrough.
 
 import * as vscode from "vscode";
-import { DocumentSymbolRequest } from "vscode-languageclient/node";
-import { countOutline, selector, type Outline } from "./drawing";
-import { isDrawingDocument, type Server } from "./server";
+import { DocumentSymbolRequest } from "vscode-languageclient";
+import { countOutline, type Outline } from "./drawing";
+import type { Server } from "./server";
 import { words, type Facts } from "./status-text";
 
 /** How long after the last change the parts of a drawing are counted, in milliseconds. */
 const SETTLE_PAUSE = 400;
 
 export class Status implements vscode.Disposable {
-  private readonly item = vscode.languages.createLanguageStatusItem("okoshi.status", selector);
+  private readonly item: vscode.LanguageStatusItem;
   private readonly disposables: vscode.Disposable[];
-  private timer: NodeJS.Timeout | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined;
   private facts: Facts | undefined;
 
   constructor(private readonly server: Server) {
+    this.item = vscode.languages.createLanguageStatusItem("okoshi.status", server.selector);
     this.item.name = "Okoshi";
     this.disposables = [
       this.item,
@@ -47,7 +48,7 @@ export class Status implements vscode.Disposable {
     const document = vscode.window.activeTextEditor?.document;
     const client = this.server.running;
     this.facts = undefined;
-    if (document && client && isDrawingDocument(document)) {
+    if (document && client && this.server.handles(document)) {
       const found = vscode.languages.getDiagnostics(document.uri).filter(({ source }) => source === "okoshi");
       const of = (severity: vscode.DiagnosticSeverity) => found.filter((one) => one.severity === severity).length;
       let outline: readonly Outline[] = [];
@@ -84,7 +85,7 @@ export class Status implements vscode.Disposable {
     const document = vscode.window.activeTextEditor?.document;
     const set = (name: string, value: boolean) => void vscode.commands.executeCommand("setContext", `okoshi.${name}`, value);
     set("running", this.server.state.kind === "running");
-    set("isDrawing", document !== undefined && isDrawingDocument(document));
+    set("isDrawing", document !== undefined && this.server.handles(document));
     set("hasParts", (this.facts?.parts ?? 0) > 0);
   }
 }

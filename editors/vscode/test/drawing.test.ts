@@ -6,20 +6,23 @@ import { countOutline, hasStrings, isDrawing, selector, type Outline } from "../
 import { drawings, repository } from "./paths";
 
 test("drawings are SVG files of either language, and untitled ones", () => {
-  assert.ok(isDrawing("xml", "file", "/a/b.svg"));
-  assert.ok(isDrawing("svg", "file", "/a/b.svg"));
-  assert.ok(isDrawing("xml", "untitled", "Untitled-1"));
-  assert.ok(!isDrawing("xml", "file", "/a/pom.xml"));
-  assert.ok(!isDrawing("plaintext", "untitled", "Untitled-1"));
-  assert.ok(!isDrawing("html", "file", "/a/b.svg"));
-  assert.ok(!isDrawing("xml", "git", "/a/b.svg"));
+  assert.ok(isDrawing(["file"], "xml", "file", "/a/b.svg"));
+  assert.ok(isDrawing(["file"], "svg", "file", "/a/b.svg"));
+  assert.ok(isDrawing(["file"], "xml", "untitled", "Untitled-1"));
+  assert.ok(isDrawing(["file", "vscode-vfs"], "xml", "vscode-vfs", "/a/b.svg"));
+  assert.ok(!isDrawing(["file"], "xml", "file", "/a/pom.xml"));
+  assert.ok(!isDrawing(["file"], "plaintext", "untitled", "Untitled-1"));
+  assert.ok(!isDrawing(["file"], "html", "file", "/a/b.svg"));
+  assert.ok(!isDrawing(["file"], "xml", "git", "/a/b.svg"));
 });
 
 test("the selector says the same", () => {
-  assert.deepEqual([...new Set(selector.map(({ language }) => language))].sort(), ["svg", "xml"]);
-  for (const { scheme, language, pattern } of selector) {
-    assert.ok(isDrawing(language, scheme, scheme === "file" ? "/x.svg" : "x"));
-    assert.equal(pattern, scheme === "file" ? "**/*.svg" : undefined);
+  const schemes = ["file", "vscode-vfs"];
+  const all = selector(schemes);
+  assert.deepEqual([...new Set(all.map(({ scheme, language }) => `${scheme} ${language}`))].sort(), ["file svg", "file xml", "untitled svg", "untitled xml", "vscode-vfs svg", "vscode-vfs xml"]);
+  for (const { scheme, language, pattern } of all) {
+    assert.ok(isDrawing(schemes, language, scheme, scheme === "untitled" ? "x" : "/x.svg"));
+    assert.equal(pattern, scheme === "untitled" ? undefined : "**/*.svg");
   }
 });
 

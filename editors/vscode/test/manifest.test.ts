@@ -5,7 +5,7 @@ import { test } from "node:test";
 import manifest from "../package.json";
 import snippets from "../snippets/okoshi.json";
 
-const sources = ["commands", "extension", "server", "status"].map((name) => readFileSync(`src/${name}.ts`, "utf8")).join("\n");
+const sources = ["commands", "program-commands", "server", "status"].map((name) => readFileSync(`src/${name}.ts`, "utf8")).join("\n");
 const commands = manifest.contributes.commands.map(({ command }) => command);
 
 test("every command is registered, and every registered one is listed", () => {

@@ -94,6 +94,51 @@ test("it names both licences and those of what it bundles", async () => {
   assert.match(await text("dist/NOTICES.txt"), /vscode-languageclient \d/);
 });
 
+const withModule = { skip: process.env["OKOSHI_MODULE"] ? false : "OKOSHI_MODULE names no folder of a module" };
+/** Bytes. */
+const LARGEST_WEB = 5_000_000;
+
+test("without a module it does not say that it works in browsers", async () => {
+  const packaged = JSON.parse((await entries).get("extension/package.json")?.toString("utf8") ?? "{}") as object;
+  assert.ok(!("browser" in packaged) && "main" in packaged);
+  assert.ok(![...(await entries).keys()].some((name) => name.includes("dist/web") || name.endsWith(".wasm")));
+});
+
+test("a package for the web brings the module, and nothing that needs a program", withModule, async () => {
+  const files = await read("okoshi-web.vsix");
+  const own = [...files.keys()].filter((name) => name.startsWith("extension/dist/"));
+  assert.deepEqual(own.filter((name) => !/\/(page|syntaxes)\//.test(name)).sort(), [
+    "extension/dist/NOTICES.txt",
+    ...["module-licences.txt"].map((name) => `extension/dist/${name}`).filter((name) => files.has(name)),
+    "extension/dist/web/extension.js",
+    "extension/dist/web/okoshi_web_bg.wasm",
+    "extension/dist/web/server.js",
+  ]);
+  for (const name of (await entries).keys()) {
+    if (/^extension\/(dist\/(page|syntaxes)|walkthrough|snippets|icon)/.test(name)) assert.ok(files.get(name)?.equals((await entries).get(name) ?? Buffer.alloc(0)), name);
+  }
+  assert.match(files.get("extension.vsixmanifest")?.toString("utf8") ?? "", /TargetPlatform="web"/);
+  const text = files.get("extension/package.json")?.toString("utf8") ?? "{}";
+  const web = JSON.parse(text) as typeof manifest & { readonly browser: string };
+  assert.equal(web.browser, "./dist/web/extension.js");
+  for (const name of ["main", "extensionKind", "devDependencies"]) assert.ok(!Object.hasOwn(web, name), name);
+  assert.equal(web.version, manifest.version);
+  assert.equal(web.capabilities.virtualWorkspaces, true);
+  assert.deepEqual(Object.keys(web.contributes.configuration.properties), ["okoshi.analyse", "okoshi.trace.server"]);
+  assert.deepEqual(web.contributes.commands.map(({ command }) => command), ["okoshi.preview", "okoshi.restart", "okoshi.showOutput", "okoshi.openWalkthrough"]);
+  assert.deepEqual(web.contributes.walkthroughs[0]?.steps.map(({ id }) => id), ["string", "check", "preview"]);
+  for (const name of ["okoshi.path", "okoshi.build", "okoshi.newDrawing"]) assert.ok(!text.includes(name), name);
+  const { size } = statSync("okoshi-web.vsix");
+  assert.ok(size < LARGEST_WEB, `${size} bytes`);
+});
+
+test("what runs in browsers needs nothing but the editor", withModule, async () => {
+  const files = await read("okoshi-web.vsix");
+  const needed = (name: string) => [...(files.get(`extension/dist/web/${name}`)?.toString("utf8") ?? "").matchAll(/\b(?:require|import)\("([^"]+)"\)/g)].map((match) => match[1]);
+  assert.deepEqual([...new Set(needed("extension.js"))], ["vscode"]);
+  assert.deepEqual(needed("server.js"), []);
+});
+
 test("a package for one system brings the program, which the extension finds first", { skip: process.platform === "win32" ? "the stand-in is a shell script" : false }, async () => {
   const modes = new Map<string, number>();
   const files = await read("okoshi-with-program.vsix", modes);

@@ -2,6 +2,7 @@
 //
 // Packages the extension, installs it into code-server, opens drawings in Chromium and works like a user, checking what is visible
 // after each step. Screenshots of all steps go to target/workbench/shots; OKOSHI_REWRITE=pictures also replaces those of docs/editors.
+// With OKOSHI_MODULE, the folder of a built module, it also tests the package for VS Code for the Web.
 // OKOSHI (default: target/debug/okoshi), NODE24, CODE_SERVER and CHROMIUM name the tools; those not named are installed into
 // target/workbench, which takes minutes and 700 MB the first time. Building code-server's native modules needs libkrb5-dev.
 
@@ -10,10 +11,11 @@ import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
-import { pack, prepare } from "../scripts/package.mjs";
+import { pack, packWeb, prepare } from "../scripts/package.mjs";
 import { Editor } from "./editor.mjs";
 import { withServer } from "./steps.mjs";
 import { codeServer, run, tools } from "./tools.mjs";
+import { inBrowser } from "./web.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const extension = join(here, "..");
@@ -66,6 +68,8 @@ const settings = (path, more = {}) => {
 write(join(data, "User", "settings.json"), SETTINGS);
 prepare();
 pack(join(room, "okoshi.vsix"), okoshi);
+const module = process.env.OKOSHI_MODULE;
+if (module) await packWeb(join(room, "okoshi-web.vsix"), resolve(module));
 run(join(extension, "node_modules", ".bin", "vsce"), ["package", "--no-dependencies", "--allow-missing-repository", "--skip-license", "-o", join(room, "neighbour.vsix")], { cwd: join(here, "neighbour") });
 const found = await tools(room);
 settings("okoshi-that-is-not-there");
@@ -79,6 +83,8 @@ const browser = await found.chromium.launch({
 let failed = 0;
 let number = 0;
 const wanted = process.env.ONLY?.split(",");
+/** In the names of the steps with the package for the web. */
+const IN_BROWSER = "in the browser";
 
 // Clips do not play by themselves then, so that the model comes to rest.
 const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 1, reducedMotion: "reduce" });
@@ -204,6 +210,9 @@ try {
     }
   });
   await withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shot, manual, okoshi, project, room });
+  if (module && (!wanted || wanted.some((one) => IN_BROWSER.includes(one) || one.includes(IN_BROWSER)))) {
+    await inBrowser({ tools: found, vsix: join(room, "okoshi-web.vsix"), editor, page, step, shot, write, SETTINGS, okoshi, room, figure: readFileSync(join(here, "figure.svg"), "utf8"), examples: join(repository, "examples") });
+  } else if (!module) console.log("skipped: the package for the web, because OKOSHI_MODULE names no module");
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {
   // If the browser itself has exited, there is nothing to take a screenshot of.

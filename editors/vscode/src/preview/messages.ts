@@ -116,8 +116,7 @@ export class Remote {
 
   /** The bytes of a model, or null if the server does not have it any more. */
   async model(address: string): Promise<Uint8Array | null> {
-    const { bytes } = fields(await this.connection.sendRequest("okoshi/preview/model", { address }));
-    return typeof bytes === "string" ? decoded(bytes) : null;
+    return bytesOf(await this.connection.sendRequest("okoshi/preview/model", { address }));
   }
 
   /** The range of a part's string. */
@@ -136,8 +135,7 @@ export class Remote {
 
   /** The model that a change would make; null if it would be refused. */
   async try(change: object): Promise<Uint8Array | null> {
-    const { bytes } = fields(await this.connection.sendRequest("okoshi/preview/try", { ...this.drawing(), change }));
-    return typeof bytes === "string" ? decoded(bytes) : null;
+    return bytesOf(await this.connection.sendRequest("okoshi/preview/try", { ...this.drawing(), change }));
   }
 
   cursor(position: Position | null): Promise<void> {
@@ -177,7 +175,13 @@ function fileName(name: string): string {
   return name.replace(/^.*[\\/]/, "").replace(/\p{Cc}/gu, "") || "model";
 }
 
-/** A copy of its own: the editor does not post a `Buffer`, or a view of one, as bytes. */
+/** The bytes of an answer: in Base64 from a program, as such from a worker. */
+function bytesOf(answer: unknown): Uint8Array | null {
+  const { bytes } = fields(answer);
+  if (bytes instanceof Uint8Array) return bytes;
+  return typeof bytes === "string" ? decoded(bytes) : null;
+}
+
 function decoded(base64: string): Uint8Array {
-  return Uint8Array.from(Buffer.from(base64, "base64"));
+  return Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
 }

@@ -1,9 +1,8 @@
 // Panels that show drawings in 3D beside their text, one for each drawing.
 
-import { randomBytes } from "node:crypto";
-import { basename } from "node:path";
 import * as vscode from "vscode";
-import { isDrawingDocument, type Server } from "../server";
+import { nameOf } from "../drawing";
+import type { Server } from "../server";
 import { html } from "./page";
 import { linkFor, Session, type Editor } from "./session";
 import { Remote, utf16Offset, type Place, type TextEdit } from "./messages";
@@ -25,7 +24,7 @@ export class Previews implements vscode.Disposable, vscode.WebviewPanelSerialize
       server.onPreviewMessages(({ uri, messages }) => this.shown.get(uri.toString())?.session.messages(messages)),
       vscode.workspace.onDidCloseTextDocument(({ uri }) => this.shown.get(uri.toString())?.closed()),
       vscode.workspace.onDidOpenTextDocument((document) => {
-        if (isDrawingDocument(document)) this.shown.get(document.uri.toString())?.follow();
+        if (server.handles(document)) this.shown.get(document.uri.toString())?.follow();
       }),
       vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.shown.get(textEditor.document.uri.toString())?.session.moved()),
       vscode.window.onDidChangeActiveTextEditor((editor) => {
@@ -75,11 +74,11 @@ export class Previews implements vscode.Disposable, vscode.WebviewPanelSerialize
     panel.iconPath = vscode.Uri.joinPath(this.extension, "icon.png");
     const at = (name: string) => panel.webview.asWebviewUri(vscode.Uri.joinPath(this.folder, name)).toString();
     const template = await vscode.workspace.fs.readFile(vscode.Uri.joinPath(this.folder, "page.html"));
-    panel.webview.html = html(Buffer.from(template).toString("utf8"), {
+    panel.webview.html = html(new TextDecoder().decode(template), {
       script: at("page.js"),
       style: at("page.css"),
       source: panel.webview.cspSource,
-      nonce: randomBytes(16).toString("base64url"),
+      nonce: crypto.randomUUID(),
     });
     preview.follow();
   }
@@ -158,13 +157,13 @@ class Preview implements Editor, vscode.Disposable {
   }
 
   async save(name: string, bytes: Uint8Array): Promise<void> {
-    const folder = this.uri.scheme === "file" ? vscode.Uri.joinPath(this.uri, "..") : vscode.workspace.workspaceFolders?.[0]?.uri;
+    const folder = this.isFile ? vscode.Uri.joinPath(this.uri, "..") : vscode.workspace.workspaceFolders?.[0]?.uri;
     const target = await vscode.window.showSaveDialog(folder ? { defaultUri: vscode.Uri.joinPath(folder, name) } : {});
     if (!target) return;
     try {
       await vscode.workspace.fs.writeFile(target, bytes);
     } catch (error) {
-      void vscode.window.showErrorMessage(`${basename(target.path)} was not written: ${error instanceof Error ? error.message : String(error)}`);
+      void vscode.window.showErrorMessage(`${nameOf(target.path)} was not written: ${error instanceof Error ? error.message : String(error)}`);
     }
   }
 
@@ -188,6 +187,11 @@ class Preview implements Editor, vscode.Disposable {
     this.output.warn(message);
   }
 
+  /** Whether it is a file that may come back; untitled texts are none. */
+  private get isFile(): boolean {
+    return this.uri.scheme !== "untitled";
+  }
+
   private isOurs(document: vscode.TextDocument): boolean {
     return document.uri.toString() === this.uri.toString();
   }
@@ -199,7 +203,7 @@ class Preview implements Editor, vscode.Disposable {
     this.watch(document === undefined);
     if (!document) {
       this.asked = undefined;
-      if (this.uri.scheme === "file") this.session.gone();
+      if (this.isFile) this.session.gone();
       else this.session.disconnect({ state: "lost", note: "The drawing was closed. This is its last model." });
       return;
     }
@@ -216,7 +220,7 @@ class Preview implements Editor, vscode.Disposable {
   /** The drawing's text, opened if its file exists. Closed untitled drawings no longer exist. */
   private async read(): Promise<vscode.TextDocument | undefined> {
     const open = vscode.workspace.textDocuments.find((document) => this.isOurs(document));
-    if (open || this.uri.scheme !== "file") return open;
+    if (open || !this.isFile) return open;
     try {
       return await vscode.workspace.openTextDocument(this.uri);
     } catch {
@@ -229,8 +233,8 @@ class Preview implements Editor, vscode.Disposable {
     if (!wanted) {
       this.watcher?.dispose();
       this.watcher = undefined;
-    } else if (!this.watcher && this.uri.scheme === "file") {
-      const pattern = new vscode.RelativePattern(vscode.Uri.joinPath(this.uri, ".."), escaped(basename(this.uri.path)));
+    } else if (!this.watcher && this.isFile) {
+      const pattern = new vscode.RelativePattern(vscode.Uri.joinPath(this.uri, ".."), escaped(nameOf(this.uri.path)));
       this.watcher = vscode.workspace.createFileSystemWatcher(pattern, false, false, true);
       this.watcher.onDidCreate(() => this.follow());
       this.watcher.onDidChange(() => this.follow());
@@ -254,7 +258,7 @@ class Preview implements Editor, vscode.Disposable {
   }
 }
 
-const title = (uri: vscode.Uri) => `Preview ${basename(uri.path)}`;
+const title = (uri: vscode.Uri) => `Preview ${nameOf(uri.path)}`;
 
 /** A file name, escaped for a glob pattern. */
 const escaped = (name: string) => name.replace(/[*?{}[\]]/g, "[$&]");

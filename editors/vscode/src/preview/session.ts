@@ -43,7 +43,7 @@ export class Session {
   private link: Link = { state: "connecting", note: "" };
   /** The latest message of each type, for a page that is reloaded, for example in a window of its own. */
   private readonly newest = new Map<string, Message>();
-  private timer: NodeJS.Timeout | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
     private readonly drawing: string,

@@ -4,13 +4,13 @@
 
 use std::sync::Arc;
 
-use tower_lsp::ls_types::{Position, PositionEncodingKind, Range};
+use ls_types::{Position, PositionEncodingKind, Range};
 
 use crate::source::{LineEnds, LineIndex, Span, starts_character};
 
 /// The unit of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(crate) enum Encoding {
     /// Bytes.
     Utf8,
     /// UTF-16 code units, which every client knows.
@@ -19,7 +19,7 @@ pub(super) enum Encoding {
 
 impl Encoding {
     /// The first of the client's encodings that the server supports.
-    pub(super) fn negotiated(offered: &[PositionEncodingKind]) -> Self {
+    pub(crate) fn negotiated(offered: &[PositionEncodingKind]) -> Self {
         let known = offered.iter().find_map(|kind| match kind.as_str() {
             "utf-8" => Some(Self::Utf8),
             "utf-16" => Some(Self::Utf16),
@@ -29,7 +29,7 @@ impl Encoding {
     }
 
     /// Its name in the protocol.
-    pub(super) fn kind(self) -> PositionEncodingKind {
+    pub(crate) fn kind(self) -> PositionEncodingKind {
         match self {
             Self::Utf8 => PositionEncodingKind::UTF8,
             Self::Utf16 => PositionEncodingKind::UTF16,
@@ -39,12 +39,12 @@ impl Encoding {
 
 /// A text with its line index.
 #[derive(Debug)]
-pub(super) struct Positions {
+pub(crate) struct Positions {
     index: LineIndex<Arc<str>>,
 }
 
 impl Positions {
-    pub(super) fn new(text: Arc<str>, encoding: Encoding) -> Self {
+    pub(crate) fn new(text: Arc<str>, encoding: Encoding) -> Self {
         let units_in = match encoding {
             Encoding::Utf16 if !text.is_ascii() => utf16_units,
             _ => <[u8]>::len,
@@ -54,13 +54,13 @@ impl Positions {
         }
     }
 
-    pub(super) fn text(&self) -> &Arc<str> {
+    pub(crate) fn text(&self) -> &Arc<str> {
         self.index.text()
     }
 
     /// The position of byte `offset`: of the start of its character, of the end of the text if it is behind it, and of
     /// the end of the line if it is within a line break.
-    pub(super) fn position(&self, offset: usize) -> Position {
+    pub(crate) fn position(&self, offset: usize) -> Position {
         let offset = self.index.clamp(offset);
         let line = self.index.line(offset);
         let (start, end) = self.index.extent(line);
@@ -68,17 +68,17 @@ impl Positions {
         Position::new(number(line - 1), character)
     }
 
-    pub(super) fn range(&self, span: Span) -> Range {
+    pub(crate) fn range(&self, span: Span) -> Range {
         Range::new(self.position(span.start), self.position(span.end))
     }
 
     /// The length of a span within one line, in units.
-    pub(super) fn length(&self, span: Span) -> u32 {
+    pub(crate) fn length(&self, span: Span) -> u32 {
         number(self.index.units_before(span.end) - self.index.units_before(span.start))
     }
 
     /// The byte at a position: the end of the line if the position is behind it, or the start of its character.
-    pub(super) fn offset(&self, position: Position) -> usize {
+    pub(crate) fn offset(&self, position: Position) -> usize {
         let line = position.line as usize + 1;
         if line > self.index.line_count() {
             return self.text().len();
@@ -90,7 +90,7 @@ impl Positions {
     }
 
     /// The span of a range; empty if its end is before its start.
-    pub(super) fn span(&self, range: Range) -> Span {
+    pub(crate) fn span(&self, range: Range) -> Span {
         let start = self.offset(range.start);
         Span::new(start, self.offset(range.end).max(start))
     }

@@ -1,6 +1,6 @@
 //! Conversion from the types of `ide` to those of the protocol.
 
-use tower_lsp::ls_types::{
+use ls_types::{
     CodeDescription, Color, ColorInformation, CompletionItem, CompletionItemKind,
     CompletionTextEdit, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity,
     DiagnosticTag, DocumentSymbol, Documentation, FoldingRange, InlayHint, InlayHintKind,
@@ -10,8 +10,7 @@ use tower_lsp::ls_types::{
     SemanticTokensLegend, SignatureHelp, SignatureInformation, SymbolKind, TextEdit, Uri,
 };
 
-use super::documents::Analyzed;
-use super::manual::Pages;
+use super::document::{Analyzed, Pages};
 use super::positions::Positions;
 use crate::diagnostic::{Code, Edit, Severity};
 use crate::ide::{self, ProposalKind, TokenClass};
@@ -19,14 +18,14 @@ use crate::lang::explain;
 use crate::source::Span;
 
 /// The source that diagnostics name.
-pub(super) const SOURCE: &str = "okoshi";
+pub(crate) const SOURCE: &str = "okoshi";
 
 /// Maps positions between the client's text and an earlier state that was analysed: the texts are the same before and after
 /// the stretch that was edited.
 #[derive(Debug)]
-pub(super) struct PositionMap<'a> {
+pub(crate) struct PositionMap<'a> {
     /// The text that the client has.
-    pub(super) positions: &'a Positions,
+    pub(crate) positions: &'a Positions,
     /// Where the two texts begin to differ, where in the analysed text they are the same again, and how much longer the
     /// client's is; `None` if they are the same.
     shift: Option<(usize, usize, isize)>,
@@ -34,7 +33,7 @@ pub(super) struct PositionMap<'a> {
 
 impl<'a> PositionMap<'a> {
     /// For a text that is the analysed one.
-    pub(super) fn identity(positions: &'a Positions) -> Self {
+    pub(crate) fn identity(positions: &'a Positions) -> Self {
         Self {
             positions,
             shift: None,
@@ -42,7 +41,7 @@ impl<'a> PositionMap<'a> {
     }
 
     /// For a text that was edited after it was analysed.
-    pub(super) fn after_edit(positions: &'a Positions, analyzed: &str) -> Self {
+    pub(crate) fn after_edit(positions: &'a Positions, analyzed: &str) -> Self {
         let now = positions.text().as_bytes();
         let then = analyzed.as_bytes();
         let alike = |(a, b): &(&u8, &u8)| a == b;
@@ -61,7 +60,7 @@ impl<'a> PositionMap<'a> {
     }
 
     /// The offset in the analysed text of a position in the client's; `None` in what was edited.
-    pub(super) fn offset(&self, position: Position) -> Option<usize> {
+    pub(crate) fn offset(&self, position: Position) -> Option<usize> {
         let at = self.positions.offset(position);
         match self.shift {
             None => Some(at),
@@ -71,7 +70,7 @@ impl<'a> PositionMap<'a> {
     }
 
     /// The span in the analysed text of a range in the client's, cut to what is in both.
-    pub(super) fn span(&self, range: Range) -> Span {
+    pub(crate) fn span(&self, range: Range) -> Span {
         let start = self
             .offset(range.start)
             .unwrap_or_else(|| self.shift.map_or(0, |shift| shift.0));
@@ -82,12 +81,12 @@ impl<'a> PositionMap<'a> {
     }
 
     /// The range in the client's text of a span in the analysed one; `None` if it was edited.
-    pub(super) fn range(&self, span: Span) -> Option<Range> {
+    pub(crate) fn range(&self, span: Span) -> Option<Range> {
         Some(self.positions.range(self.to_current(span)?))
     }
 
     /// The span in the client's text of a span in the analysed one; `None` if it was edited.
-    pub(super) fn to_current(&self, span: Span) -> Option<Span> {
+    pub(crate) fn to_current(&self, span: Span) -> Option<Span> {
         match self.shift {
             None => Some(span),
             Some((head, _, _)) if span.end <= head => Some(span),
@@ -99,16 +98,16 @@ impl<'a> PositionMap<'a> {
         }
     }
 
-    pub(super) fn position(&self, offset: usize) -> Option<Position> {
+    pub(crate) fn position(&self, offset: usize) -> Option<Position> {
         Some(self.range(Span::at(offset))?.start)
     }
 
-    pub(super) fn edit(&self, edit: &Edit) -> Option<TextEdit> {
+    pub(crate) fn edit(&self, edit: &Edit) -> Option<TextEdit> {
         Some(TextEdit::new(self.range(edit.span)?, edit.text.clone()))
     }
 
     /// Edits, if none of their spans was edited.
-    pub(super) fn edits(&self, edits: &[Edit]) -> Option<Vec<TextEdit>> {
+    pub(crate) fn edits(&self, edits: &[Edit]) -> Option<Vec<TextEdit>> {
         edits.iter().map(|edit| self.edit(edit)).collect()
     }
 }
@@ -117,7 +116,7 @@ impl<'a> PositionMap<'a> {
 const MAX_SHOWN: usize = 1000;
 
 /// The diagnostics of an analysis, only the most severe if there are too many; none for a drawing without strings.
-pub(super) fn diagnostics(analyzed: &Analyzed, pages: Option<&Pages>) -> Vec<Diagnostic> {
+pub(crate) fn diagnostics(analyzed: &Analyzed, pages: Option<&Pages>) -> Vec<Diagnostic> {
     if !analyzed.analysis.is_annotated() {
         return vec![];
     }
@@ -133,7 +132,7 @@ pub(super) fn diagnostics(analyzed: &Analyzed, pages: Option<&Pages>) -> Vec<Dia
         .collect()
 }
 
-pub(super) fn diagnostic(
+pub(crate) fn diagnostic(
     analyzed: &Analyzed,
     diagnostic: &crate::diagnostic::Diagnostic,
     pages: Option<&Pages>,
@@ -182,7 +181,7 @@ fn has_no_effect(code: Code) -> bool {
 }
 
 /// Text in Markdown.
-pub(super) fn markdown(value: String) -> MarkupContent {
+pub(crate) fn markdown(value: String) -> MarkupContent {
     MarkupContent {
         kind: MarkupKind::Markdown,
         value,
@@ -190,7 +189,7 @@ pub(super) fn markdown(value: String) -> MarkupContent {
 }
 
 /// A completion item; `index` keeps the order.
-pub(super) fn proposal(
+pub(crate) fn proposal(
     proposal: &ide::Proposal,
     index: usize,
     range: Range,
@@ -233,14 +232,14 @@ pub(super) fn proposal(
 }
 
 /// The manual page of a completion item.
-pub(super) fn page(item: &CompletionItem) -> Option<Documentation> {
+pub(crate) fn page(item: &CompletionItem) -> Option<Documentation> {
     let page = item.data.as_ref()?.as_str()?;
     Some(Documentation::MarkupContent(markdown(
         explain::without_headings(&explain::page(page)?),
     )))
 }
 
-pub(super) fn signatures(help: ide::SignatureHelp) -> SignatureHelp {
+pub(crate) fn signatures(help: ide::SignatureHelp) -> SignatureHelp {
     let signatures = help.signatures.into_iter().map(|signature| {
         let parameters = signature
             .parameters
@@ -264,7 +263,7 @@ pub(super) fn signatures(help: ide::SignatureHelp) -> SignatureHelp {
 }
 
 /// The outline as symbols.
-pub(super) fn symbols(outline: Vec<ide::Outline>, map: &PositionMap<'_>) -> Vec<DocumentSymbol> {
+pub(crate) fn symbols(outline: Vec<ide::Outline>, map: &PositionMap<'_>) -> Vec<DocumentSymbol> {
     let symbols = outline.into_iter().flat_map(|part| {
         let children = symbols(part.children, map);
         let (Some(range), Some(selection)) = (map.range(part.span), map.range(part.selection))
@@ -289,7 +288,7 @@ pub(super) fn symbols(outline: Vec<ide::Outline>, map: &PositionMap<'_>) -> Vec<
 }
 
 /// The symbol kind of a part: one with children, or without.
-pub(super) fn symbol_kind(is_joint: bool) -> SymbolKind {
+pub(crate) fn symbol_kind(is_joint: bool) -> SymbolKind {
     if is_joint {
         SymbolKind::CLASS
     } else {
@@ -298,7 +297,7 @@ pub(super) fn symbol_kind(is_joint: bool) -> SymbolKind {
 }
 
 /// The lines of a folding range; `None` if it is within one line.
-pub(super) fn fold(span: Span, positions: &Positions) -> Option<FoldingRange> {
+pub(crate) fn fold(span: Span, positions: &Positions) -> Option<FoldingRange> {
     let [start, end] = [span.start, span.end].map(|offset| positions.position(offset).line);
     (start < end).then(|| FoldingRange {
         start_line: start,
@@ -308,7 +307,7 @@ pub(super) fn fold(span: Span, positions: &Positions) -> Option<FoldingRange> {
 }
 
 /// Nested selections, the innermost first.
-pub(super) fn selection(spans: &[Span], map: &PositionMap<'_>) -> Option<SelectionRange> {
+pub(crate) fn selection(spans: &[Span], map: &PositionMap<'_>) -> Option<SelectionRange> {
     let mut outer = None;
     for span in spans.iter().rev() {
         let range = map.range(*span)?;
@@ -336,7 +335,7 @@ const TOKEN_TYPES: [(TokenClass, SemanticTokenType); 11] = [
 ];
 
 /// The meaning of the numbers in tokens.
-pub(super) fn legend() -> SemanticTokensLegend {
+pub(crate) fn legend() -> SemanticTokensLegend {
     SemanticTokensLegend {
         token_types: TOKEN_TYPES.iter().map(|(_, kind)| kind.clone()).collect(),
         token_modifiers: vec![SemanticTokenModifier::DECLARATION],
@@ -344,7 +343,7 @@ pub(super) fn legend() -> SemanticTokensLegend {
 }
 
 /// Tokens in the encoding of the protocol, each relative to the one before.
-pub(super) fn tokens(words: &[ide::SemanticToken], map: &PositionMap<'_>) -> Vec<SemanticToken> {
+pub(crate) fn tokens(words: &[ide::SemanticToken], map: &PositionMap<'_>) -> Vec<SemanticToken> {
     let mut before = Position::new(0, 0);
     let words = words.iter().filter_map(|word| {
         let span = map.to_current(word.span)?;
@@ -369,7 +368,7 @@ pub(super) fn tokens(words: &[ide::SemanticToken], map: &PositionMap<'_>) -> Vec
     words.collect()
 }
 
-pub(super) fn inlay(inlay: ide::Inlay, map: &PositionMap<'_>, uri: &Uri) -> Option<InlayHint> {
+pub(crate) fn inlay(inlay: ide::Inlay, map: &PositionMap<'_>, uri: &Uri) -> Option<InlayHint> {
     let parts = inlay.pieces.into_iter().map(|piece| InlayHintLabelPart {
         value: piece.text,
         tooltip: Some(InlayHintLabelPartTooltip::String(piece.about)),
@@ -391,7 +390,7 @@ pub(super) fn inlay(inlay: ide::Inlay, map: &PositionMap<'_>, uri: &Uri) -> Opti
     })
 }
 
-pub(super) fn swatch(swatch: ide::Swatch, map: &PositionMap<'_>) -> Option<ColorInformation> {
+pub(crate) fn swatch(swatch: ide::Swatch, map: &PositionMap<'_>) -> Option<ColorInformation> {
     let [red, green, blue, alpha] = swatch.rgba.map(|channel| channel as f32);
     Some(ColorInformation {
         range: map.range(swatch.span)?,
@@ -409,7 +408,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::lsp::positions::Encoding;
+    use crate::protocol::positions::Encoding;
 
     #[test]
     fn positions_move_with_edits() {

@@ -1,18 +1,15 @@
 //! Answers to requests that only read: hover, completion, definitions, symbols, tokens and hints.
 
-use std::path::{Path, PathBuf};
-
+use ls_types::*;
 use serde_json::Value;
-use tower_lsp::ls_types::*;
 
-use super::backend::{PREVIEW, View};
+use super::capabilities::PREVIEW;
 use super::convert::{self, PositionMap};
-use super::documents::{Analyzed, Document};
-use crate::disk::{FolderResolver, below};
+use super::document::{Analyzed, Document, View};
 use crate::ide::{self, Target};
 use crate::source::Span;
 
-pub(super) fn hover(view: &View, map: &PositionMap<'_>, offset: usize) -> Option<Hover> {
+pub(crate) fn hover(view: &View, map: &PositionMap<'_>, offset: usize) -> Option<Hover> {
     let hover = view.analysis().hover(offset)?;
     Some(Hover {
         contents: HoverContents::Markup(convert::markdown(hover.markdown)),
@@ -20,18 +17,18 @@ pub(super) fn hover(view: &View, map: &PositionMap<'_>, offset: usize) -> Option
     })
 }
 
-pub(super) fn completion(
+/// What can be written at a position; `files` are those that the drawing can link to, as it names them.
+pub(crate) fn completion(
     document: &Document,
     known: &Analyzed,
     position: Position,
     snippets: bool,
+    files: &dyn Fn() -> Vec<String>,
 ) -> Option<CompletionResponse> {
-    let folder = document.folder().map(PathBuf::from);
-    let files = || files_in(folder.as_deref());
     let context = ide::Context {
         source: document.text(),
         analysis: &known.analysis,
-        files: &files,
+        files,
     };
     let found = ide::completion(&context, document.positions.offset(position))?;
     let range = document.positions.range(found.span);
@@ -48,16 +45,23 @@ pub(super) fn completion(
     })
 }
 
-/// The definitions of what is at an offset, with the place that they are asked for from if the client knows `links`.
-pub(super) fn definition(
+/// The definitions of what is at an offset, with the place that they are asked for from if the client knows `links`. `file` is the
+/// address of a file that the drawing links to.
+pub(crate) fn definition(
     view: &View,
     map: &PositionMap<'_>,
     offset: usize,
     links: bool,
+    file: &dyn Fn(&str) -> Option<Uri>,
 ) -> Option<GotoDefinitionResponse> {
     let (from, targets) = view.analysis().definition(offset)?;
     let targets = targets.iter();
-    let locations = targets.filter_map(|target| self::target(&view.document, target, map));
+    let locations = targets.filter_map(|target| {
+        Some(match target {
+            Target::Here(span) => Location::new(view.document.uri.clone(), map.range(*span)?),
+            Target::File(name) => Location::new(file(name)?, Range::default()),
+        })
+    });
     Some(if links {
         GotoDefinitionResponse::Link(
             locations
@@ -74,17 +78,7 @@ pub(super) fn definition(
     })
 }
 
-fn target(document: &Document, target: &Target, map: &PositionMap<'_>) -> Option<Location> {
-    match target {
-        Target::Here(span) => Some(Location::new(document.uri.clone(), map.range(*span)?)),
-        Target::File(name) => {
-            let path = FolderResolver::new(document.folder()?).place(name).ok()?;
-            Some(Location::new(Uri::from_file_path(path)?, Range::default()))
-        }
-    }
-}
-
-pub(super) fn references(
+pub(crate) fn references(
     view: &View,
     map: &PositionMap<'_>,
     offset: usize,
@@ -96,7 +90,7 @@ pub(super) fn references(
     (!spans.is_empty()).then(|| locations.collect())
 }
 
-pub(super) fn highlights(
+pub(crate) fn highlights(
     view: &View,
     map: &PositionMap<'_>,
     offset: usize,
@@ -115,7 +109,7 @@ pub(super) fn highlights(
     Some(highlights.collect())
 }
 
-pub(super) fn symbols(view: &View, nested: bool) -> DocumentSymbolResponse {
+pub(crate) fn symbols(view: &View, nested: bool) -> DocumentSymbolResponse {
     let symbols = convert::symbols(view.analysis().outline(), &view.map());
     if nested {
         DocumentSymbolResponse::Nested(symbols)
@@ -124,7 +118,7 @@ pub(super) fn symbols(view: &View, nested: bool) -> DocumentSymbolResponse {
     }
 }
 
-pub(super) fn folds(view: &View) -> Vec<FoldingRange> {
+pub(crate) fn folds(view: &View) -> Vec<FoldingRange> {
     let map = view.map();
     let folds = view.analysis().folds().into_iter();
     folds
@@ -132,7 +126,7 @@ pub(super) fn folds(view: &View) -> Vec<FoldingRange> {
         .collect()
 }
 
-pub(super) fn selections(view: &View, positions: &[Position]) -> Vec<SelectionRange> {
+pub(crate) fn selections(view: &View, positions: &[Position]) -> Vec<SelectionRange> {
     let map = view.map();
     let ranges = positions.iter().map(|position| {
         let offset = map.offset(*position);
@@ -148,7 +142,7 @@ pub(super) fn selections(view: &View, positions: &[Position]) -> Vec<SelectionRa
 }
 
 /// The tokens of a text, or of a range of it.
-pub(super) fn semantic_tokens(view: &View, range: Option<Range>) -> SemanticTokens {
+pub(crate) fn semantic_tokens(view: &View, range: Option<Range>) -> SemanticTokens {
     let map = view.map();
     let span = match range {
         Some(range) => map.span(range),
@@ -160,7 +154,7 @@ pub(super) fn semantic_tokens(view: &View, range: Option<Range>) -> SemanticToke
     }
 }
 
-pub(super) fn inlays(view: &View, range: Range) -> Vec<InlayHint> {
+pub(crate) fn inlays(view: &View, range: Range) -> Vec<InlayHint> {
     let map = view.map();
     let inlays = view.analysis().inlays(map.span(range)).into_iter();
     inlays
@@ -168,7 +162,7 @@ pub(super) fn inlays(view: &View, range: Range) -> Vec<InlayHint> {
         .collect()
 }
 
-pub(super) fn colors(view: &View) -> Vec<ColorInformation> {
+pub(crate) fn colors(view: &View) -> Vec<ColorInformation> {
     let map = view.map();
     let swatches = view.analysis().swatches().into_iter();
     swatches
@@ -177,7 +171,7 @@ pub(super) fn colors(view: &View) -> Vec<ColorInformation> {
 }
 
 /// The lens above a drawing that shows its preview.
-pub(super) fn preview_lens(view: &View) -> Option<Vec<CodeLens>> {
+pub(crate) fn preview_lens(view: &View) -> Option<Vec<CodeLens>> {
     let root = view.analysis().compiled().drawing.groups.first()?;
     let command = Command {
         title: "Preview in 3D".to_owned(),
@@ -214,18 +208,4 @@ fn flat(symbols: Vec<DocumentSymbol>, uri: &Uri) -> Vec<SymbolInformation> {
         });
     }
     out
-}
-
-/// The files that a drawing in a folder can link to, as it names them.
-fn files_in(folder: Option<&Path>) -> Vec<String> {
-    let Some(folder) = folder else {
-        return vec![];
-    };
-    let files = below(folder).files.into_iter();
-    let names = files.filter_map(|file| {
-        let parts = file.strip_prefix(folder).ok()?.components();
-        let parts: Option<Vec<_>> = parts.map(|part| part.as_os_str().to_str()).collect();
-        Some(parts?.join("/"))
-    });
-    names.collect()
 }
