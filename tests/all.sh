@@ -188,7 +188,8 @@ wasm() {
   rm -rf "$target/module"
   if [ -z "${FULL_MODULE:-}" ]; then
     # Less optimised than a module that is handed on, which takes several times as long to build.
-    CARGO_TARGET_DIR=$target CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
+    # With the language server, so that there is one module for the page and for the extension of VS Code.
+    WASM_FEATURES=editor CARGO_TARGET_DIR=$target CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
       bash editors/web/wasm/build.sh "$target/module"
     echo "skipped: the size of the module, which FULL_MODULE=yes checks"
     return
@@ -219,10 +220,13 @@ app() {
   OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests app -- app. worker. bytes. sharing. strings. welcome. lessons.
 }
 
+# Whether there is a module with the language server.
+has_editor_module() { grep -qs '^export class Server' "$target/module/okoshi_web.js"; }
+
 # The extension of VS Code for the Web, which has the module; in a real workbench if that is installed.
 web_extension() {
   need npm
-  [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
+  has_editor_module || skip "there is no module with the language server"
   use_program
   export OKOSHI_MODULE=$(realpath "$target/module") OKOSHI=$(realpath "$okoshi")
   with_web npm test --prefix editors/vscode -- web vsix
@@ -456,8 +460,8 @@ packages() {
   for tool in python3 npm objdump strip dpkg-deb curl; do need $tool; done
   python3 -c 'import ensurepip' 2> /dev/null || install "Python's venv" python3-venv
   use_program
-  # With the package for VS Code for the Web, if there is a module.
-  [ ! -e "$target/module/okoshi_web.js" ] || export OKOSHI_MODULE=$(realpath "$target/module")
+  # With the package for VS Code for the Web, if there is a module for it.
+  ! has_editor_module || export OKOSHI_MODULE=$(realpath "$target/module")
   OKOSHI=$(realpath "$okoshi") with_web python3 $tools/release.py "$target/packages"
 }
 

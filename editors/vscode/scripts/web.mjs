@@ -42,6 +42,7 @@ export function webManifest(manifest) {
 /** Bundles what runs in the browser into a folder, with the module. Returns what it is made of. */
 export async function bundleWeb(module, out) {
   for (const name of [SCRIPT, CODE]) if (!existsSync(join(module, name))) throw new Error(`${module} has no ${name}: it is not the folder of a built module`);
+  if (!/^export class Server\b/m.test(readFileSync(join(module, SCRIPT), "utf8"))) throw new Error(`the module in ${module} has no language server: build it with WASM_FEATURES=editor`);
   const options = {
     absWorkingDir: here,
     bundle: true,

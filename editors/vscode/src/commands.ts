@@ -37,5 +37,7 @@ async function preview(server: Server, previews: Previews, named: unknown): Prom
   const uri = named instanceof vscode.Uri ? named : typeof named === "string" ? vscode.Uri.parse(named) : (await activeDrawing(server))?.uri;
   if (!uri) return;
   await previews.show(uri);
+  // It may be starting at the moment.
+  await server.start();
   if (!server.running) await server.restart();
 }

@@ -211,7 +211,7 @@ try {
   });
   await withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shot, manual, okoshi, project, room });
   if (module && (!wanted || wanted.some((one) => IN_BROWSER.includes(one) || one.includes(IN_BROWSER)))) {
-    await inBrowser({ tools: found, vsix: join(room, "okoshi-web.vsix"), editor, page, step, shot, write, SETTINGS, okoshi, room, figure: readFileSync(join(here, "figure.svg"), "utf8"), examples: join(repository, "examples") });
+    await inBrowser({ tools: found, vsix: join(room, "okoshi-web.vsix"), editor, page, step, shot, manual, write, SETTINGS, okoshi, room, figure: readFileSync(join(here, "figure.svg"), "utf8"), examples: join(repository, "examples") });
   } else if (!module) console.log("skipped: the package for the web, because OKOSHI_MODULE names no module");
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {

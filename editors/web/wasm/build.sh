@@ -5,7 +5,7 @@
 #
 # rustup's toolchain is used if it has the target (`rustup target add wasm32-unknown-unknown`), otherwise Debian's (packages rustc-web,
 # cargo-web, rust-web-src and lld-22), whose standard library is compiled first. WASM_PROFILE names another profile than `release`: `quick` is built
-# in less time. wasm-opt is not used: what it makes is smaller as it is, and larger with Brotli.
+# in less time; WASM_FEATURES=editor adds the language server, for the extension of VS Code for the Web. wasm-opt is not used: what it makes is smaller as it is, and larger with Brotli.
 set -euo pipefail
 out=$(realpath -m "${1:?usage: build.sh FOLDER}")
 target=$(realpath -m "${CARGO_TARGET_DIR:-$(dirname "$0")/target}")
@@ -16,7 +16,7 @@ profile=${WASM_PROFILE:-release}
 # Less is inlined than by default: that is smaller (docs/speed.md).
 flags="-C target-feature=+simd128 -C llvm-args=-inline-threshold=100"
 
-build=(build --locked --profile "$profile" --target "$triple" --target-dir "$target/wasm")
+build=(build --locked --profile "$profile" --features "${WASM_FEATURES:-}" --target "$triple" --target-dir "$target/wasm")
 if rustup target list --installed 2> /dev/null | grep -qx "$triple"; then
   RUSTFLAGS=$flags cargo "${build[@]}"
 elif [ -d /usr/lib/rustlib/src/rust/library ] && command -v wasm-ld-22 > /dev/null; then

@@ -5,7 +5,7 @@ import { nameOf } from "../drawing";
 import type { Server } from "../server";
 import { html } from "./page";
 import { linkFor, Session, type Editor } from "./session";
-import { Remote, utf16Offset, type Place, type TextEdit } from "./messages";
+import { Remote, utf16Offset, type Place, type Position, type TextEdit } from "./messages";
 
 const TYPE = "okoshi.preview";
 
@@ -136,10 +136,13 @@ class Preview implements Editor, vscode.Disposable {
     void this.panel.webview.postMessage({ okoshi: message });
   }
 
-  cursor(): vscode.Position | null {
+  cursor(): Position | null {
     const active = vscode.window.activeTextEditor;
     const editor = active ?? vscode.window.visibleTextEditors.find(({ document }) => this.isOurs(document));
-    return editor && this.isOurs(editor.document) ? editor.selection.active : null;
+    if (!editor || !this.isOurs(editor.document)) return null;
+    // A plain object: of the editor's own only the fields that it hides arrive in a worker.
+    const { line, character } = editor.selection.active;
+    return { line, character };
   }
 
   async show({ uri, range: { start, end } }: Place): Promise<void> {

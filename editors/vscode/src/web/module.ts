@@ -9,7 +9,6 @@ import { READ_FILE, STOPPED, type FileAnswer, type FileQuestion } from "./protoc
 const LARGEST_FILE = 256 << 20;
 
 export class Module implements Program, vscode.Disposable {
-  private worker: Worker | undefined;
   /** Compiled once, for every start of the server. */
   private compiled: Promise<WebAssembly.Module> | undefined;
   private readonly files = vscode.workspace.createFileSystemWatcher("**/*");
@@ -35,32 +34,36 @@ export class Module implements Program, vscode.Disposable {
   }
 
   client(_found: string, options: LanguageClientOptions): BaseLanguageClient {
-    const client = new LanguageClient("okoshi", "Okoshi", () => this.open(), { ...options, synchronize: { fileEvents: this.files } });
+    // Each client ends its own worker: it may stop after the next one has started.
+    let worker: Worker | undefined;
+    const end = (): void => worker?.terminate();
+    const open = async (): Promise<MessageTransports> => {
+      end();
+      worker = await this.open();
+      return { reader: new WorkerReader(worker), writer: new BrowserMessageWriter(worker) };
+    };
+    const client = new LanguageClient("okoshi", "Okoshi", open, { ...options, synchronize: { fileEvents: this.files } });
     client.onRequest(READ_FILE, readFile);
     client.onDidChangeState(({ newState }) => {
-      if (newState === State.Stopped) this.end();
+      if (newState === State.Stopped) end();
     });
     return client;
   }
 
   dispose(): void {
     this.files.dispose();
-    this.end();
   }
 
-  private async open(): Promise<MessageTransports> {
-    this.end();
+  private async open(): Promise<Worker> {
     this.compiled ??= this.read("okoshi_web_bg.wasm").then((bytes) => WebAssembly.compile(bytes));
     // Read here, because a worker cannot be started from an address of another origin, such as that of the extension.
     const [script, compiled] = await Promise.all([this.read("server.js"), this.compiled]);
     const address = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
     const worker = new Worker(address);
-    this.worker = worker;
-    const reader = new WorkerReader(worker);
     worker.postMessage(compiled);
     // The worker has begun when it answers.
     worker.addEventListener("message", () => URL.revokeObjectURL(address), { once: true });
-    return { reader, writer: new BrowserMessageWriter(worker) };
+    return worker;
   }
 
   private async read(name: string): Promise<Uint8Array<ArrayBuffer>> {
@@ -69,11 +72,6 @@ export class Module implements Program, vscode.Disposable {
 
   private at(name: string): vscode.Uri {
     return vscode.Uri.joinPath(this.extension, "dist", "web", name);
-  }
-
-  private end(): void {
-    this.worker?.terminate();
-    this.worker = undefined;
   }
 }
 
