@@ -158,6 +158,8 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
       const expected = readFileSync(copy, "utf8");
       assert.notEqual(expected, before);
       await has(expected, "the thickness");
+      await at("Rarm@Ubody", 1, expected);
+      await editor.until("the arm to be lit", async () => (await panel.says("lit")) === "Rarm");
       await manual("vscode-web");
       assert.equal(readFileSync(join(project, "human.svg"), "utf8"), before, "nothing is saved before a person saves");
       await editor.press("Control+z");
