@@ -90,10 +90,7 @@ pub(super) fn run(arguments: &Edit, common: Common) -> Result<Outcome, Failure> 
 }
 
 /// The text after all changes, and what they did; otherwise the one that is refused.
-fn made(
-    before: Analysis,
-    arguments: &Edit,
-) -> Result<(String, Vec<Made<'_>>), (&Change, Refusal)> {
+fn made(before: Analysis, arguments: &Edit) -> Result<(String, Vec<Made<'_>>), (&Change, Refusal)> {
     let Edit {
         drawing,
         changes,

@@ -1,27 +1,17 @@
 //! Changes that a panel of the client asks for. The client applies their edits to its text, so that its own undo takes them back;
 //! nothing is written here.
 
+use std::sync::Arc;
+
 use ls_types::TextEdit;
 use serde_json::{Value, json};
 
 use super::document::{Analyzed, Document};
 use crate::compile::{Options, compile};
-use crate::diagnostic::{Edit, applied};
 use crate::export::{self, GLB};
 use crate::ide::Analysis;
-use crate::ide::changes::{Change, Refusal, check, edits, part_after};
+use crate::ide::changes::{Change, Possible, Refusal, possible};
 use crate::resolver::Resolver;
-
-/// A change that is possible.
-struct Possible {
-    edits: Vec<Edit>,
-    /// The drawing with it.
-    after: Analysis,
-    /// The part that it is about, by the name that it has then.
-    part: Option<String>,
-    /// What else it does, as a sentence without a full stop.
-    note: Option<String>,
-}
 
 /// What can be changed about a part, or why there is nothing; `motions` are the motion files in the drawing's folder.
 pub(crate) fn form(analyzed: &Analyzed, part: &str, motions: Vec<String>) -> Value {
@@ -33,7 +23,7 @@ pub(crate) fn form(analyzed: &Analyzed, part: &str, motions: Vec<String>) -> Val
 
 /// The edits of the text that make a change, and the version that they are for.
 pub(crate) fn change(analyzed: &Analyzed, change: &Change, resolver: &dyn Resolver) -> Value {
-    match possible(&analyzed.analysis, change, resolver) {
+    match wanted(analyzed, change, resolver) {
         Ok(Possible {
             edits, part, note, ..
         }) => {
@@ -51,34 +41,27 @@ pub(crate) fn change(analyzed: &Analyzed, change: &Change, resolver: &dyn Resolv
     }
 }
 
-/// A model of what a change would make of the drawing, as binary glTF; `None` if the change would be refused.
+/// A model of what a change would make of the drawing, as binary glTF; `None` if the change would be refused, or changes
+/// nothing.
 pub(crate) fn attempt(
     analyzed: &Analyzed,
     change: &Change,
     resolver: &dyn Resolver,
 ) -> Option<Vec<u8>> {
-    let after = possible(&analyzed.analysis, change, resolver).ok()?.after;
+    let after = wanted(analyzed, change, resolver).ok()?.after?;
     let model = export::to_memory(&GLB, &after.compiled().scene, None).ok()?;
     Some(model.bytes)
 }
 
-/// The edits of a change, which was made in a copy of the text and does nothing else.
-fn possible(
-    before: &Analysis,
+/// What a change makes of a copy of the text.
+fn wanted(
+    before: &Analyzed,
     change: &Change,
     resolver: &dyn Resolver,
 ) -> Result<Possible, Refusal> {
-    let edits = edits(before, change)?;
-    let text = applied(before.source(), &edits);
-    let compiled = compile(&text, &Options::default(), resolver);
-    let after = Analysis::new(text, compiled);
-    let note = check(before, &after, change)?;
-    let part = part_after(before, &after, change, &edits);
-    Ok(Possible {
-        edits,
-        after,
-        part,
-        note,
+    possible(&before.analysis, change, |text| {
+        let compiled = compile(text, &Options::default(), resolver);
+        Arc::new(Analysis::new(text, compiled))
     })
 }
 
