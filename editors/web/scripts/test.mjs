@@ -2,8 +2,9 @@
 // tests' own. OKOSHI is the program that builds models (default: the repository's own build), CHROMIUM the browser; without one of
 // them the browser tests are skipped with a message. With BROWSER=firefox they run in Firefox, which FIREFOX names and which needs a
 // screen (`BROWSER=firefox xvfb-run -a npm test -- app.`). PATIENCE is the limit of every wait of the browser tests in seconds, for slow
-// machines. OKOSHI_OUT is the folder for what they make (default: test/out), which lets several runs go on at the same time: `--bundle`
-// only installs, checks and bundles, which is done one at a time, and `--run` only tests what was bundled. Takes Node 20.14 or newer.
+// machines. With OKOSHI_HOST=worker the tests of editing have the module in OKOSHI_MODULE for a host instead of the program. OKOSHI_OUT is
+// the folder for what the tests make (default: test/out), which lets several runs go on at the same time: `--bundle` only installs, checks
+// and bundles, which is done one at a time, and `--run` only tests what was bundled. Takes Node 20.14 or newer.
 
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync, rmSync } from "node:fs";
@@ -52,7 +53,8 @@ async function bundleAll() {
   });
   // The folder of the program in the browser, in which the module has drawn pictures, takes long to make.
   const module = process.env.OKOSHI_MODULE;
-  if (module && existsSync(module) && names.some((name) => readFileSync(join("test", name), "utf8").includes("inBrowser("))) {
+  const needs = process.env.OKOSHI_HOST === "worker" || names.some((name) => readFileSync(join("test", name), "utf8").includes("inBrowser("));
+  if (module && existsSync(module) && needs) {
     const { app } = await import("./app.mjs");
     await app(folder, resolve(module));
   }

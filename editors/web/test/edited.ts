@@ -140,6 +140,7 @@ async function inProgram(file: string, onClose: (close: Close) => void, options:
 
 async function inBrowser(file: string, onClose: (close: Close) => void, options: PageOptions): Promise<Begun> {
   const { app, wrong } = await openApp(onClose, options);
+  await app.page.getByRole("button", { name: "Open…" }).waitFor();
   await app.drop({ name: basename(file), text: readFileSync(file, "utf8") });
   await shown(app.page);
   const ended = new AbortController();
