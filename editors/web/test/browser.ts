@@ -109,6 +109,18 @@ export async function type(field: Locator, text: string): Promise<void> {
   await field.pressSequentially(text);
 }
 
+/** Clicks twice. Firefox's driver makes no double click of two clicks. */
+export async function doubleClick(page: Page, { x, y }: { x: number; y: number }): Promise<void> {
+  await page.mouse.dblclick(x, y);
+  if (isFirefox) await page.evaluate(([x, y]) => document.elementFromPoint(x!, y!)!.dispatchEvent(new MouseEvent("dblclick", { bubbles: true, clientX: x!, clientY: y! })), [x, y]);
+}
+
+/** Where the middle of an element is in the window. */
+export async function middle(element: Locator): Promise<{ x: number; y: number }> {
+  const { x, y, width, height } = (await element.boundingBox())!;
+  return { x: x + width / 2, y: y + height / 2 };
+}
+
 /** Moves the slider of the time, whose steps are milliseconds. */
 export const seekTo = (page: Page, seconds: number): Promise<void> => page.locator(".slider").fill(String(Math.round(seconds * 1e3) / 1e3));
 

@@ -102,8 +102,9 @@ export interface EditOptions extends PageOptions {
 /** A test with a drawing that is edited. */
 export function edit(name: string, run: (edited: Edited) => Promise<void>, options: EditOptions = {}): void {
   const { drawing = FIGURE, arguments: more = [], program, ...context } = options;
-  const why = more.length > 0 ? "only the program takes arguments" : program;
-  test(name, { skip: skip || (byModule && why !== undefined && why), timeout: TEST_LIMIT }, async (t) => {
+  const isForProgram = more.length > 0 ? "only the program takes arguments" : program;
+  const why = (isFirefox && options.hasTouch === true && "Firefox's driver has no fingers") || (byModule && isForProgram !== undefined && isForProgram);
+  test(name, { skip: skip || why, timeout: TEST_LIMIT }, async (t) => {
     const onClose = closing(t);
     const folder = mkdtempSync(join(tmpdir(), "okoshi-edit-"));
     onClose(() => rmSync(folder, { recursive: true }));
