@@ -106,7 +106,8 @@ export async function countRows(page: Page): Promise<() => Promise<number>> {
 /** Replaces the text of a field by keys. What Firefox is given otherwise it does not take for a change by a person. */
 export async function type(field: Locator, text: string): Promise<void> {
   await field.press("Control+a");
-  await field.pressSequentially(text);
+  if (text === "") await field.press("Delete");
+  else await field.pressSequentially(text);
 }
 
 /** Clicks twice. Firefox's driver makes no double click of two clicks. */

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { join } from "node:path";
-import { manual, picture, still } from "./browser";
+import { manual, picture, still, type } from "./browser";
 import { edit } from "./edited";
 import { example, FIGURE, source } from "./setup";
 
@@ -26,7 +26,7 @@ edit("a figure gets a clip, a speed, limited animation and another clip, and und
   await says(" Motion wave");
   await page.locator(".motion").waitFor();
   await page.waitForFunction(() => /^wave · 2\.5 s/.test(document.querySelector(".clip-choice option")?.textContent ?? ""));
-  await edited.label("Motion: speed, as a number").fill("2");
+  await type(edited.label("Motion: speed, as a number"), "2");
   await page.keyboard.press("Enter");
   await says(" Motion wave speed 2");
   await page.waitForFunction(() => /^wave · 1\.3 s/.test(document.querySelector(".clip-choice option")?.textContent ?? ""));
@@ -43,14 +43,14 @@ edit("a figure gets a clip, a speed, limited animation and another clip, and und
   assert.equal(edited.text(), texts.at(-1));
   await page.mouse.up();
   await says(" Motion wave 10 speed 2");
-  await edited.label("Motion: seconds, as a number").fill("");
+  await type(edited.label("Motion: seconds, as a number"), "");
   await page.keyboard.press("Enter");
   await says(" Motion wave speed 2");
   await page.locator(".part-form[aria-busy=false]").waitFor();
   // Whoever is quick does not wait for the form to say what was changed last: nothing of that is lost.
   await page.evaluate(() => ["Motion -i", "Motion limited"].forEach((key) => document.querySelector<HTMLInputElement>(`[data-key="${key}"]`)!.click()));
   await says(" Motion -i wave speed 2 Limited 2 8");
-  await edited.label("Limited: hold, as a number").fill("12");
+  await type(edited.label("Limited: hold, as a number"), "12");
   await page.keyboard.press("Enter");
   await says(" Motion -i wave speed 2 Limited 2 12");
   await page.waitForFunction(() => /drawings/.test(document.querySelector(".clip-choice option")?.textContent ?? ""));
@@ -114,8 +114,8 @@ edit("a motion file beside the drawing is chosen, with its range and speed", asy
   await page.getByRole("button", { name: "Edit" }).click();
   await edited.select("Body");
   const says = (words: string): Promise<void> => edited.has(BEFORE.replace(BODY, `${BODY} Motion ${words}`), words);
-  const type = async (which: string, number: string): Promise<void> => {
-    await edited.label(`Motion: ${which}, as a number`).fill(number);
+  const enter = async (which: string, number: string): Promise<void> => {
+    await type(edited.label(`Motion: ${which}, as a number`), number);
     await page.keyboard.press("Enter");
   };
   const clip = edited.label("Motion: clip");
@@ -124,11 +124,11 @@ edit("a motion file beside the drawing is chosen, with its range and speed", asy
   await says('"kick.bvh"');
   await edited.label("Motion: end").waitFor();
   assert.equal(await clip.inputValue(), '"kick.bvh"');
-  await type("start", "0.5");
+  await enter("start", "0.5");
   await says('"kick.bvh" from 0.5');
-  await type("end", "1.5");
+  await enter("end", "1.5");
   await says('"kick.bvh" from 0.5 to 1.5');
-  await type("speed", "0.5");
+  await enter("speed", "0.5");
   await says('"kick.bvh" from 0.5 to 1.5 speed 0.5');
   await page.getByLabel("in place").check();
   await says('-i "kick.bvh" from 0.5 to 1.5 speed 0.5');

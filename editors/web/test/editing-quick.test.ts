@@ -36,7 +36,7 @@ edit("of changes of one attribute that follow each other faster than builds, non
     (one as HTMLInputElement).value = "#123456";
     one.dispatchEvent(new Event("change"));
   });
-  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "3");
+  await edited.matches(/Color #123456/);
   await page.locator(".part-form[aria-busy=false]").waitFor();
   await page.evaluate(() => document.activeElement!.dispatchEvent(new Event("change", { bubbles: true })));
   await type({ z0: "-4" });
