@@ -189,8 +189,7 @@ wasm() {
   if [ -z "${FULL_MODULE:-}" ]; then
     # Less optimised than a module that is handed on, which takes several times as long to build.
     # With the language server, so that there is one module for the page and for the extension of VS Code.
-    WASM_FEATURES=editor CARGO_TARGET_DIR=$target CARGO_PROFILE_RELEASE_LTO=off CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
-      bash editors/web/wasm/build.sh "$target/module"
+    WASM_FEATURES=editor WASM_PROFILE=quick CARGO_TARGET_DIR=$target bash editors/web/wasm/build.sh "$target/module"
     echo "skipped: the size of the module, which FULL_MODULE=yes checks"
     return
   fi

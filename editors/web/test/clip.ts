@@ -21,10 +21,10 @@ export interface Disc {
 
 const turn = (seconds: number, turns: number, phase = 0): number => 2 * Math.PI * ((turns * seconds) / PERIOD + phase);
 
-/** Discs that come round after each period, at up to 70 pixels per second. */
+/** Discs that come round after each period, at up to 35 pixels per second: a busy machine films few pictures, between which they must not jump too far. */
 export const DISCS: readonly Disc[] = [
-  { name: "red", colour: [205, 45, 40], path: (time) => [105 + 55 * Math.cos(turn(time, 1)), 115 + 60 * Math.sin(turn(time, 1)) + 8 * Math.sin(turn(time, 3))] },
-  { name: "blue", colour: [45, 75, 210], path: (time) => [235 + 45 * Math.sin(turn(time, 1, 0.2)), 125 + 35 * Math.sin(turn(time, 2))] },
+  { name: "red", colour: [205, 45, 40], path: (time) => [90 + 28 * Math.cos(turn(time, 1)), 115 + 30 * Math.sin(turn(time, 1)) + 4 * Math.sin(turn(time, 3))] },
+  { name: "blue", colour: [45, 75, 210], path: (time) => [235 + 22 * Math.sin(turn(time, 1, 0.2)), 125 + 18 * Math.sin(turn(time, 2))] },
 ];
 
 /** Numbers from 0 to 1 that are the same in each run. */
