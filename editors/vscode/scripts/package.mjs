@@ -12,7 +12,6 @@ import { chmodSync, copyFileSync, mkdirSync, rmSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { install } from "../../web/scripts/install.mjs";
-import { stageWeb } from "./web.mjs";
 
 const here = join(dirname(fileURLToPath(import.meta.url)), "..");
 const env = { SOURCE_DATE_EPOCH: "315619200", ...process.env };
@@ -62,6 +61,8 @@ export function pack(output, program) {
 export async function packWeb(output, module) {
   const folder = join(here, "web-package");
   try {
+    // It imports packages that `prepare` installs.
+    const { stageWeb } = await import("./web.mjs");
     await stageWeb(module, folder);
     runIn(folder, "npx", "--no-install", ...PACKAGE, "--target", "web", "-o", output);
   } finally {
