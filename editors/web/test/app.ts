@@ -17,6 +17,9 @@ export const skip = noBrowser !== false ? noBrowser : module === "" || !existsSy
 
 const TYPES: Readonly<Record<string, string>> = { ".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8", ".wasm": "application/wasm", ".svg": "image/svg+xml", ".png": "image/png" };
 
+/** The model of a first visit, once it is drawn. */
+export const STAGE = ".welcome-stage canvas[data-revision]";
+
 let browser: Promise<Browser> | undefined;
 let folder: string | undefined;
 after(() => closeAll([async () => (await browser)?.close(), () => folder && rmSync(folder, { recursive: true })]));

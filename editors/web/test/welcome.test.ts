@@ -2,13 +2,12 @@
 
 import assert from "node:assert/strict";
 import type { BrowserContext, Page } from "playwright-core";
-import { inBrowser } from "./app";
+import { inBrowser, STAGE } from "./app";
 import { found } from "./axe";
 import { picture, shown } from "./browser";
 import { FIGURE, source } from "./setup";
 import { SIZES } from "./sizes";
 
-const STAGE = ".welcome-stage canvas[data-revision]";
 /** What is asked for in a browser that keeps nothing is not kept for a next time either. */
 const ALONE = { serviceWorkers: "block", expected: /Service Worker registration blocked/ } as const;
 
