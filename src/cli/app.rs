@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::args::{App, Common};
-use super::{Failure, Outcome};
-use crate::disk::{FolderResolver, ReadError, below, is_drawing};
-use crate::preview::{APP_PORT, Files, PORT, bind, lacking, serve_app};
+use super::{Failure, Outcome, serving};
+use crate::disk::{FolderResolver, ReadError, is_drawing, names_below};
+use crate::preview::{APP_PORT, Files, PORT, lacking, serve_app};
 
 /// How a folder is made.
 const MADE_BY: &str = "in a clone of okoshi's repository, `bash editors/web/app.sh okoshi-app` makes such a folder, and `okoshi app okoshi-app` serves it";
@@ -23,17 +23,10 @@ pub(super) fn run(arguments: &App, common: Common) -> Result<Outcome, Failure> {
         )
         .into());
     }
-    let bound = bind(arguments.port, APP_PORT).map_err(|error| {
-        let port = arguments.port.unwrap_or_default();
-        format!("port {port} is not available ({error}); choose another with --port, or leave --port out")
-    })?;
+    let bound = serving::bound(arguments.port, APP_PORT)?;
     let url = bound.url();
     let port = bound.port();
-    let runtime = tokio::runtime::Builder::new_multi_thread()
-        .worker_threads(2)
-        .enable_all()
-        .build()
-        .map_err(|error| format!("the page cannot be served: {error}"))?;
+    let runtime = serving::runtime()?;
     println!("{url}");
     if arguments.port.is_none() && port != APP_PORT {
         eprintln!(
@@ -43,10 +36,8 @@ pub(super) fn run(arguments: &App, common: Common) -> Result<Outcome, Failure> {
     if !common.quiet {
         eprintln!("press Ctrl-C to stop");
     }
-    if arguments.open
-        && let Err(error) = open::that_detached(&url)
-    {
-        eprintln!("the browser cannot be opened ({error}); open {url} by hand");
+    if arguments.open {
+        serving::open(&url);
     }
     match runtime.block_on(serve_app(bound, files)) {
         Ok(never) => match never {},
@@ -69,14 +60,7 @@ fn in_folder(folder: &Path) -> Result<Files, Failure> {
     if !folder.is_dir() {
         return Err(format!("`{shown}` is a file, not a folder: {MADE_BY}").into());
     }
-    let names = below(folder).files;
-    let names = names.iter().filter_map(|file| {
-        let path = file.strip_prefix(folder).ok()?;
-        let names: Option<Vec<&str>> = path.iter().map(|name| name.to_str()).collect();
-        Some(names?.join("/"))
-    });
-    let names: Vec<String> = names.collect();
-    if let Some(lacks) = lacking(&names) {
+    if let Some(lacks) = lacking(&names_below(folder)) {
         return Err(format!(
             "`{shown}` is not okoshi in the browser, it has no `{lacks}`: {MADE_BY}"
         )

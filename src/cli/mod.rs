@@ -30,6 +30,7 @@ mod render;
 pub(crate) mod report;
 mod rewriting;
 pub(crate) mod sarif;
+mod serving;
 mod terminal;
 mod trace;
 mod track;

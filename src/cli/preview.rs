@@ -6,11 +6,11 @@ use std::time::SystemTime;
 
 use super::args::{Common, Preview};
 use super::watch::{describe_event, describe_shown, follow, options};
-use super::{Failure, Outcome};
+use super::{Failure, Outcome, serving};
 use crate::compile;
 use crate::disk::{ReadError, write_new};
 use crate::page::{Editing, Hub, Shown, Starters, Times, random_key};
-use crate::preview::{PORT, bind, serve};
+use crate::preview::{PORT, serve};
 use crate::resolver::Resolver;
 use crate::watch::{Build, Editor, Event, Options};
 
@@ -23,10 +23,7 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
     if arguments.unsaved.is_some() && path.is_dir() {
         return Err("--unsaved names the copy of one drawing, and this is a folder".into());
     }
-    let bound = bind(arguments.port, PORT).map_err(|error| {
-        let port = arguments.port.unwrap_or_default();
-        format!("port {port} is not available ({error}); choose another with --port, or leave --port out")
-    })?;
+    let bound = serving::bound(arguments.port, PORT)?;
     let url = bound.url();
     let options = Options {
         shows_incomplete: true,
@@ -50,17 +47,11 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Result<Outcome, Failur
     };
     let hub = Hub::new(|_, _| (), offered, editing, Some(Box::new(reads)));
     let server = hub.clone();
-    let runtime = tokio::runtime::Builder::new_multi_thread()
-        .worker_threads(2)
-        .enable_all()
-        .build()
-        .map_err(|error| format!("the page cannot be served: {error}"))?;
+    let runtime = serving::runtime()?;
     runtime.spawn(serve(bound, server));
     println!("{url}");
-    if arguments.open
-        && let Err(error) = open::that_detached(&url)
-    {
-        eprintln!("the browser cannot be opened ({error}); open {url} by hand");
+    if arguments.open {
+        serving::open(&url);
     }
     follow(std::slice::from_ref(path), &options, |event| {
         show(&hub, path, &event);

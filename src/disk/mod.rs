@@ -18,7 +18,7 @@ pub(crate) use cache::write_cached;
 pub use folder::FolderResolver;
 pub(crate) use read::{ReadError, is_packed, open_stream, read_drawing, read_file};
 pub(crate) use scratch::Scratch;
-pub(crate) use search::{Stamp, below, files, is_drawing, motions, stamp};
+pub(crate) use search::{Stamp, below, files, is_drawing, motions, names_below, stamp};
 pub(crate) use target::{Inputs, Naming, Target, rewrite};
 pub use text::decode;
 pub(crate) use watch::{

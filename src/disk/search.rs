@@ -56,6 +56,17 @@ pub(crate) fn below(folder: &Path) -> Below {
     found
 }
 
+/// The files below a folder as drawings name them: by their paths from there, with `/` between names. What is not Unicode has no such name.
+pub(crate) fn names_below(folder: &Path) -> Vec<String> {
+    let files = below(folder).files.into_iter();
+    let names = files.filter_map(|file| {
+        let names = file.strip_prefix(folder).ok()?.iter();
+        let names: Option<Vec<&str>> = names.map(|name| name.to_str()).collect();
+        Some(names?.join("/"))
+    });
+    names.collect()
+}
+
 /// Whether a file is a drawing, judged by its name.
 pub(crate) fn is_drawing(path: &Path) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy());

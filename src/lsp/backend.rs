@@ -11,7 +11,7 @@ use tower_lsp::ls_types::*;
 use tower_lsp::{Client, LanguageServer};
 
 use super::capabilities::pulls_diagnostics;
-use super::documents::{Documents, Snapshot, file_path, files_in};
+use super::documents::{Documents, Snapshot, file_path};
 use super::links::Links;
 use super::manual;
 use super::ordered::{SNAPSHOTS, task_error};
@@ -19,7 +19,7 @@ use super::preview::Previews;
 use super::scheduler::Scheduler;
 use super::worker::ClientSupport;
 use super::workspace::Workspace;
-use crate::disk::FolderResolver;
+use crate::disk::{FolderResolver, names_below};
 use crate::ide;
 use crate::protocol::capabilities::initialize_result;
 use crate::protocol::convert::{self, PositionMap};
@@ -210,7 +210,7 @@ impl LanguageServer for Backend {
         let item = can.and_then(|can| can.completion_item);
         let snippets = item.and_then(|can| can.snippet_support) == Some(true);
         Ok(analyzed.and_then(|(document, analyzed)| {
-            let files = || files_in(document.folder());
+            let files = || document.folder().map(names_below).unwrap_or_default();
             let known = analyzed.known();
             queries::completion(&document, known, place.position, snippets, &files)
         }))

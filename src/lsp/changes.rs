@@ -1,5 +1,7 @@
 //! Changes that a panel of the client asks for.
 
+use std::sync::Arc;
+
 use base64::Engine;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -47,7 +49,7 @@ impl Backend {
         found.await.map_err(|_| Error::internal_error())
     }
 
-    /// A model of what a change would make of the drawing, in Base64; none if the change would be refused.
+    /// A model of what a change would make of the drawing, in Base64; none if the change would be refused, or changes nothing.
     pub(super) async fn preview_try(&self, params: ChangeParams) -> Result<Option<Value>> {
         let analyzed = self.shown(&params.text_document).await?;
         let model = tokio::task::spawn_blocking(move || {
@@ -60,7 +62,7 @@ impl Backend {
     }
 
     /// The state of a text that edits are for.
-    async fn shown(&self, text: &TextDocumentIdentifier) -> Result<std::sync::Arc<Analyzed>> {
+    async fn shown(&self, text: &TextDocumentIdentifier) -> Result<Arc<Analyzed>> {
         let analyzed = self.analyzed(&text.uri).await?;
         let (_, analyzed) =
             analyzed.ok_or_else(|| Error::invalid_params("this drawing is not open"))?;

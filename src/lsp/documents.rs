@@ -4,7 +4,7 @@
 //! when it came ([`Snapshot`]).
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::sync::watch;
@@ -12,7 +12,7 @@ use tower_lsp::ls_types::{
     TextDocumentContentChangeEvent, TextDocumentItem, Uri, VersionedTextDocumentIdentifier,
 };
 
-use crate::disk::{FolderResolver, below};
+use crate::disk::FolderResolver;
 use crate::protocol::document::{Analyzed, Document};
 use crate::protocol::positions::{Encoding, Positions};
 use crate::resolver::{MemoryResolver, Resolver};
@@ -192,20 +192,6 @@ pub(super) fn resolver(document: &Document) -> Box<dyn Resolver> {
 pub(super) fn file_path(uri: &Uri) -> Option<PathBuf> {
     let is_file = uri.scheme().as_str().eq_ignore_ascii_case("file");
     is_file.then(|| uri.to_file_path().map(|path| path.into_owned()))?
-}
-
-/// The files that a drawing in a folder can link to, as it names them.
-pub(super) fn files_in(folder: Option<&Path>) -> Vec<String> {
-    let Some(folder) = folder else {
-        return vec![];
-    };
-    let files = below(folder).files.into_iter();
-    let names = files.filter_map(|file| {
-        let parts = file.strip_prefix(folder).ok()?.components();
-        let parts: Option<Vec<_>> = parts.map(|part| part.as_os_str().to_str()).collect();
-        Some(parts?.join("/"))
-    });
-    names.collect()
 }
 
 fn replaced(text: &str, span: Span, new: &str) -> Arc<str> {

@@ -25,5 +25,5 @@ mod socket;
 
 pub(crate) use app::{Files, PORT as APP_PORT, serve as serve_app};
 pub(crate) use complete::lacking;
-pub(crate) use loopback::bind;
+pub(crate) use loopback::{Bound, bind};
 pub(crate) use server::{PORT, serve};

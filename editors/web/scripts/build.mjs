@@ -33,10 +33,11 @@ export async function script(name, source, folder, more = {}) {
   if (notices !== "") writeFileSync(file, `/*!\nThis file contains these packages.\n${notices}*/\n${readFileSync(file, "utf8")}`);
 }
 
-export async function bundle() {
-  mkdirSync(dist, { recursive: true });
-  await script("page", "src/main.ts", dist);
-  copyFileSync(join(here, "src", "page.html"), join(dist, "page.html"));
+/** Bundles the page into a folder. */
+export async function bundle(folder = dist) {
+  mkdirSync(folder, { recursive: true });
+  await script("page", "src/main.ts", folder);
+  copyFileSync(join(here, "src", "page.html"), join(folder, "page.html"));
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {

@@ -25,6 +25,8 @@ const OUT = process.env.OKOSHI_OUT ?? join("test", "out");
 // Inside the package, so that imports in tests are resolved from there.
 const bundles = join(OUT, "js");
 const folder = join(OUT, "static");
+// A page of its own, which no other run bundles anew while a test reads it.
+const page = join(OUT, "dist");
 
 if (!onlyRuns) await bundleAll();
 if (!onlyBundles) process.exit(run());
@@ -34,7 +36,7 @@ async function bundleAll() {
   const check = spawnSync("npx", ["--no-install", "tsc", "--noEmit"], { stdio: "inherit", shell: process.platform === "win32" });
   if (check.status !== 0) process.exit(check.status ?? 1);
   const { bundle } = await import("./build.mjs");
-  await bundle();
+  await bundle(resolve(page));
 
   const { build } = await import("esbuild");
   // Pictures of the manual that an earlier run made say nothing about this one.

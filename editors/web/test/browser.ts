@@ -22,6 +22,8 @@ const PROGRAM = isFirefox ? first(process.env["FIREFOX"], "/usr/bin/firefox-esr"
 /** Why there is no browser; `false` if there is one. */
 export const noBrowser = PROGRAM !== undefined ? false : isFirefox ? "there is no Firefox; FIREFOX names one" : "there is no Chromium; CHROMIUM names one";
 export const OUT = process.env["OKOSHI_OUT"] ?? join("test", "out");
+/** The page that was bundled for the tests. */
+export const DIST = join(OUT, "dist");
 
 /** Starts the browser, with more arguments for Chromium. */
 export async function launch(more: readonly string[] = []): Promise<Browser> {

@@ -8,7 +8,7 @@ import { basename, dirname, join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, Locator, Page } from "playwright-core";
 import { skip as noModule, openApp, type App } from "./app";
-import { isFirefox, launch, noBrowser, open, shown, type PageOptions } from "./browser";
+import { DIST, isFirefox, launch, noBrowser, open, shown, type PageOptions } from "./browser";
 import { closeAll, closing, PATIENCE, preview, TEST_LIMIT, type Close } from "./closing";
 import { FIGURE } from "./setup";
 
@@ -131,7 +131,7 @@ async function inProgram(file: string, onClose: (close: Close) => void, options:
     for (const [path, name] of Object.entries(TYPES)) {
       await context.route(address + path, async (route) => {
         const { "content-length": _, ...headers } = (await route.fetch()).headers();
-        await route.fulfill({ headers, body: readFileSync(join("dist", name)) });
+        await route.fulfill({ headers, body: readFileSync(join(DIST, name)) });
       });
     }
   });

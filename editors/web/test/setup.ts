@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, Page } from "playwright-core";
-import { launch, noBrowser, open, type Colour, type PageOptions } from "./browser";
+import { DIST, launch, noBrowser, open, type Colour, type PageOptions } from "./browser";
 import { closeAll, closing, TEST_LIMIT } from "./closing";
 import { make, type Made } from "./drawings";
 import { MockHost } from "./mock";
@@ -36,7 +36,7 @@ export function browse(name: string, prepare: (host: MockHost) => void, run: (pa
   test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
     const onClose = closing(t);
     browser ??= launch();
-    const host = new MockHost("dist");
+    const host = new MockHost(DIST);
     prepare(host);
     await host.start();
     onClose(() => host.stop());
