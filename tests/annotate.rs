@@ -290,6 +290,66 @@ fn only_labels_are_added() {
     assert_eq!(back, text);
 }
 
+/// A man before his cape, with both hands in one shape.
+const HERO: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 300">
+  <path fill="#a01030" d="M70 95H130L165 260H35Z"/>
+  <path fill="#203070" d="M76 180H98V282H74Z"/>
+  <path fill="#203070" d="M102 180H124L126 282H102Z"/>
+  <path fill="#f0c090" d="M40 168h18v20h-18zM142 168h18v20h-18z"/>
+  <path fill="#3050a0" d="M72 95H128L124 190H76Z"/>
+  <path fill="#3050a0" d="M74 98L60 172H42L56 100Z"/>
+  <path fill="#3050a0" d="M126 98L140 172H158L144 100Z"/>
+  <circle fill="#f0c090" cx="100" cy="62" r="34"/>
+  <path fill="#201008" d="M86 56h7v8h-7zM107 56h7v8h-7z"/>
+</svg>
+"##;
+
+/// A stag in profile, whose far legs are one shape with the shadow on its chest.
+const STAG: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 240">
+  <path fill="#a06030" d="M84 150h16v78h-16zM206 150h16v78h-16zM62 92h26v60h-26z"/>
+  <path fill="#d09050" d="M20 70L60 50L88 60L100 100H250L262 228H246L236 160H120L112 228H96L78 150Z"/>
+  <path fill="#503010" d="M60 60L56 6h6L68 30L90 4h6L74 62Z"/>
+  <circle fill="#100804" cx="52" cy="70" r="5"/>
+  <path fill="#100804" d="M12 66h14v12h-14z"/>
+</svg>
+"##;
+
+#[test]
+fn what_is_worn_or_grows_on_a_head_is_no_limb() {
+    let names = |text: &str| -> BTreeMap<String, String> {
+        let (text, _) = annotated(text);
+        let compiled = compiled(&text);
+        let parts = &compiled.bindings.parts;
+        let named = parts.iter();
+        let named = named.filter(|part| part.kind == PartKind::Main && !part.is_automatic());
+        named
+            .map(|part| {
+                let parent = part.parent.map_or("Root", |parent| &parts[parent].name);
+                (part.name.clone(), parent.to_owned())
+            })
+            .collect()
+    };
+    let hero = names(HERO);
+    for (name, parent) in [
+        ("Cape", "Body"),
+        ("Lleg", "Body"),
+        ("Rleg", "Body"),
+        ("Larm", "Body"),
+        ("Rarm", "Body"),
+        ("Head", "Body"),
+    ] {
+        assert_eq!(hero.get(name).map(String::as_str), Some(parent), "{hero:?}");
+    }
+    assert!(hero.contains_key("Hands"), "{hero:?}");
+
+    let stag = names(STAG);
+    for name in ["Body", "Far legs", "Horns", "Mouth", "Eye"] {
+        assert!(stag.contains_key(name), "{name} in {stag:?}");
+    }
+    let arms = stag.keys().filter(|name| class(name) == Some("arm"));
+    assert_eq!(arms.count(), 0, "{stag:?}");
+}
+
 const PEBBLES: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">
   <rect x="10" y="10" width="20" height="30" fill="#a00"/>
   <rect x="60" y="50" width="30" height="20" fill="#0a0"/>

@@ -5,6 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
@@ -524,8 +525,13 @@ impl SourceFile {
     }
 }
 
-/// The files of the library and of the program, found by following `mod` items.
-fn sources() -> Vec<SourceFile> {
+/// The files of the library and of the program, found by following `mod` items. They are read once for all tests.
+fn sources() -> &'static [SourceFile] {
+    static SOURCES: OnceLock<Vec<SourceFile>> = OnceLock::new();
+    SOURCES.get_or_init(read_sources)
+}
+
+fn read_sources() -> Vec<SourceFile> {
     let mut sources = Vec::new();
     read_module("lib.rs".into(), Vec::new(), &mut sources);
     read_module("main.rs".into(), Vec::new(), &mut sources);
@@ -799,7 +805,7 @@ fn graph(sources: &[SourceFile]) -> (Graph, BTreeMap<(String, String), String>) 
 
 #[test]
 fn modules_use_exactly_what_the_list_says() {
-    let (graph, shown) = graph(&sources());
+    let (graph, shown) = graph(sources());
     let listed: Graph = USES
         .iter()
         .map(|(module, uses)| {
@@ -865,7 +871,7 @@ fn cycle(mut graph: Graph) -> Vec<String> {
 
 #[test]
 fn no_modules_use_each_other_in_a_cycle() {
-    let (graph, _) = graph(&sources());
+    let (graph, _) = graph(sources());
     assert_eq!(cycle(graph), [] as [String; 0]);
 }
 
@@ -914,7 +920,7 @@ fn is_rim(module: &str) -> bool {
 
 #[test]
 fn the_core_never_uses_the_rim() {
-    let (graph, shown) = graph(&sources());
+    let (graph, shown) = graph(sources());
     for (module, uses) in graph.iter().filter(|(module, _)| !is_rim(module)) {
         for other in uses.iter().filter(|other| is_rim(other)) {
             let path = &shown[&(module.clone(), other.clone())];

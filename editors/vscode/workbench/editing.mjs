@@ -13,6 +13,14 @@ const DRAGGED = { x: 9, y: 31 };
 /** How much longer the drawing stands whose end is dragged, in frames. */
 const LONGER = 3;
 
+/** What `okoshi edit` makes of a text. */
+export function edited(okoshi, room, before, change) {
+  const copy = join(room, "edited.svg");
+  writeFileSync(copy, before);
+  execFileSync(okoshi, ["edit", "-q", copy, "--change", JSON.stringify(change)]);
+  return readFileSync(copy, "utf8");
+}
+
 export async function edits({ editor, page, panel, step, open, read, configure, okoshi, project, room, manual }) {
   const { frame } = panel;
   const label = (name) => frame.getByLabel(name, { exact: true });
@@ -32,35 +40,7 @@ export async function edits({ editor, page, panel, step, open, read, configure, 
     await page.mouse.down();
     await page.mouse.move(from.x + by.x, from.y + by.y, { steps: 6 });
   };
-  /** All of the text in the editor, saved or not. */
-  const text = async () => {
-    await editor.until("the text to have the keyboard", async () => {
-      await editor.press("Control+1");
-      return page.evaluate(() => document.activeElement?.closest(".editor-instance .monaco-editor") !== null);
-    });
-    await editor.press("Control+a");
-    await editor.press("Control+c");
-    return page.evaluate(() => navigator.clipboard.readText());
-  };
-  const has = async (expected, what) => {
-    let seen;
-    await editor.until(what, async () => (seen = await text()) === expected, 30_000).catch(() => assert.equal(seen, expected, what));
-  };
-  /** Saves the text. The panel may get the keyboard back a moment after its undo. */
-  const save = () =>
-    editor.until("the text to be saved", async () => {
-      if ((await page.locator(".tab.dirty").count()) === 0) return true;
-      await editor.press("Control+1");
-      await editor.press("Control+s");
-      return false;
-    });
-  /** What `okoshi edit` makes of a text. */
-  const made = (before, change) => {
-    const copy = join(room, "edited.svg");
-    writeFileSync(copy, before);
-    execFileSync(okoshi, ["edit", "-q", copy, "--change", JSON.stringify(change)]);
-    return readFileSync(copy, "utf8");
-  };
+  const made = (before, change) => edited(okoshi, room, before, change);
   const set = (part, attribute, value) => ({ change: "set", part, attribute, value });
   const clip = (motion, limited = null, held = null) => ({ change: "clip", part: "Ubody", clip: 0, motion, limited, held });
   /** Gives a part a colour of its own, where it has that of a legend: the panel asks which is meant. The picker is the browser's own: what it would say is filled in. */
@@ -77,13 +57,13 @@ export async function edits({ editor, page, panel, step, open, read, configure, 
     const before = read(DRAWING);
     const expected = made(before, await act());
     assert.notEqual(expected, before, what);
-    await has(expected, what);
+    await editor.has(expected, what);
     assert.equal(read(DRAWING), before, `${what}: nothing is saved before a person saves`);
     await editor.press("Control+z");
-    await has(before, `${what}: undone`);
+    await editor.has(before, `${what}: undone`);
     await editor.press("Control+y");
-    await has(expected, `${what}: made again`);
-    await save();
+    await editor.has(expected, `${what}: made again`);
+    await editor.save();
     assert.equal(read(DRAWING), expected, `${what}: saved`);
   };
 
@@ -160,7 +140,7 @@ export async function edits({ editor, page, panel, step, open, read, configure, 
       await page.mouse.up();
       // Which frame of the clip it is, only the text tells.
       let words;
-      await editor.until("the list of holds", async () => (words = /Held (\d+ \d+)/.exec(await text())?.[1]));
+      await editor.until("the list of holds", async () => (words = /Held (\d+ \d+)/.exec(await editor.text())?.[1]));
       assert.equal(words.split(" ")[1], String(held + LONGER));
       return clip("wave", "2 8", words);
     });
@@ -171,21 +151,21 @@ export async function edits({ editor, page, panel, step, open, read, configure, 
     await select("Ubody");
     await label("Color: swatch").fill("#00aa00");
     const green = made(saved, set("Ubody", "Color", "#00aa00"));
-    await has(green, "the first change");
+    await editor.has(green, "the first change");
     await label("Color: swatch").fill("#0000aa");
-    await has(made(green, set("Ubody", "Color", "#0000aa")), "the second change");
+    await editor.has(made(green, set("Ubody", "Color", "#0000aa")), "the second change");
     // By key, which the workbench hears too, and by button.
     await panel.canvas.focus();
     await editor.press("Control+z");
     await editor.stays("one step back", async () => {
       await page.waitForTimeout(500);
-      return (await text()) === green;
+      return (await editor.text()) === green;
     });
     await frame.getByRole("button", { name: /^Undo/ }).click();
-    await has(saved, "undone by button");
+    await editor.has(saved, "undone by button");
     await frame.getByRole("button", { name: /^Redo/ }).click();
-    await has(green, "made again by button");
-    await save();
+    await editor.has(green, "made again by button");
+    await editor.save();
   });
 
   await step("a save by another program is kept, and so is what is changed in the panel", async () => {
@@ -197,7 +177,7 @@ export async function edits({ editor, page, panel, step, open, read, configure, 
     writeFileSync(file, elsewhere);
     await select("Head");
     const both = made(elsewhere, await paint("Head", "#aa5500"));
-    await has(both, "the change in what was saved elsewhere");
+    await editor.has(both, "the change in what was saved elsewhere");
     // The text is not saved, and the other program saves: the editor asks before it writes over that.
     const again = elsewhere.replace("another program", "a third one");
     writeFileSync(file, again);
@@ -207,7 +187,7 @@ export async function edits({ editor, page, panel, step, open, read, configure, 
       return (await editor.messages()).some((one) => /newer/.test(one));
     });
     assert.equal(read(DRAWING), again, "what was saved elsewhere is there");
-    assert.equal(await text(), both, "and so is what was changed here");
+    assert.equal(await editor.text(), both, "and so is what was changed here");
     await (await editor.see(".notifications-toasts .monaco-button", "Overwrite")).click();
     await editor.until("the text to be saved", () => read(DRAWING) === both);
     await page.setViewportSize({ width: 1280, height: 800 });

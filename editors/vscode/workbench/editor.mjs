@@ -1,5 +1,7 @@
 // Drives the editor in the browser like a user: with keys, and by what is visible.
 
+import assert from "node:assert/strict";
+
 /** The limit of every wait, in milliseconds. It only ends a step that hangs: how fast something is, no step judges. */
 export const PATIENCE = 180_000;
 
@@ -75,6 +77,38 @@ export class Editor {
 
   type(text) {
     return this.page.keyboard.type(text, { delay: 15 });
+  }
+
+  /** Gives the keyboard to the text: the panel may take it back a moment after its undo. */
+  focusText() {
+    return this.until("the text to have the keyboard", async () => {
+      await this.press("Control+1");
+      return this.page.evaluate(() => document.activeElement?.closest(".editor-instance .monaco-editor") !== null);
+    });
+  }
+
+  /** All of the text, saved or not. */
+  async text() {
+    await this.focusText();
+    await this.press("Control+a");
+    await this.press("Control+c");
+    return this.page.evaluate(() => navigator.clipboard.readText());
+  }
+
+  /** Waits until the text is as expected, and shows the difference if it never is. */
+  async has(expected, what) {
+    let seen;
+    await this.until(what, async () => (seen = await this.text()) === expected, 30_000).catch(() => assert.equal(seen, expected, what));
+  }
+
+  /** Saves the text. */
+  save() {
+    return this.until("the text to be saved", async () => {
+      if ((await this.page.locator(".tab.dirty").count()) === 0) return true;
+      await this.press("Control+1");
+      await this.press("Control+s");
+      return false;
+    });
   }
 
   /** Runs a command of the palette by its title. */

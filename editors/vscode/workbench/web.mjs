@@ -2,9 +2,9 @@
 // that of a code-server, whose files are read through the editor.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
+import { edited } from "./editing.mjs";
 import { Panel } from "./preview.mjs";
 import { place } from "./steps.mjs";
 import { codeServer } from "./tools.mjs";
@@ -25,39 +25,13 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
   const server = await codeServer(tools, { packages: [vsix], data, extensions, env: { HOME: room, PATH: `${dirname(tools.node)}:/usr/bin:/bin` } });
   try {
     const panel = new Panel(editor, page);
-    const inText = () => page.evaluate(() => document.activeElement?.closest(".editor-instance .monaco-editor") !== null);
     const open = async (name) => {
       const payload = encodeURIComponent(JSON.stringify([["openFile", `vscode-remote://${server.address}${join(project, name)}`]]));
       await page.goto(`http://${server.address}/?folder=${encodeURIComponent(project)}&payload=${payload}`);
       await editor.see(".editor-instance .view-line span", "svg");
-      await focus();
+      await editor.focusText();
     };
-    const focus = () =>
-      editor.until("the drawing to have the keyboard", async () => {
-        await editor.press("Control+1");
-        return inText();
-      });
     const at = (wanted, offset, text = figure) => editor.caret(place(text, wanted, offset));
-    /** All of the text in the editor, saved or not. */
-    const text = async () => {
-      await focus();
-      await editor.press("Control+a");
-      await editor.press("Control+c");
-      return page.evaluate(() => navigator.clipboard.readText());
-    };
-    const has = async (expected, what) => {
-      let seen;
-      await editor.until(what, async () => (seen = await text()) === expected, 30_000).catch(() => assert.equal(seen, expected, what));
-    };
-
-    /** Saves the text: the next window would restore what is not saved. */
-    const save = () =>
-      editor.until("the text to be saved", async () => {
-        if ((await page.locator(".tab.dirty").count()) === 0) return true;
-        await editor.press("Control+1");
-        await editor.press("Control+s");
-        return false;
-      });
 
     await step("in the browser: errors are underlined without a program", async () => {
       await open("figure.svg");
@@ -75,7 +49,7 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
       await editor.press("Escape");
     });
     await step("in the browser: hovers tell of parts and of the way out of an error", async () => {
-      await focus();
+      await editor.focusText();
       await at("Arm@Body", 1);
       await editor.hover("Root › Body › Arm");
       await at(WRONG, 11);
@@ -87,7 +61,7 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
       await at(WRONG, 11);
       await editor.press("Control+.");
       await (await editor.see(".action-widget .monaco-list-row, .context-view .monaco-list-row", "Shape")).click();
-      await has(figure.replace("Shap round", "Shape round"), "the keyword to be mended");
+      await editor.has(figure.replace("Shap round", "Shape round"), "the keyword to be mended");
       await editor.gone(".squiggly-error");
     });
     await step("in the browser: a completion is accepted", async () => {
@@ -96,11 +70,12 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
       await editor.proposal("Segments");
       await shot("web-completion");
       await editor.press("Enter");
-      await editor.until("the keyword to be written", async () => /Origin start Segments/.test(await text()));
+      await editor.until("the keyword to be written", async () => /Origin start Segments/.test(await editor.text()));
       await editor.press("Control+z");
     });
     await step("in the browser: the panel shows the model of the unsaved text", async () => {
-      await save();
+      // The next window would restore what is not saved.
+      await editor.save();
       writeFileSync(join(project, "figure.svg"), figure);
       await open("figure.svg");
       await editor.see(".squiggly-error");
@@ -119,7 +94,7 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
       await editor.until("a body that is not red", async () => (await panel.find(RED)).count < 50);
       await shot("web-preview");
       assert.equal(readFileSync(join(project, "figure.svg"), "utf8"), figure);
-      await save();
+      await editor.save();
     });
     await step("in the browser: files that a drawing links to are read", async () => {
       await open("beetle.svg");
@@ -152,22 +127,19 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
       await page.mouse.move(x + width / 2 - 40, y + height / 2, { steps: 6 });
       await page.mouse.up();
       const value = `roundv -90 ${await frame.getByLabel("Shape: a1, as a number", { exact: true }).inputValue()}`;
-      const copy = join(room, "web-edited.svg");
-      writeFileSync(copy, before);
-      execFileSync(okoshi, ["edit", "-q", copy, "--change", JSON.stringify({ change: "set", part: "Rarm", attribute: "Shape", value })]);
-      const expected = readFileSync(copy, "utf8");
+      const expected = edited(okoshi, room, before, { change: "set", part: "Rarm", attribute: "Shape", value });
       assert.notEqual(expected, before);
-      await has(expected, "the thickness");
+      await editor.has(expected, "the thickness");
       await at("Rarm@Ubody", 1, expected);
       await editor.until("the arm to be lit", async () => (await panel.says("lit")) === "Rarm");
       await manual("vscode-web");
       assert.equal(readFileSync(join(project, "human.svg"), "utf8"), before, "nothing is saved before a person saves");
       await editor.press("Control+z");
-      await has(before, "the thickness undone");
+      await editor.has(before, "the thickness undone");
       await editor.press("Control+y");
-      await has(expected, "the thickness made again");
+      await editor.has(expected, "the thickness made again");
       await frame.getByRole("button", { name: /^Undo/ }).first().click();
-      await has(before, "the thickness undone in the panel");
+      await editor.has(before, "the thickness undone in the panel");
     });
   } finally {
     server.stop();

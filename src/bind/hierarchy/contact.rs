@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use typed_index_collections::TiSlice;
 
 use super::Context;
-use super::names::{self, Names};
+use super::names::{self, Behind, Names};
 use crate::anatomy::{self, Role, Term, sides};
 use crate::bind::bindings::{NamedBy, PartId, PartKind};
 use crate::bind::matching::Matched;
@@ -94,6 +94,7 @@ struct NamedBody {
     /// Whether its name says left, right.
     sides: [bool; 2],
     area: f64,
+    behind: Option<Behind>,
     /// If its string attaches it, the place of the part that it names; `None` for the root.
     attached: Option<Option<usize>>,
 }
@@ -111,6 +112,7 @@ impl NamedBody {
             role: None,
             sides: [false; 2],
             area: area(&matched.parts[part].outline),
+            behind: None,
             attached: match annotation {
                 Some(Annotation::Part(part)) => part
                     .parent
@@ -119,6 +121,11 @@ impl NamedBody {
                 _ => None,
             },
         }
+    }
+
+    /// Whether it is a hand or a foot that may hang on the other part, which is larger.
+    fn is_end_of(&self, other: &Self) -> bool {
+        matches!(self.role, Some(Role::Hand | Role::Foot | Role::Toe)) && self.area < other.area
     }
 
     /// How well another part carries this one by their names, 0 the best; `None` if names do not tell.
@@ -242,15 +249,20 @@ impl NamedBodies {
         self.shared.get(&pair).copied().unwrap_or(0.0)
     }
 
-    /// The part that carries another by anatomy, or for a part without a name the named part that it overlaps most.
+    /// The part that carries another by anatomy, or for a part without a name the named part that it overlaps most. A leg overlaps
+    /// the cape behind it most, and a fork the wheel, and both hang on the body; so does what lies over limbs
+    /// of both sides, and an arm rather than on its hand.
     fn carrier(&self, place: usize) -> Option<usize> {
         let own = &self.bodies[place];
+        let joins_sides = !own.named && self.joins_sides(place);
         let rank = |other: &usize| {
+            let other = &self.bodies[*other];
             if own.named {
-                own.carried_by(&self.bodies[*other])
-            } else {
-                self.bodies[*other].named.then_some(0)
+                return own.carried_by(other);
             }
+            let is_limb = other.role.is_some_and(Role::is_piece_of_limb);
+            let is_last = other.behind.is_some() || joins_sides && is_limb || other.is_end_of(own);
+            other.named.then_some(usize::from(is_last))
         };
         let ranked = self.touching[place]
             .iter()
@@ -260,6 +272,15 @@ impl NamedBodies {
             a.cmp(b).then(shared[0].total_cmp(&shared[1]))
         });
         best.map(|(_, other)| other)
+    }
+
+    /// Whether a part touches limbs of both sides, as a belt does.
+    fn joins_sides(&self, place: usize) -> bool {
+        let touched = self.touching[place].iter();
+        let touched = touched.map(|other| &self.bodies[*other]);
+        let limbs = touched.filter(|other| other.role.is_some_and(Role::is_piece_of_limb));
+        let has = |sides: [bool; 2]| limbs.clone().any(|limb| limb.sides == sides);
+        has([true, false]) && has([false, true])
     }
 
     /// The root of a connected group; `None` if nothing in it has a name.
@@ -363,7 +384,12 @@ impl NamedBodies {
 
     /// Queues the ways from a part that was reached to those that it touches.
     fn extend(&self, from: usize, steps: u32, carriers: &[Option<usize>], search: &mut Search) {
-        let through = if self.bodies[from].named { 1 } else { UNNAMED };
+        let through = match &self.bodies[from] {
+            // A hand before a cape is that of an arm, even of one without a name.
+            body if body.behind == Some(Behind::Cape) => 2 * UNNAMED,
+            body if body.named => 1,
+            _ => UNNAMED,
+        };
         for to in self.touching[from].iter().copied() {
             if search.reached[to] || self.bodies[to].attached.is_some() {
                 continue;
@@ -402,6 +428,7 @@ fn read_names(names: &Names, parts: &[PartId], mut figure: Vec<usize>, bodies: &
     for (place, terms) in figure.into_iter().zip(said) {
         bodies[place].role = Role::of(&terms);
         bodies[place].sides = sides(&terms);
+        bodies[place].behind = Behind::of(names.of(parts[place]));
     }
 }
 

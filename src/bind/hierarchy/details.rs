@@ -1,9 +1,10 @@
 //! Details: parts without a string stay with the part that they lie on.
 
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiVec, ti_vec};
 
-use super::{Nodes, names};
+use super::Nodes;
+use super::names::{self, Behind};
 use crate::bind::bindings::{PartId, PartKind};
 use crate::bind::matching::{Matched, Stacking, of_ink, wants_part};
 use crate::lang::ast::Annotation;
@@ -19,6 +20,10 @@ const ALONE: f64 = 0.95;
 const SEEN: f64 = 0.75;
 /// The largest part that stays so, as a share of the area that it lies on. Larger ones may be limbs.
 const SMALL: f64 = 0.25;
+/// What lies on a cape and is at least this share of it is its lining. Less may be a leg that hangs before it.
+const LINING: f64 = 0.4;
+/// What share of a part lies on a wheel for it to turn with that: a fork and a mudguard reach out.
+const TURNS: f64 = 0.95;
 
 /// The nodes, after main parts without a string became sub-parts of the parts that they lie on. In drawings in which only labels
 /// and ids name parts (`by_contact`, or no string is about a part), those names count as well, and so does a name that a string refers
@@ -46,6 +51,12 @@ pub(super) fn join(
         let own = names::of_main_part(drawing, matched, part);
         own.is_some_and(|own| by_contact || is_unread || mentioned.contains(own.name.as_str()))
     };
+    let called = |part: PartId| {
+        let is_main = nodes.kind[part] == PartKind::Main && counts(part);
+        let own = is_main.then(|| names::of_main_part(drawing, matched, part))??;
+        Behind::of(&own.name).map(|behind| (part, behind))
+    };
+    let behind = matched.parts.keys().filter_map(called).collect();
     let mut members: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); matched.parts.len()];
     for (index, part) in matched.parts.iter_enumerated() {
         if stacking.has(index) {
@@ -58,7 +69,7 @@ pub(super) fn join(
         if members.is_empty() || !is_free || stacking.is_ground(main) || counts(main) {
             continue;
         }
-        let Some(owner) = owner(&nodes, stacking, members) else {
+        let Some(owner) = owner(&nodes, stacking, &behind, members) else {
             continue;
         };
         for &part in members {
@@ -78,8 +89,17 @@ pub(super) fn join(
 }
 
 /// The main part on which most of a unit lies.
-fn owner(nodes: &Nodes, stacking: &Stacking, members: &[PartId]) -> Option<PartId> {
+fn owner(
+    nodes: &Nodes,
+    stacking: &Stacking,
+    behind: &FxHashMap<PartId, Behind>,
+    members: &[PartId],
+) -> Option<PartId> {
     let facts = stacking.of_unit(members);
+    let is_before = |main: PartId| {
+        behind.get(&main) == Some(&Behind::Cape)
+            && facts.area < LINING * stacking.of_part(main).area
+    };
     let mut all = 0.0;
     let mut shares: Vec<(PartId, f64)> = Vec::new();
     for &(part, share) in &facts.under {
@@ -88,7 +108,7 @@ fn owner(nodes: &Nodes, stacking: &Stacking, members: &[PartId]) -> Option<PartI
         if !stacking.is_ground(main) {
             all += share;
         }
-        if !takes_children || stacking.is_ground(main) {
+        if !takes_children || stacking.is_ground(main) || is_before(main) {
             continue;
         }
         match shares.iter_mut().find(|(other, _)| *other == main) {
@@ -102,5 +122,9 @@ fn owner(nodes: &Nodes, stacking: &Stacking, members: &[PartId]) -> Option<PartI
         let is_seen = facts.shown >= SEEN * facts.area;
         most >= MOSTLY && most >= ALONE * all && is_small && is_seen
     };
-    (most >= STAYS || reaches_out()).then_some(owner)
+    let stays = match behind.get(&owner) {
+        Some(Behind::Wheel) => most >= TURNS,
+        _ => most >= STAYS || reaches_out(),
+    };
+    stays.then_some(owner)
 }

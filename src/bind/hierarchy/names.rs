@@ -4,6 +4,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::Context;
+use crate::anatomy::{self, Term, Thing};
 use crate::bind::bindings::{DrawingString, NamedBy, PartId, PartKind, StringHolder};
 use crate::bind::matching::Matched;
 use crate::bind::names::{Numbers, OwnName, ROOT, of_element};
@@ -70,6 +71,24 @@ pub(super) fn of_main_part(drawing: &Drawing, matched: &Matched, part: PartId) -
             let element = &drawing.shapes[part.shape].element;
             of_element(element, None).filter(|_| !part.is_rest)
         })
+}
+
+/// A part that carries what lies before it only if nothing else does, by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Behind {
+    Cape,
+    Wheel,
+}
+
+impl Behind {
+    pub(super) fn of(name: &str) -> Option<Self> {
+        if anatomy::thing(name) == Some(Thing::Wheel) {
+            return Some(Self::Wheel);
+        }
+        anatomy::terms(name)
+            .contains(&Term::Cape)
+            .then_some(Self::Cape)
+    }
 }
 
 impl Names {

@@ -60,6 +60,7 @@ impl Taken {
             Noun::Eye | Noun::Eyes => return says(Term::Eye),
             Noun::Ear | Noun::Ears => return says(Term::Ear),
             Noun::Hat => return says(Term::HeadWear),
+            Noun::Horns => return says(Term::Horn),
             noun => noun.role(),
         };
         role.is_some_and(|role| self.roles.iter().any(|taking| taking.is(role, found)))

@@ -1,5 +1,6 @@
 //! Finds animals that are drawn from the side, by their one eye.
 
+use super::mask::{Box2, Island};
 use super::shapes::{Shape, Shapes};
 use super::{Certainty, Guesses, bodies};
 use crate::anatomy::Noun;
@@ -19,6 +20,14 @@ const UPRIGHT: f64 = 1.2;
 /// Legs stand at most this share of the height above the ground, and reach up to at most this share of it.
 const LOW: f64 = 0.08;
 const REACH: f64 = 0.62;
+
+/// Of a shape of legs, at least this share stands on the ground. The rest may be the shadow of a neck, or a tail.
+const STANDS: f64 = 0.4;
+/// What is in front of the eye and at most this share of the drawing's width and height from it is of the face, and what rises above it
+/// within that share of the width are horns or ears.
+const FACE: f64 = 0.28;
+/// Horns and ears begin at most this share of the height below the eye.
+const CROWN: f64 = 0.06;
 
 /// Names eye, head, body and legs of an animal in profile, whose eye lies on `host`.
 pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Guesses) {
@@ -50,6 +59,11 @@ pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Gue
         guesses.add(host, Noun::Head, Certainty::Certain, "an eye lies on it");
         bodies::find(shapes, Some(host), guesses);
         return;
+    }
+    let size = shapes.bounds.size();
+    let is_level = size.y < UPRIGHT * size.x;
+    if let Some(spot) = shapes.get(eye).filter(|_| is_level && eye != host) {
+        name_face(shapes, [eye, body, host], spot, guesses);
     }
     if host == body {
         guesses.has_head = true;
@@ -109,6 +123,39 @@ pub(super) fn eye(shapes: &Shapes) -> Option<(usize, usize)> {
     best.map(|(_, eye, host)| (eye, host))
 }
 
+/// What is before the eye, and what rises above it: both would look like arms.
+fn name_face(shapes: &Shapes, [eye, body, host]: [usize; 3], spot: &Shape, guesses: &mut Guesses) {
+    let (all, at) = (shapes.bounds, spot.middle());
+    let size = all.size();
+    let ahead = if at.x - all.low.x < all.high.x - at.x {
+        -1.0
+    } else {
+        1.0
+    };
+    for (index, shape) in shapes.iter() {
+        if [eye, body, host].contains(&index) || !shape.name.is_empty() {
+            continue;
+        }
+        let middle = shape.middle();
+        let far = (middle - at).abs() / size;
+        if ahead * (middle.x - at.x) > 0.0
+            && far.max_element() <= FACE
+            && shape.size().max_element() <= FACE * size.max_element()
+            && shape.bounds.low.y >= at.y - CROWN * size.y
+        {
+            let why = "it is before the eye";
+            guesses.add(index, Noun::Mouth, Certainty::Uncertain, why);
+        } else if shape.bounds.high.y <= at.y + CROWN * size.y
+            && middle.y < at.y
+            && far.x <= FACE
+            && shape.bounds.low.y < spot.bounds.low.y
+        {
+            let why = "it rises above the eye";
+            guesses.add(index, Noun::Horns, Certainty::Uncertain, why);
+        }
+    }
+}
+
 /// Shapes of several legs each: they stand on the ground and end below the body's back.
 fn name_legs(shapes: &Shapes, trunk: &Shape, guesses: &mut Guesses) {
     let ground = shapes.bounds.high.y;
@@ -118,16 +165,19 @@ fn name_legs(shapes: &Shapes, trunk: &Shape, guesses: &mut Guesses) {
             .islands
             .iter()
             .filter(|leg| leg.bounds.high.y >= ground - LOW * height);
-        let count = stand.count();
-        let reaches = shape.bounds.high.y - shape.bounds.low.y;
+        let legs: Vec<&Island> = stand.collect();
+        let count = legs.len();
+        let cells: usize = legs.iter().map(|leg| leg.cells).sum();
+        let boxes = legs.iter().map(|leg| leg.bounds);
+        let reaches = boxes.reduce(Box2::around).map_or(0.0, |all| all.size().y);
         if count < 2
-            || count < shape.islands.len()
+            || (cells as f64) < STANDS * shape.cells
             || reaches > REACH * height
             || shape.cells >= trunk.cells
         {
             continue;
         }
-        let are_long = shape.islands.iter().all(|leg| {
+        let are_long = legs.iter().all(|leg| {
             let size = leg.bounds.size();
             size.y >= 0.9 * size.x
         });

@@ -23,6 +23,16 @@ const HANDS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
 /// Hands have the colour of the head, within this distance.
 const ALIKE: f64 = 40.0;
 
+/// A hand by itself is at most this much longer than wide, or the other way round; what is longer is a bare arm.
+const COMPACT: f64 = 1.9;
+/// A cape is behind the body, which covers at most this share of it and on which at least that share of the body lies; it is at least this
+/// share of the body's height high.
+const COVERED: f64 = 0.85;
+const BEHIND: f64 = 0.35;
+const CAPE: f64 = 0.6;
+/// Legs lie by this share before a cape.
+const BEFORE: f64 = 0.4;
+
 /// A head with what is around it.
 struct Around<'a> {
     shapes: &'a Shapes,
@@ -48,6 +58,7 @@ pub(super) fn around(shapes: &Shapes, face: &Face, guesses: &mut Guesses) {
     around.neck(guesses);
     around.cover(guesses);
     if around.body(guesses) {
+        around.cape(guesses);
         around.limbs(guesses);
         around.hands(guesses);
     }
@@ -219,7 +230,7 @@ impl Around<'_> {
             return true;
         }
         let head = self.head;
-        let worth = |shape: &Shape| {
+        let worth = |index: usize, shape: &Shape| {
             let off = (shape.middle().x - head.middle().x).abs();
             let below = shape.middle().y - head.middle().y;
             let gap = (shape.bounds.low.y - head.bounds.high.y).max(0.0);
@@ -227,14 +238,15 @@ impl Around<'_> {
             let begins = shape.bounds.low.y > head.bounds.low.y + 0.35 * head.size().y;
             let covers_middle = off <= 0.5 * shape.size().x;
             let is_one = shape.islands.len() == 1;
-            (below > 0.3 * head.size().y && begins && covers_middle).then_some(
+            let is_cape = self.is_behind_legs(index, shape);
+            (!is_cape && below > 0.3 * head.size().y && begins && covers_middle).then_some(
                 shape.seen * if is_one { 1.0 } else { 0.4 }
                     / (1.0 + 20.0 * gap / self.shapes.height()),
             )
         };
         let found = self
             .free(guesses)
-            .filter_map(|(index, shape)| Some((worth(shape)?, index)));
+            .filter_map(|(index, shape)| Some((worth(index, shape)?, index)));
         let Some((_, body)) = found.max_by(|a, b| a.0.total_cmp(&b.0)) else {
             return false;
         };
@@ -243,10 +255,50 @@ impl Around<'_> {
         true
     }
 
+    /// Whether legs that stand on the ground are before much of a shape, as they are before a cape.
+    fn is_behind_legs(&self, index: usize, shape: &Shape) -> bool {
+        let ground = self.shapes.bounds.high.y - 0.06 * self.shapes.height();
+        let later = self.shapes.iter().filter(|(other, _)| *other > index);
+        let legs = later.filter(|(_, leg)| {
+            let size = leg.size();
+            leg.bounds.high.y >= ground
+                && leg.bounds.low.y > self.head.bounds.high.y
+                && (size.y >= size.x || leg.twins().is_some())
+                && leg.on(shape) >= BEFORE
+        });
+        let count: usize = legs.map(|(_, leg)| leg.islands.len()).sum();
+        // A bust ends on the ground, with seams and pockets before it.
+        count >= 2 && shape.bounds.high.y < ground
+    }
+
+    /// What hangs behind the body from its shoulders, and is seen at both of its sides.
+    fn cape(&self, guesses: &mut Guesses) {
+        let Some((body_index, body)) = self.trunk(guesses) else {
+            return;
+        };
+        let is_cape = |index: usize, shape: &Shape| {
+            let shoulders = body.bounds.low.y + 0.35 * body.size().y;
+            index < body_index
+                && shape.islands.len() == 1
+                && shape.bounds.low.x < body.bounds.low.x
+                && shape.bounds.high.x > body.bounds.high.x
+                && shape.bounds.low.y <= shoulders
+                && shape.bounds.low.y >= self.head.middle().y
+                && shape.size().y >= CAPE * body.size().y
+                && body.on(shape) >= BEHIND
+                && shape.on(body) <= COVERED
+        };
+        let found = self.free(guesses).filter(|one| is_cape(one.0, one.1));
+        let found = found.max_by(|a, b| a.1.cells.total_cmp(&b.1.cells));
+        if let Some((cape, _)) = found {
+            let why = "it is behind the body, and seen at both of its sides";
+            guesses.add(cape, Noun::Cape, Certainty::Likely, why);
+        }
+    }
+
     /// Arms, legs and shoes of which two are one shape; what is single is found by the labels of motion.
     fn limbs(&self, guesses: &mut Guesses) {
-        let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
-        let Some(body) = body.and_then(|guess| self.shapes.get(guess.shape)) else {
+        let Some((_, body)) = self.trunk(guesses) else {
             return;
         };
         let (ground, height) = (self.shapes.bounds.high.y, self.shapes.height());
@@ -257,6 +309,12 @@ impl Around<'_> {
                 continue;
             };
             let (a, b) = (left.bounds, right.bounds);
+            let stands = a.high.y.max(b.high.y) >= ground - 0.06 * height;
+            if !stands && self.are_hands(shape, [a, b]) {
+                let why = "they are two in the colour of the head, and lie apart from it";
+                found.push((index, Noun::Hands, Certainty::Likely, why));
+                continue;
+            }
             let mirrored = (a.middle().x + b.middle().x - 2.0 * axis).abs();
             let is_pair =
                 mirrored <= 0.25 * body.size().x && a.middle().x < axis && b.middle().x > axis;
@@ -264,7 +322,6 @@ impl Around<'_> {
                 continue;
             }
             let long = |one: Box2| one.size().y >= 0.9 * one.size().x;
-            let stands = a.high.y.max(b.high.y) >= ground - 0.06 * height;
             let below = a.low.y.min(b.low.y) >= body.bounds.high.y - 0.15 * body.size().y;
             let beside = (b.middle().x - a.middle().x) >= 0.5 * body.size().x;
             let share = shape.cells / body.cells;
@@ -290,10 +347,27 @@ impl Around<'_> {
         }
     }
 
+    /// The body, which has been found.
+    fn trunk(&self, guesses: &Guesses) -> Option<(usize, &Shape)> {
+        let body = guesses.find(Noun::Body)?;
+        Some((body, self.shapes.get(body)?))
+    }
+
+    /// Whether two pieces of a shape, left and right of the head's middle, are a pair of hands.
+    fn are_hands(&self, shape: &Shape, [left, right]: [Box2; 2]) -> bool {
+        let middle = self.head.middle().x;
+        let compact = |one: Box2| one.size().max_element() <= COMPACT * one.size().min_element();
+        HANDS.contains(&(shape.cells / 2.0 / self.head.cells))
+            && shape.distance_of_colors(self.head) <= ALIKE
+            && compact(left)
+            && compact(right)
+            && left.middle().x < middle
+            && right.middle().x > middle
+    }
+
     /// Of a bust, what has the colour of the head and lies apart from it.
     fn hands(&self, guesses: &mut Guesses) {
-        let body = guesses.all.iter().find(|guess| guess.noun == Noun::Body);
-        let body = body.and_then(|guess| self.shapes.get(guess.shape));
+        let body = self.trunk(guesses).map(|(_, body)| body);
         let ground = self.shapes.bounds.high.y - 0.05 * self.shapes.height();
         if body.is_none_or(|body| body.bounds.high.y < ground || body.mask.foot() < BUST) {
             return;
