@@ -70,6 +70,7 @@ function preview() {
     show: async (place) => void done.push({ show: place }),
     goTo: async (line, column) => void done.push({ goTo: [line, column] }),
     save: async (name, bytes) => void done.push({ save: [name, Buffer.from(bytes).toString()] }),
+    saveText: async () => void done.push("saved"),
     edit: async (version, edits) => {
       done.push({ edit: [version, edits] });
       return version === 7;
@@ -151,6 +152,12 @@ test("changes are made in the text, which undoes them", async (t) => {
   await ask(8, "changes", { do: "undo" });
   await ask(9, "changes", { do: "redo" });
   assert.deepEqual(done, [{ step: true }, { step: false }]);
+  done.splice(0);
+  // What is still asked for when the text is saved is saved with it.
+  const asked = ask(13, "changes", { do: { make: change("9") } });
+  await session.receive({ type: "saveText" });
+  assert.deepEqual(done, [{ edit: [7, [edit]] }, "saved"]);
+  await asked;
   const [tried] = await ask(10, "tries", { change: change("9") });
   assert.equal(Buffer.from(tried?.["body"] as Uint8Array).toString(), "glTF tried");
   assert.deepEqual(await ask(11, "tries", { change: change("wrong") }), [answer(11, false, null)]);

@@ -28,7 +28,8 @@ function installed(cache, name, env = {}) {
     mkdirSync(folder, { recursive: true });
     run("npm", ["install", "--no-audit", "--no-fund", "--no-package-lock", "--prefix", folder, name], {
       stdio: "inherit",
-      env: { ...process.env, ...env },
+      // By the agent of the npm that runs this, a package would see that one's Node.js.
+      env: { ...process.env, npm_config_user_agent: undefined, ...env },
     });
     writeFileSync(done, name);
   }

@@ -90,6 +90,18 @@ export function setHidden(element: HTMLElement, hidden: boolean, elsewhere: HTML
   element.hidden = hidden;
 }
 
+/** Makes what is being typed into a field a change, as when the field is left. */
+export async function leaveField(): Promise<void> {
+  const field = document.activeElement;
+  if (!(field instanceof HTMLInputElement)) return;
+  field.blur();
+  await painted();
+  field.focus();
+}
+
+/** Whether a key saves, and does nothing else. */
+export const isSave = ({ key, ctrlKey, metaKey, altKey, shiftKey }: KeyboardEvent): boolean => (ctrlKey || metaKey) && !altKey && !shiftKey && key.toLowerCase() === "s";
+
 /** Whether the user's system asks for reduced motion. */
 export const prefersReducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
 

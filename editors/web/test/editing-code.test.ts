@@ -7,7 +7,7 @@ import type { Browser } from "playwright-core";
 import { Remote, type Connection, type TextEdit } from "../../vscode/src/preview/messages";
 import { Session } from "../../vscode/src/preview/session";
 import { launch, noBrowser, open, picture, shown } from "./browser";
-import { closeAll, closing, TEST_LIMIT } from "./closing";
+import { closeAll, closing, PATIENCE, TEST_LIMIT } from "./closing";
 import { FIGURE, source } from "./setup";
 import { servePage } from "./served";
 
@@ -78,6 +78,7 @@ test("in VS Code a change is made in the text, its own undo takes it back, and a
   // The text of the editor, with its undo.
   const texts = [BEFORE];
   let version = 1;
+  let saved: string | undefined;
   const changed = async (): Promise<void> => {
     version += 1;
     await client.sendNotification("textDocument/didChange", { textDocument: { uri: URI, version }, contentChanges: [{ text: texts.at(-1)! }] });
@@ -105,6 +106,7 @@ test("in VS Code a change is made in the text, its own undo takes it back, and a
       await changed();
       return true;
     },
+    saveText: async () => void (saved = texts.at(-1)),
     step: async () => {
       if (texts.length > 1) texts.pop();
       await changed();
@@ -132,6 +134,16 @@ test("in VS Code a change is made in the text, its own undo takes it back, and a
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "2");
   const thick = BEFORE.replace("-8 8", "-8 30");
   assert.deepEqual(texts, [BEFORE, thick]);
+  // What is being typed is saved, too.
+  const thicker = BEFORE.replace("-8 8", "-8 40");
+  await number.fill("40");
+  assert.equal(saved, undefined);
+  await page.keyboard.press("Control+s");
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "3");
+  for (const end = Date.now() + PATIENCE; saved === undefined && Date.now() < end; ) await new Promise((resolve) => setTimeout(resolve, 20));
+  assert.equal(saved, thicker);
+  await page.getByRole("button", { name: "Undo: the last step in the text" }).click();
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "4");
   await picture(page, "edit-code");
 
   // What is only tried is shown, and leaves the text alone.
@@ -145,7 +157,7 @@ test("in VS Code a change is made in the text, its own undo takes it back, and a
   assert.equal(texts.at(-1), thick);
 
   await page.getByRole("button", { name: "Undo: the last step in the text" }).click();
-  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "3");
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "5");
   assert.deepEqual(texts, [BEFORE]);
 
   await page.locator("[data-part=Body]").click();

@@ -27,7 +27,8 @@ export interface Link {
 
 /** A request from the page. */
 export type PageMessage =
-  | { readonly type: "ready" | "want" }
+  /** `saveText`: the text of the drawing is to be saved, with the changes that were asked for before. */
+  | { readonly type: "ready" | "want" | "saveText" }
   | { readonly type: "model"; readonly address: string }
   | { readonly type: "pick"; readonly part: string }
   /** What can be changed about a part, a change of the drawing, or what one would look like; answered by its number. */
@@ -55,6 +56,7 @@ export function readPageMessage(data: unknown): PageMessage | undefined {
   switch (type) {
     case "ready":
     case "want":
+    case "saveText":
       return { type };
     case "model":
       return typeof address === "string" ? { type, address } : undefined;

@@ -186,6 +186,12 @@ class Preview implements Editor, vscode.Disposable {
     this.panel.reveal(undefined, false);
   }
 
+  async saveText(): Promise<void> {
+    const document = await vscode.workspace.openTextDocument(this.uri);
+    // A text that is as it was saved stays as it is.
+    if (document.isDirty || document.isUntitled) await document.save();
+  }
+
   log(message: string): void {
     this.output.warn(message);
   }

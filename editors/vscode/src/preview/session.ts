@@ -22,6 +22,8 @@ export interface Editor {
   edit(version: number, edits: readonly TextEdit[]): Promise<boolean>;
   /** Undoes or redoes the last step of the text. */
   step(back: boolean): Promise<void>;
+  /** Saves the text. */
+  saveText(): Promise<void>;
   /** Logs a problem. */
   log(message: string): void;
 }
@@ -44,6 +46,8 @@ export class Session {
   /** The latest message of each type, for a page that is reloaded, for example in a window of its own. */
   private readonly newest = new Map<string, Message>();
   private timer: ReturnType<typeof setTimeout> | undefined;
+  /** The last change that was asked for. */
+  private changing: Promise<unknown> = Promise.resolve();
 
   constructor(
     private readonly drawing: string,
@@ -150,6 +154,9 @@ export class Session {
         return this.editor.goTo(message.line, message.column);
       case "save":
         return this.editor.save(message.name, message.bytes);
+      case "saveText":
+        await this.changing;
+        return this.editor.saveText();
     }
   }
 
@@ -169,8 +176,11 @@ export class Session {
       case "redo":
         await this.editor.step(question.what === "undo");
         return { ok: true, body: {} };
-      case "change":
-        return this.change(server, question.change);
+      case "change": {
+        const change = this.change(server, question.change);
+        this.changing = change.catch(() => {});
+        return change;
+      }
     }
   }
 

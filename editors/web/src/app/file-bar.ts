@@ -1,7 +1,7 @@
 // The buttons in the header that open, save and close drawings, and their keys.
 
 import { FolderOpen, GraduationCap, Save, X } from "lucide";
-import { button, fill, h, icon, painted } from "../dom";
+import { button, fill, h, icon, isSave, leaveField } from "../dom";
 import type { State } from "../state";
 import { choose } from "./access";
 import { reason, type Files } from "./files";
@@ -43,9 +43,8 @@ export class FileBar {
 
   private press(event: KeyboardEvent): void {
     if (!(event.ctrlKey || event.metaKey) || event.altKey || event.shiftKey || document.querySelector("dialog[open]")) return;
-    const key = event.key.toLowerCase();
-    if (key === "s") void this.write();
-    else if (key === "o") void this.open();
+    if (isSave(event)) void this.write();
+    else if (event.key.toLowerCase() === "o") void this.open();
     else return;
     // The browser would save or open a page.
     event.preventDefault();
@@ -62,13 +61,7 @@ export class FileBar {
   private async write(): Promise<void> {
     const { current } = this;
     if (current === null || !this.files.get(current)) return;
-    // What is being typed into a field is a change when the field is left.
-    const field = document.activeElement;
-    if (field instanceof HTMLInputElement) {
-      field.blur();
-      await painted();
-      field.focus();
-    }
+    await leaveField();
     await this.settle();
     await this.files.save(current);
   }

@@ -1,5 +1,6 @@
 // The host of a VS Code webview: everything goes by posted messages.
 
+import { isSave, leaveField } from "../dom";
 import { read, type FromHost, type ToHost } from "../protocol";
 import { toBase64 } from "./base64";
 import type { Answer, Attempted, Host, Link } from "./host";
@@ -47,6 +48,10 @@ export class CodeHost implements Host {
       const message = read(posted);
       if (message?.type === "drawings") this.api.setState({ drawing: message.drawings[0]?.id });
       if (message) handler(message);
+    });
+    // The panel has the keyboard, so that the editor would save the panel, which is no file.
+    addEventListener("keydown", (event) => {
+      if (isSave(event)) void leaveField().then(() => this.api.postMessage({ type: "saveText" }));
     });
     link("open");
     this.api.postMessage({ type: "ready" });
