@@ -60,9 +60,10 @@ pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Gue
         bodies::find(shapes, Some(host), guesses);
         return;
     }
-    let size = shapes.bounds.size();
-    let is_level = size.y < UPRIGHT * size.x;
-    if let Some(spot) = shapes.get(eye).filter(|_| is_level && eye != host) {
+    if let Some(spot) = shapes.get(eye)
+        && eye != host
+        && !is_upright(shapes)
+    {
         name_face(shapes, [eye, body, host], spot, guesses);
     }
     if host == body {
@@ -77,14 +78,18 @@ pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Gue
     name_legs(shapes, trunk, guesses);
 }
 
+fn is_upright(shapes: &Shapes) -> bool {
+    let size = shapes.bounds.size();
+    size.y >= UPRIGHT * size.x
+}
+
 /// Whether a head is above the body of a figure that stands upright.
 fn is_above(shapes: &Shapes, head: usize, trunk: &Shape) -> bool {
-    let size = shapes.bounds.size();
     let Some(head) = shapes.get(head) else {
         return false;
     };
     let off = (head.middle().x - trunk.middle().x).abs();
-    size.y >= UPRIGHT * size.x && off <= 0.5 * trunk.size().x
+    is_upright(shapes) && off <= 0.5 * trunk.size().x
 }
 
 /// The eye, and the shape on which it lies.

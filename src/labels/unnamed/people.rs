@@ -238,8 +238,8 @@ impl Around<'_> {
             let begins = shape.bounds.low.y > head.bounds.low.y + 0.35 * head.size().y;
             let covers_middle = off <= 0.5 * shape.size().x;
             let is_one = shape.islands.len() == 1;
-            let is_cape = self.is_behind_legs(index, shape);
-            (!is_cape && below > 0.3 * head.size().y && begins && covers_middle).then_some(
+            let may_be = below > 0.3 * head.size().y && begins && covers_middle;
+            (may_be && !self.is_behind_legs(index, shape)).then_some(
                 shape.seen * if is_one { 1.0 } else { 0.4 }
                     / (1.0 + 20.0 * gap / self.shapes.height()),
             )
