@@ -74,10 +74,10 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
       await editor.press("Control+z");
     });
     await step("in the browser: the panel shows the model of the unsaved text", async () => {
-      // The next window would restore what is not saved.
+      // The next window may restore what was typed into this one. Another file has nothing to restore.
+      writeFileSync(join(project, "unsaved.svg"), figure);
       await editor.save();
-      writeFileSync(join(project, "figure.svg"), figure);
-      await open("figure.svg");
+      await open("unsaved.svg");
       await editor.see(".squiggly-error");
       await at(WRONG, 14);
       await editor.type("e");
@@ -93,7 +93,7 @@ export async function inBrowser({ tools, vsix, editor, page, step, shot, manual,
       await editor.type("19");
       await editor.until("a body that is not red", async () => (await panel.find(RED)).count < 50);
       await shot("web-preview");
-      assert.equal(readFileSync(join(project, "figure.svg"), "utf8"), figure);
+      assert.equal(readFileSync(join(project, "unsaved.svg"), "utf8"), figure);
       await editor.save();
     });
     await step("in the browser: files that a drawing links to are read", async () => {
