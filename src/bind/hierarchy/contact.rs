@@ -428,7 +428,7 @@ fn read_names(names: &Names, parts: &[PartId], mut figure: Vec<usize>, bodies: &
     for (place, terms) in figure.into_iter().zip(said) {
         bodies[place].role = Role::of(&terms);
         bodies[place].sides = sides(&terms);
-        bodies[place].behind = Behind::of(names.of(parts[place]));
+        bodies[place].behind = Behind::of(names.of(parts[place]), &terms);
     }
 }
 

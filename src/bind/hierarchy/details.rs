@@ -5,6 +5,7 @@ use typed_index_collections::{TiVec, ti_vec};
 
 use super::Nodes;
 use super::names::{self, Behind};
+use crate::anatomy;
 use crate::bind::bindings::{PartId, PartKind};
 use crate::bind::matching::{Matched, Stacking, of_ink, wants_part};
 use crate::lang::ast::Annotation;
@@ -54,7 +55,8 @@ pub(super) fn join(
     let called = |part: PartId| {
         let is_main = nodes.kind[part] == PartKind::Main && counts(part);
         let own = is_main.then(|| names::of_main_part(drawing, matched, part))??;
-        Behind::of(&own.name).map(|behind| (part, behind))
+        let behind = Behind::of(&own.name, &anatomy::terms(&own.name))?;
+        Some((part, behind))
     };
     let behind = matched.parts.keys().filter_map(called).collect();
     let mut members: TiVec<PartId, Vec<PartId>> = ti_vec![Vec::new(); matched.parts.len()];

@@ -81,13 +81,12 @@ pub(super) enum Behind {
 }
 
 impl Behind {
-    pub(super) fn of(name: &str) -> Option<Self> {
+    /// What a name with these terms says.
+    pub(super) fn of(name: &str, terms: &[Term]) -> Option<Self> {
         if anatomy::thing(name) == Some(Thing::Wheel) {
             return Some(Self::Wheel);
         }
-        anatomy::terms(name)
-            .contains(&Term::Cape)
-            .then_some(Self::Cape)
+        terms.contains(&Term::Cape).then_some(Self::Cape)
     }
 }
 

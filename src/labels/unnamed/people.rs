@@ -18,6 +18,8 @@ const OTHER: f64 = 45.0;
 pub(crate) const BUST: f64 = 0.6;
 /// Shoes are at most this share of the figure high.
 const SHOE: f64 = 0.16;
+/// What stands ends at most this share of the figure's height above the ground.
+const STANDS: f64 = 0.06;
 /// A hand is at most this share of the head, and at least.
 const HANDS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
 /// Hands have the colour of the head, within this distance.
@@ -255,20 +257,24 @@ impl Around<'_> {
         true
     }
 
+    /// Whether something reaches down to the ground.
+    fn stands(&self, bounds: Box2) -> bool {
+        bounds.high.y >= self.shapes.bounds.high.y - STANDS * self.shapes.height()
+    }
+
     /// Whether legs that stand on the ground are before much of a shape, as they are before a cape.
     fn is_behind_legs(&self, index: usize, shape: &Shape) -> bool {
-        let ground = self.shapes.bounds.high.y - 0.06 * self.shapes.height();
         let later = self.shapes.iter().filter(|(other, _)| *other > index);
         let legs = later.filter(|(_, leg)| {
             let size = leg.size();
-            leg.bounds.high.y >= ground
+            self.stands(leg.bounds)
                 && leg.bounds.low.y > self.head.bounds.high.y
                 && (size.y >= size.x || leg.twins().is_some())
                 && leg.on(shape) >= BEFORE
         });
         let count: usize = legs.map(|(_, leg)| leg.islands.len()).sum();
         // A bust ends on the ground, with seams and pockets before it.
-        count >= 2 && shape.bounds.high.y < ground
+        count >= 2 && !self.stands(shape.bounds)
     }
 
     /// What hangs behind the body from its shoulders, and is seen at both of its sides.
@@ -301,7 +307,7 @@ impl Around<'_> {
         let Some((_, body)) = self.trunk(guesses) else {
             return;
         };
-        let (ground, height) = (self.shapes.bounds.high.y, self.shapes.height());
+        let height = self.shapes.height();
         let axis = self.head.middle().x;
         let (mut found, mut arms) = (Vec::new(), Vec::new());
         for (index, shape) in self.free(guesses) {
@@ -309,7 +315,7 @@ impl Around<'_> {
                 continue;
             };
             let (a, b) = (left.bounds, right.bounds);
-            let stands = a.high.y.max(b.high.y) >= ground - 0.06 * height;
+            let stands = self.stands(a) || self.stands(b);
             if !stands && self.are_hands(shape, [a, b]) {
                 let why = "they are two in the colour of the head, and lie apart from it";
                 found.push((index, Noun::Hands, Certainty::Likely, why));
