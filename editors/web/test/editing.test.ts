@@ -63,7 +63,8 @@ edit("by mouse: a thickness, a name, a parent, a colour and a kind reach the fil
   assert.deepEqual(pictures.filter(([, has]) => !has), [], "each kind has a picture");
   assert.equal(await kinds.getByRole("radio", { checked: true }).textContent(), "default");
   await kinds.getByRole("radio", { name: "roundv" }).hover();
-  assert.match(await page.locator(".kind-about").innerText(), /^rounded about the part's axis/);
+  // The form may be made anew under the mouse, for the colour.
+  await page.locator(".kind-about").filter({ hasText: /^rounded about the part's axis/ }).waitFor();
   await kinds.getByRole("radio", { name: "roundv" }).click();
   await now((text) => text.replace(`default -8 ${most}`, "roundv"), "kind");
 

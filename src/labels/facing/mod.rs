@@ -77,6 +77,8 @@ const POINTS: f64 = 0.07;
 const LONG: f64 = 1.2;
 /// Legs in a row reach over at least this share of the trunk's width.
 const ROW: f64 = 0.3;
+/// A shape with the head that is at least this share of the trunk's width wide has patches all over the trunk.
+const PATCHES: f64 = 0.9;
 /// Where only words say that a figure is seen from its side, its face tells which if it is at least this share of the trunk's width
 /// off its middle.
 const HINT: f64 = 0.02;
@@ -266,7 +268,7 @@ impl<'a> Observed<'a> {
             .map(|says| sum(&|vote| if vote.says == says { vote.weight } else { 0.0 }));
         let is_said = profile >= weight::WORDS && profile > front && toward == 0.0;
         let trunk = self.trunk.filter(|_| is_said)?;
-        let face = self.head.map(middle).or(self.middle_of_face());
+        let face = self.place_of_head().or(self.middle_of_face());
         let off = face.map_or(0.0, |face| face.x - middle(trunk).x);
         if off.abs() > HINT * width(trunk) {
             return Some(Vote {
@@ -287,8 +289,17 @@ impl<'a> Observed<'a> {
         order.filter(move |part| self.drafts[*part].class == Some(class))
     }
 
+    /// The head's middle. Of a head that has patches of the trunk in the same shape, the face tells where it is.
+    fn place_of_head(&self) -> Option<DVec2> {
+        let head = self.head?;
+        let is_patched = |trunk: Bounds| width(head) >= PATCHES * width(trunk);
+        let face = self.middle_of_face();
+        let face = face.filter(|_| self.trunk.is_some_and(is_patched));
+        Some(face.unwrap_or(middle(head)))
+    }
+
     fn head(&self, vote: &mut impl FnMut(For, f64, String)) {
-        let (Some(trunk), Some(head)) = (self.trunk, self.head) else {
+        let (Some(trunk), Some(head)) = (self.trunk, self.place_of_head()) else {
             return;
         };
         let axis = middle(trunk).x;
@@ -307,7 +318,7 @@ impl<'a> Observed<'a> {
         let neck = self.of_class(Class::Neck).find(on_trunk);
         let (at, what) = match neck {
             Some(neck) => (self.tree.joint(neck).x, "neck begins"),
-            None => (middle(head).x, "head lies"),
+            None => (head.x, "head lies"),
         };
         let off = at - axis;
         let share = off.abs() / width(trunk);

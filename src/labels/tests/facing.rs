@@ -388,6 +388,26 @@ fn far_and_near_say_a_profile_and_the_face_which() {
 }
 
 #[test]
+fn a_head_with_patches_of_the_body_is_where_its_face_is() {
+    let body = [around(0.0, 0.0, 20.0, 12.0)];
+    let legs = [around(-6.0, -8.0, 2.0, 5.0), around(6.0, -8.0, 2.0, 5.0)];
+    // The middle of the head with its patches is right of the body's middle.
+    let head = [
+        around(-11.0, 6.0, 6.0, 5.0),
+        around(0.0, 0.0, 5.0, 5.0),
+        around(12.0, -4.0, 5.0, 5.0),
+    ];
+    let eye = [around(-11.5, 7.0, 1.0, 1.0)];
+    let rows: [Drawn<'_>; 4] = [
+        ("Far legs", "Body", &legs),
+        ("Body", "", &body),
+        ("Head", "Body", &head),
+        ("Eye", "Head", &eye),
+    ];
+    check_drawn(&rows, Facing::Left, "its head lies left");
+}
+
+#[test]
 fn legs_in_one_shape_stand_in_a_row_under_a_long_body() {
     let body = [around(0.0, 0.0, 20.0, 8.0)];
     let legs = [-7.0, -5.0, 5.0, 7.0].map(|x| around(x, -6.0, 1.0, 5.0));
