@@ -155,7 +155,7 @@ const ENGLISH: Table = &[
     (
         &[Detail, OfHead],
         "earring crown brow eyebrow eyelid lid eyelash mouth lip \
-         lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler mask",
+         lips teeth tooth fang tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler mask",
     ),
     (&[Detail, Cape], "cape cloak"),
     (&[Detail, Sleeve], "sleeve cuff"),

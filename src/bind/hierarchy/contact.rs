@@ -6,14 +6,14 @@ use std::collections::{BinaryHeap, VecDeque};
 
 use glam::DVec2;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use typed_index_collections::TiSlice;
 
 use super::Context;
 use super::names::{self, Behind, Names};
-use crate::anatomy::{self, Role, Term, sides};
+use crate::anatomy::{self, Role, Term, Thing, sides};
 use crate::bind::bindings::{NamedBy, PartId, PartKind};
-use crate::bind::matching::Matched;
+use crate::bind::matching::{Matched, Stacking};
 use crate::bind::names::OwnName;
 use crate::geometry::{self, Body, Outline, area, intersect};
 use crate::lang::ast::Annotation;
@@ -78,8 +78,9 @@ pub(super) fn parents(
     context: Context<'_>,
     names: &Names,
     nameless: bool,
+    stacking: &Stacking,
 ) -> Vec<(PartId, Option<PartId>)> {
-    let bodies = NamedBodies::read(context, names, nameless);
+    let bodies = NamedBodies::read(context, names, nameless, stacking);
     let part = |place: usize| bodies.parts[place];
     let found = bodies.parents().into_iter();
     found
@@ -95,6 +96,10 @@ struct NamedBody {
     sides: [bool; 2],
     area: f64,
     behind: Option<Behind>,
+    /// Whether nothing in its figure is called a head.
+    is_headless: bool,
+    /// Whether it is the hub or the rim of a wheel.
+    is_hub: bool,
     /// If its string attaches it, the place of the part that it names; `None` for the root.
     attached: Option<Option<usize>>,
 }
@@ -113,6 +118,8 @@ impl NamedBody {
             sides: [false; 2],
             area: area(&matched.parts[part].outline),
             behind: None,
+            is_headless: false,
+            is_hub: false,
             attached: match annotation {
                 Some(Annotation::Part(part)) => part
                     .parent
@@ -135,10 +142,11 @@ impl NamedBody {
             && self.sides[0] != self.sides[1]
             && other.sides[0] != other.sides[1];
         let carriers = role.carriers();
-        carriers
-            .iter()
-            .position(|role| *role == carrier)
-            .filter(|_| !opposite)
+        let place = carriers.iter().position(|role| *role == carrier);
+        // An animal in one shape has its eyes on its body.
+        let is_on_body = self.is_headless && role == Role::OfHead && carrier == Role::Body;
+        let place = place.or(is_on_body.then_some(carriers.len()));
+        place.filter(|_| !opposite)
     }
 }
 
@@ -156,14 +164,14 @@ struct NamedBodies {
     /// Per part those that their strings attach to it.
     followers: Vec<Vec<usize>>,
     touching: Vec<Vec<usize>>,
-    /// Per pair that touches, lower place first, the area that both share.
+    /// Per pair that touches, lower place first, the area that both share, without that where others lie between them.
     shared: FxHashMap<(usize, usize), f64>,
     /// Per part the largest area that it shares with a part of a body. Wheels carry nothing, however much lies over them.
     most_on_body: Vec<f64>,
 }
 
 impl NamedBodies {
-    fn read(context: Context<'_>, names: &Names, nameless: bool) -> Self {
+    fn read(context: Context<'_>, names: &Names, nameless: bool, stacking: &Stacking) -> Self {
         let Context { matched, nodes, .. } = context;
         let parts: Vec<PartId> = context.mains().collect();
         let called = parts.iter().map(|part| names.of(*part));
@@ -219,7 +227,8 @@ impl NamedBodies {
             .iter()
             .map(|body| (body.bounds.1 - body.bounds.0).max_element());
         let lengths = lengths.collect();
-        let shared = shared(&areas, &touching);
+        let mut shared = shared(&areas, &touching);
+        show(context, stacking, &place, &mut shared);
         let mut read = Self {
             parts,
             nameless,
@@ -249,20 +258,40 @@ impl NamedBodies {
         self.shared.get(&pair).copied().unwrap_or(0.0)
     }
 
-    /// The part that carries another by anatomy, or for a part without a name the named part that it overlaps most. A leg overlaps
+    /// The part that carries another by anatomy, or for a part without a name the named part that it overlaps most; one without a name
+    /// if it overlaps none with one, and is only near a limb. A leg overlaps
     /// the cape behind it most, and a fork the wheel, and both hang on the body; so does what lies over limbs
     /// of both sides, and an arm rather than on its hand.
     fn carrier(&self, place: usize) -> Option<usize> {
         let own = &self.bodies[place];
         let joins_sides = !own.named && self.joins_sides(place);
-        let rank = |other: &usize| {
-            let other = &self.bodies[*other];
+        let most = self.touching[place].iter();
+        let most = most.map(|other| self.shared(place, *other));
+        let most = most.fold(0.0, f64::max);
+        let rank = |index: &usize| {
+            let other = &self.bodies[*index];
+            // A hub turns with its wheel, over which more of the body may lie.
+            if own.is_hub && other.behind == Some(Behind::Wheel) {
+                return Some(0);
+            }
             if own.named {
                 return own.carried_by(other);
             }
             let is_limb = other.role.is_some_and(Role::is_piece_of_limb);
-            let is_last = other.behind.is_some() || joins_sides && is_limb || other.is_end_of(own);
-            other.named.then_some(usize::from(is_last))
+            let shared = self.shared(place, *index);
+            if !other.named {
+                return (shared > 0.0).then_some(2);
+            }
+            // The weights on a bar are beside the hands that hold it.
+            let is_near = is_limb && shared <= 0.0 && most > 0.0;
+            // What is behind ears or hair is behind the head, if there is one.
+            let is_behind =
+                other.role == Some(Role::OfHead) && !other.is_headless && place < *index;
+            let is_last = other.behind.is_some()
+                || joins_sides && is_limb
+                || other.is_end_of(own)
+                || is_behind;
+            Some(if is_near { 3 } else { usize::from(is_last) })
         };
         let ranked = self.touching[place]
             .iter()
@@ -280,7 +309,11 @@ impl NamedBodies {
         let touched = touched.map(|other| &self.bodies[*other]);
         let limbs = touched.filter(|other| other.role.is_some_and(Role::is_piece_of_limb));
         let has = |sides: [bool; 2]| limbs.clone().any(|limb| limb.sides == sides);
-        has([true, false]) && has([false, true])
+        // Of legs in one shape, no name says a side.
+        let unsided = limbs.clone().filter(|limb| limb.sides == [false; 2]);
+        let mut roles = unsided.map(|limb| limb.role);
+        let first = roles.next();
+        has([true, false]) && has([false, true]) || roles.any(|role| Some(role) == first)
     }
 
     /// The root of a connected group; `None` if nothing in it has a name.
@@ -425,10 +458,14 @@ fn read_names(names: &Names, parts: &[PartId], mut figure: Vec<usize>, bodies: &
     let terms = |place: &usize| anatomy::terms(names.of(parts[*place]));
     let mut said: Vec<Vec<Term>> = figure.iter().map(terms).collect();
     anatomy::dress(&mut said);
+    let is_headless = !said.iter().any(|terms| Role::of(terms) == Some(Role::Head));
     for (place, terms) in figure.into_iter().zip(said) {
+        bodies[place].is_headless = is_headless;
         bodies[place].role = Role::of(&terms);
         bodies[place].sides = sides(&terms);
-        bodies[place].behind = Behind::of(names.of(parts[place]), &terms);
+        let name = names.of(parts[place]);
+        bodies[place].behind = Behind::of(name, &terms);
+        bodies[place].is_hub = anatomy::thing(name) == Some(Thing::Hub);
     }
 }
 
@@ -487,4 +524,39 @@ fn shared(areas: &[Body<'_>], touching: &[Vec<usize>]) -> FxHashMap<(usize, usiz
         ((one, other), both)
     });
     shared.collect()
+}
+
+/// Leaves of the areas that parts share those where nothing lies between them: a visor lies on a face, however much of the hair is
+/// behind that.
+fn show(
+    context: Context<'_>,
+    stacking: &Stacking,
+    places: &FxHashMap<PartId, usize>,
+    shared: &mut FxHashMap<(usize, usize), f64>,
+) {
+    let Context { matched, nodes, .. } = context;
+    let place = |part: PartId| places.get(&nodes.main[part]).copied();
+    let mut direct: FxHashMap<(usize, usize), f64> = FxHashMap::default();
+    let mut unknown: FxHashSet<usize> = FxHashSet::default();
+    for part in matched.parts.keys() {
+        let Some(own) = place(part) else {
+            continue;
+        };
+        if !stacking.has(part) {
+            unknown.insert(own);
+            continue;
+        }
+        let facts = stacking.of_part(part);
+        for (other, share) in &facts.under {
+            if let Some(other) = place(*other) {
+                let pair = (own.min(other), own.max(other));
+                *direct.entry(pair).or_default() += share * facts.area;
+            }
+        }
+    }
+    for (pair, area) in shared {
+        if !unknown.contains(&pair.0) && !unknown.contains(&pair.1) {
+            *area = area.min(direct.get(pair).copied().unwrap_or(0.0));
+        }
+    }
 }

@@ -135,7 +135,8 @@ pub(in crate::bind) fn build(
     let (mut parents, unnamed) = automatic(context, &mut names, &holders, memo);
     let is_nameless = by_contact && contact::is_nameless(context, &names);
     if by_contact {
-        set(&mut parents, contact::parents(context, &names, is_nameless));
+        let found = contact::parents(context, &names, is_nameless, &stacking);
+        set(&mut parents, found);
         set(&mut parents, parents::of_groups(context));
     }
     parents::other_signs(matched, &names, diagnostics);
