@@ -290,6 +290,19 @@ fn only_labels_are_added() {
     assert_eq!(back, text);
 }
 
+/// The names of an annotated drawing's parts, each with that of what carries it.
+fn carriers(text: &str) -> BTreeMap<String, String> {
+    let (text, _) = annotated(text);
+    let compiled = compiled(&text);
+    let parts = &compiled.bindings.parts;
+    let main = parts.iter().filter(|part| part.kind == PartKind::Main);
+    main.map(|part| {
+        let parent = part.parent.map_or("Root", |parent| &parts[parent].name);
+        (part.name.clone(), parent.to_owned())
+    })
+    .collect()
+}
+
 /// A man before his cape, with both hands in one shape.
 const HERO: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 300">
   <path fill="#a01030" d="M70 95H130L165 260H35Z"/>
@@ -316,20 +329,7 @@ const STAG: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 
 
 #[test]
 fn what_is_worn_or_grows_on_a_head_is_no_limb() {
-    let names = |text: &str| -> BTreeMap<String, String> {
-        let (text, _) = annotated(text);
-        let compiled = compiled(&text);
-        let parts = &compiled.bindings.parts;
-        let named = parts.iter();
-        let named = named.filter(|part| part.kind == PartKind::Main && !part.is_automatic());
-        named
-            .map(|part| {
-                let parent = part.parent.map_or("Root", |parent| &parts[parent].name);
-                (part.name.clone(), parent.to_owned())
-            })
-            .collect()
-    };
-    let hero = names(HERO);
+    let hero = carriers(HERO);
     for (name, parent) in [
         ("Cape", "Body"),
         ("Lleg", "Body"),
@@ -342,12 +342,211 @@ fn what_is_worn_or_grows_on_a_head_is_no_limb() {
     }
     assert!(hero.contains_key("Hands"), "{hero:?}");
 
-    let stag = names(STAG);
+    let stag = carriers(STAG);
     for name in ["Body", "Far legs", "Horns", "Mouth", "Eye"] {
         assert!(stag.contains_key(name), "{name} in {stag:?}");
     }
     let arms = stag.keys().filter(|name| class(name) == Some("arm"));
     assert_eq!(arms.count(), 0, "{stag:?}");
+}
+
+/// A man whose jacket is drawn as two halves, each with its sleeve, over a shirt.
+const DANCER: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 300">
+  <path fill="#203070" d="M76 180H98V282H74Z"/>
+  <path fill="#203070" d="M102 180H124L126 282H102Z"/>
+  <path fill="#e06020" d="M80 95H120V192H80Z"/>
+  <path fill="#2080c0" d="M90 96L94 192H60L62 140L38 176L24 162L60 98Z"/>
+  <path fill="#2080c0" d="M110 96L106 192H140L138 140L162 176L176 162L140 98Z"/>
+  <circle fill="#f0c090" cx="100" cy="62" r="34"/>
+  <path fill="#201008" d="M86 56h7v8h-7zM107 56h7v8h-7z"/>
+</svg>
+"##;
+
+/// A woman with a hat, whose ears are a band behind the face, and whose lapels are as long as her sleeves.
+const BUST: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 220">
+  <path fill="#503020" d="M30 20H170V150H30Z"/>
+  <path fill="#3050a0" d="M30 170H170L190 220H10Z"/>
+  <path fill="#504080" d="M24 185H44V220H10ZM156 185H176L190 220H156Z"/>
+  <path fill="#d0d0f0" d="M60 170L90 220H74L40 178ZM140 170L110 220H126L160 178Z"/>
+  <path fill="#e0a060" d="M88 140H112V180H88Z"/>
+  <path fill="#e0a060" d="M38 80H162V110H38Z"/>
+  <ellipse fill="#f0c090" cx="100" cy="95" rx="55" ry="62"/>
+  <path fill="#201008" d="M76 86h9v11h-9zM115 86h9v11h-9z"/>
+  <path fill="#102040" d="M40 40H160V66H40Z"/>
+  <path fill="#406080" d="M30 66H170V74H30Z"/>
+</svg>
+"##;
+
+/// A man who squats below a bar with weights.
+const LIFTER: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 240 260">
+  <path fill="#402040" d="M60 236H96V250H60ZM144 236H180V250H144Z"/>
+  <path fill="#f0c090" d="M56 30H74L104 92L88 102ZM184 30H166L136 92L152 102Z"/>
+  <path fill="#2090d0" d="M84 88H156V170H84Z"/>
+  <path fill="#909090" d="M70 170H170V190L150 206H90L70 190Z"/>
+  <path fill="#f0c090" d="M72 190H92V236H72ZM148 190H168V236H148Z"/>
+  <path fill="#808080" d="M20 18H220V26H20Z"/>
+  <path fill="#402040" d="M66 150H96V192H66ZM144 150H174V192H144Z"/>
+  <path fill="#f0b080" d="M54 16H76V32H54ZM164 16H186V32H164Z"/>
+  <path fill="#302040" d="M14 2H36V44H14ZM204 2H226V44H204Z"/>
+  <path fill="#f0c090" d="M98 62H142V116H98Z"/>
+  <path fill="#201008" d="M108 84h7v8h-7zM125 84h7v8h-7z"/>
+</svg>
+"##;
+
+/// A snowman in one shape, with his outline behind him.
+const SNOWMAN: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 260">
+  <path fill="#c0c0d0" d="M100 24C150 24 164 90 140 108C190 130 190 250 150 250H50C10 250 10 130 60 108C36 90 50 24 100 24Z"/>
+  <path fill="#503020" d="M14 96L24 90L66 130L58 138ZM186 96L176 90L134 130L142 138Z"/>
+  <path fill="#ffffff" d="M100 32C142 32 154 90 130 108C176 130 176 244 146 244H54C24 244 24 130 70 108C46 90 58 32 100 32Z"/>
+  <path fill="#2050c0" d="M60 108H140V126H60Z"/>
+  <path fill="#302040" d="M66 14H134V36H66Z"/>
+  <path fill="#201008" d="M84 58h8v10h-8zM108 58h8v10h-8z"/>
+</svg>
+"##;
+
+/// A fairy whose arms are one shape with her body, and whose wings are one shape behind it.
+const FAIRY: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 240 300">
+  <path fill="#80e0f0" d="M120 120L60 60L40 110L70 150L64 190L120 150L176 190L170 150L200 110L180 60Z"/>
+  <path fill="#e0a060" d="M98 110H150L214 128V142L142 136L140 196L138 290H122L120 200L116 290H102L98 196L100 136L30 142V128Z"/>
+  <path fill="#8060c0" d="M98 112H142L140 196H100Z"/>
+  <circle fill="#f0c090" cx="120" cy="76" r="34"/>
+  <path fill="#201008" d="M106 70h7v8h-7zM127 70h7v8h-7z"/>
+</svg>
+"##;
+
+/// A man in profile, whose near leg hides the far one.
+const WALKER: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 320">
+  <circle fill="#f0c090" cx="92" cy="50" r="36"/>
+  <circle fill="#201008" cx="72" cy="48" r="5"/>
+  <path fill="#505050" d="M84 180H116L156 280L138 292Z"/>
+  <path fill="#707070" d="M80 180H114L100 292H78Z"/>
+  <path fill="#10a080" d="M78 84H118V186H78Z"/>
+  <path fill="#3050a0" d="M60 288H102V306H60Z"/>
+  <path fill="#304080" d="M138 288H170V306H132Z"/>
+</svg>
+"##;
+
+/// A cow in profile, with a mane, an udder, and a nostril on its muzzle.
+const COW: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 240">
+  <path fill="#909090" d="M104 150h14v78h-14zM206 150h14v78h-14z"/>
+  <path fill="#f08080" d="M158 140H206V188H170Z"/>
+  <path fill="#604020" d="M64 24L84 16L112 76L96 96Z"/>
+  <path fill="#d0d0d0" d="M20 70L60 40L88 60L100 90H250L262 228H246L236 160H120L112 228H96L78 150L20 104Z"/>
+  <path fill="#f0a0a0" d="M10 78H44V108H16Z"/>
+  <circle fill="#100804" cx="62" cy="62" r="5"/>
+  <circle fill="#401010" cx="22" cy="90" r="4"/>
+</svg>
+"##;
+
+/// Asserts that parts hang on others.
+fn assert_hang(text: &str, expected: &[(&str, &str)]) -> BTreeMap<String, String> {
+    let found = carriers(text);
+    for (name, parent) in expected {
+        let got = found.get(*name).map(String::as_str);
+        assert_eq!(got, Some(*parent), "{name} in {found:?}");
+    }
+    found
+}
+
+#[test]
+fn a_shirt_between_the_halves_of_a_jacket_is_the_body() {
+    let limbs = ["Larm", "Rarm", "Lleg", "Rleg", "Head"];
+    assert_hang(DANCER, &limbs.map(|limb| (limb, "Body")));
+}
+
+#[test]
+fn ears_in_one_shape_hang_on_the_head_and_hair_does_not_hang_on_them() {
+    assert_hang(
+        BUST,
+        &[
+            ("Ears", "Head"),
+            ("Hair", "Head"),
+            ("Hat", "Head"),
+            ("Head", "Neck"),
+        ],
+    );
+    // Lapels are nearer to each other than sleeves, and not at both sides.
+    let (text, _) = annotated(BUST);
+    assert!(
+        text.contains(r##"data-name="Arms" fill="#504080""##),
+        "{text}"
+    );
+}
+
+#[test]
+fn arms_are_raised_and_legs_stand_in_shoes() {
+    let found = assert_hang(
+        LIFTER,
+        &[
+            ("Arms", "Body"),
+            ("Arms-2", "Body"),
+            ("Hands", "Arms"),
+            ("Shoes", "Legs"),
+        ],
+    );
+    assert!(
+        !found.contains_key("Hair") && !found.contains_key("Hat"),
+        "{found:?}"
+    );
+    // The weights are beside the hands, but lie on the bar.
+    let (text, _) = annotated(LIFTER);
+    let compiled = compiled(&text);
+    let parts = &compiled.bindings.parts;
+    let of = |leaf: usize| {
+        let part = parts
+            .iter()
+            .find(|part| compiled.drawing.shapes[part.shape].leaf == leaf);
+        part.expect("a part")
+    };
+    assert_eq!(
+        of(8).parent.map(|parent| parts[parent].name.clone()),
+        Some(of(5).name.clone())
+    );
+}
+
+#[test]
+fn a_snowman_is_a_body_with_eyes() {
+    let found = assert_hang(SNOWMAN, &[("Body", "Root"), ("Eyes", "Body")]);
+    // Neither his outline nor his hat is a leg.
+    assert!(
+        !found.keys().any(|name| class(name) == Some("leg")),
+        "{found:?}"
+    );
+    assert!(!found.contains_key("Head"), "{found:?}");
+}
+
+#[test]
+fn wings_behind_the_body_are_no_arm() {
+    let found = assert_hang(FAIRY, &[("Body", "Root"), ("Head", "Body")]);
+    assert!(
+        !found.keys().any(|name| class(name) == Some("arm")),
+        "{found:?}"
+    );
+}
+
+#[test]
+fn the_near_leg_of_a_walker_is_not_the_hips() {
+    let legs = [
+        ("Lleg", "Body"),
+        ("Rleg", "Body"),
+        ("Lfoot", "Lleg"),
+        ("Rfoot", "Rleg"),
+    ];
+    assert_hang(WALKER, &legs);
+}
+
+#[test]
+fn manes_udders_and_nostrils_are_neither_limbs_nor_mouths() {
+    // Without a head, the face hangs on the body.
+    let found = assert_hang(
+        COW,
+        &[("Mouth", "Body"), ("Eye", "Body"), ("Far legs", "Body")],
+    );
+    let others = found
+        .keys()
+        .filter(|name| matches!(class(name), Some("arm" | "tail")));
+    assert_eq!(others.count(), 0, "{found:?}");
+    assert!(!found.contains_key("Mouth-2"), "{found:?}");
 }
 
 const PEBBLES: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">

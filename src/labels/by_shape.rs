@@ -13,6 +13,10 @@ use crate::anatomy::Term;
 const ARM_LENGTH: f64 = 0.1;
 /// It points outward by at least this share of the height.
 const OUTWARD: f64 = 0.02;
+/// What is at least this share of the trunk's width wide, with its middle within this share of its own width from that of the trunk, is at
+/// both of its sides.
+const WINGS: f64 = 0.6;
+const CENTRED: f64 = 0.15;
 /// Two parts whose mirrored centres are within this share of the height are a pair, so neither is the head.
 const TWIN: f64 = 0.1;
 /// A part whose joint is at most this share of its length from the middle of its axis has none of its own: it turns about its middle.
@@ -256,6 +260,7 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut Drafts) {
         } else if !is_open(tree, drafts, part)
             || is_over_trunk(tree, drafts, trunk, part)
             || tree.is_below_all(part, trunk)
+            || encloses(tree, trunk, part)
         {
             continue;
         } else if tree.stands(part) {
@@ -308,11 +313,21 @@ fn is_over_trunk(
 ) -> bool {
     let below = tree.parents[part].filter(|above| is_trunk(drafts[*above].class));
     let drawn = |part: FigurePartId| tree.parts[part].drawing_order;
+    let is_later = below.is_some_and(|below| drawn(part) > drawn(below));
+    is_later && (is_around(tree, trunk, part) || tree.is_over(part, trunk, OVER))
+}
+
+/// Whether the trunk lies within a part, as within its outline or its shadow.
+fn encloses(tree: &PartTree<'_>, trunk: [DVec2; 2], part: FigurePartId) -> bool {
+    let [low, high] = tree.around(std::iter::once(part));
+    low.cmple(trunk[0]).all() && high.cmpge(trunk[1]).all()
+}
+
+/// Whether a part sticks out at both sides of the trunk.
+fn is_around(tree: &PartTree<'_>, trunk: [DVec2; 2], part: FigurePartId) -> bool {
     let [low, high] = tree.around(std::iter::once(part));
     let beyond = OUTWARD * tree.height;
-    let is_around = low.x <= trunk[0].x - beyond && high.x >= trunk[1].x + beyond;
-    let is_later = below.is_some_and(|below| drawn(part) > drawn(below));
-    is_later && (is_around || tree.is_over(part, trunk, OVER))
+    low.x <= trunk[0].x - beyond && high.x >= trunk[1].x + beyond
 }
 
 /// Whether a part hangs from the lower half of the trunk to below it.
@@ -382,6 +397,13 @@ fn outward(
     let body = tree.parents[part].filter(|parent| is_trunk(drafts[*parent].class));
     let around = body.map_or(trunk, |body| tree.around(std::iter::once(body)));
     let middle = around[0].midpoint(around[1]);
+    // An arm is at one side of the trunk. Wings in one shape behind it are at both.
+    let width = tree.size(part).x;
+    let is_wide = width >= WINGS * (around[1].x - around[0].x);
+    let is_centred = (tree.middle(part).x - middle.x).abs() <= CENTRED * width;
+    if is_around(tree, around, part) || is_wide && is_centred {
+        return None;
+    }
     let [joint, tip] = axis(tree, around, part);
     let reach = (tip.x - middle.x).abs();
     let points = reach > (joint.x - middle.x).abs() + OUTWARD * tree.height;

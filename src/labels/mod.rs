@@ -36,7 +36,9 @@ pub(crate) use facing::FoundFacing;
 pub(crate) use figure::label_figure;
 pub(crate) use figure::{LabeledFigure, label_drawn};
 pub use skeleton::{Anatomy, Limb, label_clip};
-pub(crate) use unnamed::{BUST, Certainty, Drawn, Guess, Guesses, Mask, SIDE as GRID_SIDE, guess};
+pub(crate) use unnamed::{
+    BUST, Certainty, Drawn, Guess, Guesses, Mask, Profile, SIDE as GRID_SIDE, guess,
+};
 
 pub(crate) use joint_tree::JointTree;
 pub(crate) use skeleton::plain_names;

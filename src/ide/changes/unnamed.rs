@@ -15,7 +15,8 @@ use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Edit, applied};
 use crate::ide::rename::label_edit;
 use crate::labels::{
-    BUST, Certainty, Class, Drawn, GRID_SIDE, Guess, Guesses, Label, LimbSegment, Mask, Side, guess,
+    BUST, Certainty, Class, Drawn, GRID_SIDE, Guess, Guesses, Label, LimbSegment, Mask, Profile,
+    Side, guess,
 };
 use crate::resolver::MemoryResolver;
 use crate::rig::FigureFacing;
@@ -154,7 +155,11 @@ impl Analysis {
             .collect();
         shapes.sort_by_key(|(shape, _)| *shape);
         let shapes: Vec<Drawn> = shapes.into_iter().map(|(_, drawn)| drawn).collect();
-        let Guesses { all, has_head } = guess(&drawn, &shapes);
+        let Guesses {
+            all,
+            has_head,
+            profile,
+        } = guess(&drawn, &shapes);
         let mut found: Vec<Found> = all.into_iter().map(Found::from).collect();
         found.retain(|found| units[found.unit].is_free && !taken.takes(found));
         let named: Vec<Found> = units.iter().enumerate().filter_map(Found::named).collect();
@@ -163,7 +168,7 @@ impl Analysis {
             let so_far = self.written(&units, &found, language, &taken);
             let figure = self.named_so(&so_far, names.len());
             let known = [named.as_slice(), &found].concat();
-            let more = by_labels(&units, &known, has_head, &taken, &figure);
+            let more = by_labels(&units, &known, (has_head, profile), &taken, &figure);
             if more.is_empty() {
                 break;
             }
@@ -396,7 +401,7 @@ fn is_figure(found: &[Found]) -> bool {
 fn by_labels(
     units: &[Unit],
     known: &[Found],
-    has_head: bool,
+    (has_head, profile): (bool, Option<Profile>),
     taken: &Taken,
     compiled: &Compiled,
 ) -> Vec<Found> {
@@ -440,8 +445,15 @@ fn by_labels(
                 Class::Arm | Class::Leg | Class::Tail | Class::Hips => is_bust,
             };
             // Pairs that are one shape were looked at before: a limb by itself is one piece.
+            let mask = &units[unit].drawn.mask;
+            let is_no_limb = profile.is_some_and(|profile| match label.class {
+                Class::Arm => !profile.may_be_arm(mask) || profile.is_between_legs(mask),
+                Class::Tail => profile.is_between_legs(mask),
+                _ => false,
+            });
             let is_pair = label.class.is_limb() && units[unit].drawn.has_several_pieces();
             if is_pair
+                || is_no_limb
                 || !part.is_automatic()
                 || is_known
                 || !units[unit].is_free

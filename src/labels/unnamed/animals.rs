@@ -1,6 +1,6 @@
 //! Finds animals that are drawn from the side, by their one eye.
 
-use super::mask::{Box2, Island};
+use super::mask::{Box2, Island, Mask};
 use super::shapes::{Shape, Shapes};
 use super::{Certainty, Guesses, bodies};
 use crate::anatomy::Noun;
@@ -21,13 +21,58 @@ const UPRIGHT: f64 = 1.2;
 const LOW: f64 = 0.08;
 const REACH: f64 = 0.62;
 
+/// What hangs between the legs ends at least this share of the height above the ground.
+const HANGS: f64 = 0.1;
 /// Of a shape of legs, at least this share stands on the ground. The rest may be the shadow of a neck, or a tail.
 const STANDS: f64 = 0.4;
 /// What is in front of the eye and at most this share of the drawing's width and height from it is of the face, and what rises above it
 /// within that share of the width are horns or ears.
 const FACE: f64 = 0.28;
+/// What lies on a muzzle or in a mouth by this share belongs to it.
+const IN_MOUTH: f64 = 0.5;
 /// Horns and ears begin at most this share of the height below the eye.
 const CROWN: f64 = 0.06;
+
+/// An animal in profile that is not upright, as far as it matters for what may be a limb of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Profile {
+    /// The height of its eye, in cells downwards.
+    eye: f64,
+    /// Where its feet are: the left and the right end of what stands on the ground, and the ground.
+    feet: [f64; 2],
+    ground: f64,
+    height: f64,
+}
+
+impl Profile {
+    fn read(shapes: &Shapes, eye: f64) -> Self {
+        let mut all = Mask::empty();
+        shapes.iter().for_each(|(_, shape)| all.add(&shape.mask));
+        Self {
+            eye,
+            feet: all.standing(),
+            ground: shapes.bounds.high.y,
+            height: shapes.height(),
+        }
+    }
+
+    /// Whether what points outward may be an arm: a mane, which does so too, is higher than the eye.
+    pub(crate) fn may_be_arm(&self, mask: &Mask) -> bool {
+        mask.bounds()
+            .is_some_and(|bounds| bounds.middle().y >= self.eye)
+    }
+
+    /// Whether something hangs between the legs without reaching the ground, like an udder.
+    pub(crate) fn is_between_legs(&self, mask: &Mask) -> bool {
+        let [left, right] = self.feet;
+        let is_between = |bounds: Box2| {
+            bounds.low.x > left
+                && bounds.high.x < right
+                && bounds.high.y < self.ground - HANGS * self.height
+        };
+        mask.bounds().is_some_and(is_between)
+    }
+}
 
 /// Names eye, head, body and legs of an animal in profile, whose eye lies on `host`.
 pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Guesses) {
@@ -65,6 +110,7 @@ pub(super) fn around(shapes: &Shapes, [eye, host]: [usize; 2], guesses: &mut Gue
         && !is_upright(shapes)
     {
         name_face(shapes, [eye, body, host], spot, guesses);
+        guesses.profile = Some(Profile::read(shapes, spot.middle().y));
     }
     if host == body {
         guesses.has_head = true;
@@ -137,6 +183,7 @@ fn name_face(shapes: &Shapes, [eye, body, host]: [usize; 3], spot: &Shape, guess
     } else {
         1.0
     };
+    let (mut before, mut above): (Vec<(usize, &Shape)>, Vec<usize>) = (Vec::new(), Vec::new());
     for (index, shape) in shapes.iter() {
         if [eye, body, host].contains(&index) || !shape.name.is_empty() {
             continue;
@@ -148,16 +195,28 @@ fn name_face(shapes: &Shapes, [eye, body, host]: [usize; 3], spot: &Shape, guess
             && shape.size().max_element() <= FACE * size.max_element()
             && shape.bounds.low.y >= at.y - CROWN * size.y
         {
-            let why = "it is before the eye";
-            guesses.add(index, Noun::Mouth, Certainty::Uncertain, why);
+            before.push((index, shape));
         } else if shape.bounds.high.y <= at.y + CROWN * size.y
             && middle.y < at.y
             && far.x <= FACE
             && shape.bounds.low.y < spot.bounds.low.y
         {
-            let why = "it rises above the eye";
-            guesses.add(index, Noun::Horns, Certainty::Uncertain, why);
+            above.push(index);
         }
+    }
+    // Nostrils lie on a muzzle, and teeth in a mouth: they go along with it without a name.
+    before.sort_by(|a, b| b.1.cells.total_cmp(&a.1.cells));
+    let mut mouths: Vec<&Shape> = Vec::new();
+    for (index, shape) in before {
+        if mouths.iter().all(|mouth| shape.on(mouth) < IN_MOUTH) {
+            let why = "it is before the eye";
+            guesses.add(index, Noun::Mouth, Certainty::Uncertain, why);
+            mouths.push(shape);
+        }
+    }
+    for index in above {
+        let why = "it rises above the eye";
+        guesses.add(index, Noun::Horns, Certainty::Uncertain, why);
     }
 }
 

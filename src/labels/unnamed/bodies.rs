@@ -12,6 +12,8 @@ const ENOUGH: usize = 6;
 const UPRIGHT: f64 = 0.8;
 /// The upper half of a body is at least this share of the lower one.
 const HALF: f64 = 0.35;
+/// The lower half of a body that is this much higher than wide is a leg.
+const LEG: f64 = 1.8;
 /// A head is at least and at most this share of the trunk.
 const HEADS: std::ops::RangeInclusive<f64> = 0.03..=1.5;
 
@@ -42,8 +44,12 @@ pub(super) fn find(shapes: &Shapes, known: Option<usize>, guesses: &mut Guesses)
         && let top = known.or(above(shapes, [Some(upper), None], chest).map(|(top, _)| top))
         && let Some(top) = top.and_then(|top| Some((top, shapes.get(top)?)))
     {
-        let why = "it is below the body, and as large";
-        guesses.add(body, Noun::Hips, Certainty::Likely, why);
+        // The near leg of somebody in profile hides the far one, and is found where limbs are.
+        let size = trunk.size();
+        if size.y < LEG * size.x {
+            let why = "it is below the body, and as large";
+            guesses.add(body, Noun::Hips, Certainty::Likely, why);
+        }
         (body, trunk) = (upper, chest);
         head = Some(top);
     }

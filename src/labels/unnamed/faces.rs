@@ -6,7 +6,7 @@ use super::mask::{Box2, Island};
 use super::shapes::{Shape, Shapes};
 
 /// An eye is at most this share of the head that it lies on, and at least this many cells.
-const LARGEST_EYE: f64 = 0.1;
+const LARGEST_EYE: f64 = 0.13;
 const SMALLEST_EYE: usize = 2;
 /// The share of an eye that lies on its head.
 const ON: f64 = 0.5;

@@ -152,6 +152,13 @@ impl Mask {
         (0..SIDE).rev().find(|row| self.span(*row).is_some())
     }
 
+    /// The left and the right end of what it covers just above its lowest row.
+    pub(super) fn standing(&self) -> [f64; 2] {
+        let row = self.lowest().unwrap_or(0).saturating_sub(2);
+        let (first, last) = self.span(row).unwrap_or((0, 0));
+        [first as f64, (last + 1) as f64]
+    }
+
     /// How wide it is just above its lowest row, as a share of its whole width.
     pub(crate) fn foot(&self) -> f64 {
         let width = |row: usize| self.span(row).map_or(0, |(first, last)| last + 1 - first);

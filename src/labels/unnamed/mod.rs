@@ -11,6 +11,7 @@ mod people;
 mod shapes;
 mod vehicles;
 
+pub(crate) use animals::Profile;
 pub(crate) use mask::{Mask, SIDE};
 pub(crate) use people::BUST;
 pub(crate) use shapes::Drawn;
@@ -62,6 +63,8 @@ pub(crate) struct Guesses {
     pub(crate) all: Vec<Guess>,
     /// Whether a head is known, or the body has one that is no shape of its own.
     pub(crate) has_head: bool,
+    /// The animal in profile, if the drawing is one.
+    pub(crate) profile: Option<Profile>,
 }
 
 impl Guesses {

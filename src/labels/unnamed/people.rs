@@ -1,7 +1,7 @@
 //! Names what is around a head that is drawn from the front: hair, ears, neck, trunk, and limbs of which two are one shape.
 
 use super::faces::Face;
-use super::mask::Box2;
+use super::mask::{Box2, Island};
 use super::shapes::{Shape, Shapes};
 use super::{Certainty, Guesses};
 use crate::anatomy::Noun;
@@ -14,6 +14,11 @@ const SKIN: f64 = 110.0;
 /// Hair and hats differ from the skin by at least this.
 const OTHER: f64 = 45.0;
 
+/// The eyes of what is head and body in one are at most this share of its height from its top.
+const HIGH_EYES: f64 = 0.3;
+/// Ears in one shape behind the head are this many times as wide as that.
+const BAND: std::ops::RangeInclusive<f64> = 1.05..=1.5;
+
 /// A bust is at least this share of its width wide where it ends.
 pub(crate) const BUST: f64 = 0.6;
 /// Shoes are at most this share of the figure high.
@@ -22,6 +27,10 @@ const SHOE: f64 = 0.16;
 const STANDS: f64 = 0.06;
 /// A hand is at most this share of the head, and at least.
 const HANDS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
+/// Thighs begin below this share of the body's height.
+const SQUAT: f64 = 0.6;
+/// Raised arms lie on the body by at least this share, and on the head by at most this share.
+const BRUSHES: f64 = 0.1;
 /// Hands have the colour of the head, within this distance.
 const ALIKE: f64 = 40.0;
 
@@ -32,6 +41,11 @@ const COMPACT: f64 = 1.9;
 const COVERED: f64 = 0.85;
 const BEHIND: f64 = 0.35;
 const CAPE: f64 = 0.6;
+/// What is farther from below the head's middle than this share of its width is but one half of a jacket. The shirt between both halves is
+/// nearer than that share of its own width, and at least this share of the half.
+const HALF: f64 = 0.25;
+const MIDDLE: f64 = 0.2;
+const SHIRT: f64 = 0.4;
 /// Legs lie by this share before a cape.
 const BEFORE: f64 = 0.4;
 
@@ -54,6 +68,14 @@ pub(super) fn around(shapes: &Shapes, face: &Face, guesses: &mut Guesses) {
         index: face.head,
         face,
     };
+    if around.is_whole() {
+        let why = "it has eyes, and stands on the ground: head and body are one";
+        guesses.has_head = true;
+        guesses.add(face.head, Noun::Body, Certainty::Certain, why);
+        around.eyes(guesses);
+        around.limbs(guesses);
+        return;
+    }
     guesses.add(face.head, Noun::Head, Certainty::Certain, face.why);
     around.eyes(guesses);
     around.ears(guesses);
@@ -67,6 +89,17 @@ pub(super) fn around(shapes: &Shapes, face: &Face, guesses: &mut Guesses) {
 }
 
 impl Around<'_> {
+    /// Whether a head is that of a snowman or a ghost, with the body below the eyes in the same shape.
+    fn is_whole(&self) -> bool {
+        let eyes = self.face.eyes.iter();
+        let eyes = eyes.filter_map(|eye| self.shapes.get(*eye));
+        let eyes = eyes.map(|eye| eye.middle().y).fold(0.0, f64::max);
+        let size = self.head.size();
+        let is_high =
+            !self.face.eyes.is_empty() && eyes <= self.head.bounds.low.y + HIGH_EYES * size.y;
+        is_high && size.y >= size.x && self.stands(self.head.bounds)
+    }
+
     fn eyes(&self, guesses: &mut Guesses) {
         let why = "they are two of one size at one height";
         let apart = self
@@ -115,7 +148,7 @@ impl Around<'_> {
         };
         let why = "they are at both sides of the head, in its colour";
         let mut single: Vec<(usize, Side)> = Vec::new();
-        let mut both = None;
+        let (mut both, mut band) = (None, None);
         for (index, shape) in self.free(guesses) {
             if shape.distance_of_colors(self.head) > SKIN {
                 continue;
@@ -125,6 +158,8 @@ impl Around<'_> {
                 if opposite && twins.iter().all(|twin| is_ear(twin.bounds)) {
                     both.get_or_insert(index);
                 }
+            } else if index < self.index && self.is_band(shape) {
+                band.get_or_insert(index);
             } else if shape.islands.len() == 1 && is_ear(shape.bounds) {
                 let is_left = self.place(shape.bounds).x > 0.0;
                 single.push((index, if is_left { Side::Left } else { Side::Right }));
@@ -132,6 +167,9 @@ impl Around<'_> {
         }
         if let Some(both) = both {
             guesses.add(both, Noun::Ears, Certainty::Certain, why);
+        } else if let Some(band) = band {
+            let why = "it is behind the head, and seen at both of its sides, in its colour";
+            guesses.add(band, Noun::Ears, Certainty::Likely, why);
         } else if single.iter().any(|one| one.1 != single[0].1) {
             for side in Side::BOTH {
                 if let Some((ear, _)) = single.iter().find(|one| one.1 == side) {
@@ -139,6 +177,17 @@ impl Around<'_> {
                 }
             }
         }
+    }
+
+    /// Whether a shape behind the head is a band from one ear to the other.
+    fn is_band(&self, shape: &Shape) -> bool {
+        let place = self.place(shape.bounds);
+        let size = shape.size() / self.head.size();
+        shape.islands.len() == 1
+            && place.x.abs() <= 0.15
+            && (-0.75..=0.75).contains(&place.y)
+            && BAND.contains(&size.x)
+            && (0.08..=0.6).contains(&size.y)
     }
 
     fn neck(&self, guesses: &mut Guesses) {
@@ -182,6 +231,8 @@ impl Around<'_> {
                 && shape.bounds.high.y <= top + lower * size.y
                 && shape.distance_of_colors(head) >= OTHER
                 && shape.cells >= 0.03 * head.cells
+                // A barbell above a head is neither hair nor hat.
+                && shape.mask.touches(&head.mask)
         };
         let found: Vec<usize> = self
             .free(guesses)
@@ -189,7 +240,11 @@ impl Around<'_> {
             .map(|(index, _)| index)
             .collect();
         let shape = |index: usize| self.shapes.get(index);
-        let behind = found.iter().copied().find(|index| *index < self.index);
+        // Of wings and hair behind a head, hair is what most of the head lies on.
+        let below = found.iter().copied().filter(|index| *index < self.index);
+        let under_head =
+            |index: &usize| shape(*index).map_or(0, |shape| shape.mask.shared(&head.mask));
+        let behind = below.rev().max_by_key(under_head);
         let front: Vec<usize> = found
             .iter()
             .copied()
@@ -249,9 +304,25 @@ impl Around<'_> {
         let found = self
             .free(guesses)
             .filter_map(|(index, shape)| Some((worth(index, shape)?, index)));
-        let Some((_, body)) = found.max_by(|a, b| a.0.total_cmp(&b.0)) else {
+        let mut found: Vec<(f64, usize)> = found.collect();
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let Some(&(_, mut body)) = found.first() else {
             return false;
         };
+        // The half of a jacket with its sleeve is beside the shirt that it lies on, and larger than what is seen of that.
+        let aside = |shape: &Shape| (shape.middle().x - head.middle().x).abs() / shape.size().x;
+        if let Some(largest) = self.shapes.get(body).filter(|half| aside(half) > HALF) {
+            let is_middle = |shape: &Shape| {
+                aside(shape) <= MIDDLE
+                    && shape.islands.len() == 1
+                    && shape.cells >= SHIRT * largest.cells
+                    && shape.mask.touches(&largest.mask)
+            };
+            let shape = |index: usize| self.shapes.get(index);
+            let middle = found.iter().map(|(_, index)| *index);
+            let mut middle = middle.filter(|index| shape(*index).is_some_and(is_middle));
+            body = middle.next().unwrap_or(body);
+        }
         let why = "it is the largest shape below the head";
         guesses.add(body, Noun::Body, Certainty::Certain, why);
         true
@@ -310,12 +381,39 @@ impl Around<'_> {
         let height = self.shapes.height();
         let axis = self.head.middle().x;
         let (mut found, mut arms) = (Vec::new(), Vec::new());
+        let shoes = |shape: &Shape| {
+            shape
+                .twins()
+                .is_some_and(|twins| twins.iter().any(|shoe| self.stands(shoe.bounds)))
+                && shape.size().y <= SHOE * height
+                && shape.bounds.low.y >= body.bounds.high.y - 0.15 * body.size().y
+        };
+        let shoes: Vec<&Shape> = self
+            .free(guesses)
+            .map(|(_, shape)| shape)
+            .filter(|shape| shoes(shape))
+            .collect();
+        let legs = |shape: &Shape| {
+            let mut others = self.free(guesses).map(|(_, other)| other);
+            others.any(|other| {
+                let stands = |legs: [Island; 2]| {
+                    legs.iter().any(|leg| self.stands(leg.bounds))
+                        || shoes.iter().any(|shoes| other.mask.touches(&shoes.mask))
+                };
+                !std::ptr::eq(other, shape)
+                    && other.twins().is_some_and(stands)
+                    && other.bounds.low.y > shape.middle().y
+                    && other.mask.touches(&shape.mask)
+            })
+        };
         for (index, shape) in self.free(guesses) {
             let Some([left, right]) = shape.twins() else {
                 continue;
             };
             let (a, b) = (left.bounds, right.bounds);
-            let stands = self.stands(a) || self.stands(b);
+            // Legs stand in their shoes.
+            let is_shod = || shoes.iter().any(|shoes| shape.mask.touches(&shoes.mask));
+            let stands = self.stands(a) || self.stands(b) || is_shod();
             if !stands && self.are_hands(shape, [a, b]) {
                 let why = "they are two in the colour of the head, and lie apart from it";
                 found.push((index, Noun::Hands, Certainty::Likely, why));
@@ -324,13 +422,23 @@ impl Around<'_> {
             let mirrored = (a.middle().x + b.middle().x - 2.0 * axis).abs();
             let is_pair =
                 mirrored <= 0.25 * body.size().x && a.middle().x < axis && b.middle().x > axis;
-            if !is_pair || a.low.y < self.head.middle().y {
+            // Arms can be raised beside the head.
+            let is_raised = a.low.y.min(b.low.y) < self.head.middle().y;
+            let is_beside = || {
+                shape.on(self.head) <= BRUSHES
+                    && shape.on(body) >= BRUSHES
+                    && a.high.y.min(b.high.y) > self.head.middle().y
+            };
+            if !is_pair || is_raised && !is_beside() && !self.is_whole() {
                 continue;
             }
             let long = |one: Box2| one.size().y >= 0.9 * one.size().x;
             let below = a.low.y.min(b.low.y) >= body.bounds.high.y - 0.15 * body.size().y;
             let beside = (b.middle().x - a.middle().x) >= 0.5 * body.size().x;
             let share = shape.cells / body.cells;
+            // The thighs of somebody who squats are at both sides, too, and lead on to the legs.
+            let is_thigh =
+                || a.low.y.min(b.low.y) > body.bounds.low.y + SQUAT * body.size().y && legs(shape);
             let is_low = shape.size().y <= SHOE * height;
             if stands && below && !is_low && long(a) && long(b) {
                 let why = "they are two, and stand on the ground below the body";
@@ -338,10 +446,17 @@ impl Around<'_> {
             } else if stands && below {
                 let why = "they are two, and lie on the ground";
                 found.push((index, Noun::Shoes, Certainty::Likely, why));
-            } else if beside && long(a) && long(b) && (0.08..=1.0).contains(&share) && !below {
+            } else if beside
+                && !is_thigh()
+                && long(a)
+                && long(b)
+                && (0.08..=1.0).contains(&share)
+                && !below
+            {
                 let why = "they are two of one size, at both sides of the body";
-                let spread = b.middle().x - a.middle().x;
-                arms.push((spread * shape.cells, index, why));
+                // Lapels come nearer to each other than sleeves.
+                let apart = (b.low.x - a.high.x).max(0.0);
+                arms.push((apart * shape.cells, index, why));
             }
         }
         // Sleeves, cuffs and collars are pairs, too.
