@@ -404,7 +404,7 @@ fn a_head_with_patches_of_the_body_is_where_its_face_is() {
         ("Head", "Body", &head),
         ("Eye", "Head", &eye),
     ];
-    check_drawn(&rows, Facing::Left, "its head lies left");
+    check_drawn(&rows, Facing::Left, "its head lies");
 }
 
 #[test]

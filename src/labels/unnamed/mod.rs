@@ -6,6 +6,7 @@
 mod animals;
 mod bodies;
 mod faces;
+mod limbs;
 mod mask;
 mod people;
 mod shapes;

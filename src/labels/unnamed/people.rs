@@ -1,7 +1,7 @@
-//! Names what is around a head that is drawn from the front: hair, ears, neck, trunk, and limbs of which two are one shape.
+//! Names what is around a head that is drawn from the front: hair, ears, neck, trunk, and what hangs from its shoulders.
 
 use super::faces::Face;
-use super::mask::{Box2, Island};
+use super::mask::Box2;
 use super::shapes::{Shape, Shapes};
 use super::{Certainty, Guesses};
 use crate::anatomy::Noun;
@@ -21,21 +21,9 @@ const BAND: std::ops::RangeInclusive<f64> = 1.05..=1.5;
 
 /// A bust is at least this share of its width wide where it ends.
 pub(crate) const BUST: f64 = 0.6;
-/// Shoes are at most this share of the figure high.
-const SHOE: f64 = 0.16;
 /// What stands ends at most this share of the figure's height above the ground.
 const STANDS: f64 = 0.06;
-/// A hand is at most this share of the head, and at least.
-const HANDS: std::ops::RangeInclusive<f64> = 0.05..=0.5;
-/// Thighs begin below this share of the body's height.
-const SQUAT: f64 = 0.6;
-/// Raised arms lie on the body by at least this share, and on the head by at most this share.
-const BRUSHES: f64 = 0.1;
-/// Hands have the colour of the head, within this distance.
-const ALIKE: f64 = 40.0;
 
-/// A hand by itself is at most this much longer than wide, or the other way round; what is longer is a bare arm.
-const COMPACT: f64 = 1.9;
 /// A cape is behind the body, which covers at most this share of it and on which at least that share of the body lies; it is at least this
 /// share of the body's height high.
 const COVERED: f64 = 0.85;
@@ -50,9 +38,9 @@ const SHIRT: f64 = 0.4;
 const BEFORE: f64 = 0.4;
 
 /// A head with what is around it.
-struct Around<'a> {
-    shapes: &'a Shapes,
-    head: &'a Shape,
+pub(super) struct Around<'a> {
+    pub(super) shapes: &'a Shapes,
+    pub(super) head: &'a Shape,
     index: usize,
     face: &'a Face,
 }
@@ -88,9 +76,9 @@ pub(super) fn around(shapes: &Shapes, face: &Face, guesses: &mut Guesses) {
     }
 }
 
-impl Around<'_> {
+impl<'a> Around<'a> {
     /// Whether a head is that of a snowman or a ghost, with the body below the eyes in the same shape.
-    fn is_whole(&self) -> bool {
+    pub(super) fn is_whole(&self) -> bool {
         let eyes = self.face.eyes.iter();
         let eyes = eyes.filter_map(|eye| self.shapes.get(*eye));
         let eyes = eyes.map(|eye| eye.middle().y).fold(0.0, f64::max);
@@ -125,7 +113,10 @@ impl Around<'_> {
     }
 
     /// Shapes that have no name yet, and are not on the face.
-    fn free<'b>(&'b self, guesses: &'b Guesses) -> impl Iterator<Item = (usize, &'b Shape)> {
+    pub(super) fn free<'b>(
+        &'b self,
+        guesses: &'b Guesses,
+    ) -> impl Iterator<Item = (usize, &'a Shape)> + use<'a, 'b> {
         self.shapes.iter().filter(|(index, shape)| {
             let is_on_face = *index > self.index && shape.on(self.head) >= ON;
             !guesses.has(*index) && !is_on_face && shape.name.is_empty()
@@ -329,7 +320,7 @@ impl Around<'_> {
     }
 
     /// Whether something reaches down to the ground.
-    fn stands(&self, bounds: Box2) -> bool {
+    pub(super) fn stands(&self, bounds: Box2) -> bool {
         bounds.high.y >= self.shapes.bounds.high.y - STANDS * self.shapes.height()
     }
 
@@ -373,144 +364,9 @@ impl Around<'_> {
         }
     }
 
-    /// Arms, legs and shoes of which two are one shape; what is single is found by the labels of motion.
-    fn limbs(&self, guesses: &mut Guesses) {
-        let Some((_, body)) = self.trunk(guesses) else {
-            return;
-        };
-        let height = self.shapes.height();
-        let axis = self.head.middle().x;
-        let (mut found, mut arms) = (Vec::new(), Vec::new());
-        let shoes = |shape: &Shape| {
-            shape
-                .twins()
-                .is_some_and(|twins| twins.iter().any(|shoe| self.stands(shoe.bounds)))
-                && shape.size().y <= SHOE * height
-                && shape.bounds.low.y >= body.bounds.high.y - 0.15 * body.size().y
-        };
-        let shoes: Vec<&Shape> = self
-            .free(guesses)
-            .map(|(_, shape)| shape)
-            .filter(|shape| shoes(shape))
-            .collect();
-        let legs = |shape: &Shape| {
-            let mut others = self.free(guesses).map(|(_, other)| other);
-            others.any(|other| {
-                let stands = |legs: [Island; 2]| {
-                    legs.iter().any(|leg| self.stands(leg.bounds))
-                        || shoes.iter().any(|shoes| other.mask.touches(&shoes.mask))
-                };
-                !std::ptr::eq(other, shape)
-                    && other.twins().is_some_and(stands)
-                    && other.bounds.low.y > shape.middle().y
-                    && other.mask.touches(&shape.mask)
-            })
-        };
-        for (index, shape) in self.free(guesses) {
-            let Some([left, right]) = shape.twins() else {
-                continue;
-            };
-            let (a, b) = (left.bounds, right.bounds);
-            // Legs stand in their shoes.
-            let is_shod = || shoes.iter().any(|shoes| shape.mask.touches(&shoes.mask));
-            let stands = self.stands(a) || self.stands(b) || is_shod();
-            if !stands && self.are_hands(shape, [a, b]) {
-                let why = "they are two in the colour of the head, and lie apart from it";
-                found.push((index, Noun::Hands, Certainty::Likely, why));
-                continue;
-            }
-            let mirrored = (a.middle().x + b.middle().x - 2.0 * axis).abs();
-            let is_pair =
-                mirrored <= 0.25 * body.size().x && a.middle().x < axis && b.middle().x > axis;
-            // Arms can be raised beside the head.
-            let is_raised = a.low.y.min(b.low.y) < self.head.middle().y;
-            let is_beside = || {
-                shape.on(self.head) <= BRUSHES
-                    && shape.on(body) >= BRUSHES
-                    && a.high.y.min(b.high.y) > self.head.middle().y
-            };
-            if !is_pair || is_raised && !is_beside() && !self.is_whole() {
-                continue;
-            }
-            let long = |one: Box2| one.size().y >= 0.9 * one.size().x;
-            let below = a.low.y.min(b.low.y) >= body.bounds.high.y - 0.15 * body.size().y;
-            let beside = (b.middle().x - a.middle().x) >= 0.5 * body.size().x;
-            let share = shape.cells / body.cells;
-            // The thighs of somebody who squats are at both sides, too, and lead on to the legs.
-            let is_thigh =
-                || a.low.y.min(b.low.y) > body.bounds.low.y + SQUAT * body.size().y && legs(shape);
-            let is_low = shape.size().y <= SHOE * height;
-            if stands && below && !is_low && long(a) && long(b) {
-                let why = "they are two, and stand on the ground below the body";
-                found.push((index, Noun::Legs, Certainty::Likely, why));
-            } else if stands && below {
-                let why = "they are two, and lie on the ground";
-                found.push((index, Noun::Shoes, Certainty::Likely, why));
-            } else if beside
-                && !is_thigh()
-                && long(a)
-                && long(b)
-                && (0.08..=1.0).contains(&share)
-                && !below
-            {
-                let why = "they are two of one size, at both sides of the body";
-                // Lapels come nearer to each other than sleeves.
-                let apart = (b.low.x - a.high.x).max(0.0);
-                arms.push((apart * shape.cells, index, why));
-            }
-        }
-        // Sleeves, cuffs and collars are pairs, too.
-        if let Some((_, index, why)) = arms.into_iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
-            found.push((index, Noun::Arms, Certainty::Likely, why));
-        }
-        for (index, noun, certainty, why) in found {
-            guesses.add(index, noun, certainty, why);
-        }
-    }
-
     /// The body, which has been found.
-    fn trunk(&self, guesses: &Guesses) -> Option<(usize, &Shape)> {
+    pub(super) fn trunk(&self, guesses: &Guesses) -> Option<(usize, &'a Shape)> {
         let body = guesses.find(Noun::Body)?;
         Some((body, self.shapes.get(body)?))
-    }
-
-    /// Whether two pieces of a shape, left and right of the head's middle, are a pair of hands.
-    fn are_hands(&self, shape: &Shape, [left, right]: [Box2; 2]) -> bool {
-        let middle = self.head.middle().x;
-        let compact = |one: Box2| one.size().max_element() <= COMPACT * one.size().min_element();
-        HANDS.contains(&(shape.cells / 2.0 / self.head.cells))
-            && shape.distance_of_colors(self.head) <= ALIKE
-            && compact(left)
-            && compact(right)
-            && left.middle().x < middle
-            && right.middle().x > middle
-    }
-
-    /// Of a bust, what has the colour of the head and lies apart from it.
-    fn hands(&self, guesses: &mut Guesses) {
-        let body = self.trunk(guesses).map(|(_, body)| body);
-        let ground = self.shapes.bounds.high.y - 0.05 * self.shapes.height();
-        if body.is_none_or(|body| body.bounds.high.y < ground || body.mask.foot() < BUST) {
-            return;
-        }
-        let middle = self.head.middle().x;
-        let is_hand = |shape: &Shape| {
-            shape.islands.len() == 1
-                && HANDS.contains(&(shape.cells / self.head.cells))
-                && shape.distance_of_colors(self.head) <= ALIKE
-                && shape.bounds.low.y > self.head.bounds.high.y - 0.2 * self.head.size().y
-                && (shape.middle().x - middle).abs() >= 0.4 * self.head.size().x
-        };
-        let hands = self.free(guesses).filter(|(_, shape)| is_hand(shape));
-        let hands: Vec<(usize, Side)> = hands
-            .map(|(index, shape)| {
-                let is_left = shape.middle().x > middle;
-                (index, if is_left { Side::Left } else { Side::Right })
-            })
-            .collect();
-        let why = "it has the colour of the head, and lies apart from it";
-        for (index, side) in hands {
-            guesses.add_sided(index, Noun::Hand, Some(side), Certainty::Uncertain, why);
-        }
     }
 }
