@@ -164,8 +164,10 @@ struct NamedBodies {
     /// Per part those that their strings attach to it.
     followers: Vec<Vec<usize>>,
     touching: Vec<Vec<usize>>,
-    /// Per pair that touches, lower place first, the area that both share, without that where others lie between them.
+    /// Per pair that touches, lower place first, the area that both share.
     shared: FxHashMap<(usize, usize), f64>,
+    /// The same without the area where others lie between them.
+    direct: FxHashMap<(usize, usize), f64>,
     /// Per part the largest area that it shares with a part of a body. Wheels carry nothing, however much lies over them.
     most_on_body: Vec<f64>,
 }
@@ -227,8 +229,8 @@ impl NamedBodies {
             .iter()
             .map(|body| (body.bounds.1 - body.bounds.0).max_element());
         let lengths = lengths.collect();
-        let mut shared = shared(&areas, &touching);
-        show(context, stacking, &place, &mut shared);
+        let shared = shared(&areas, &touching);
+        let direct = direct(context, stacking, &place, &shared);
         let mut read = Self {
             parts,
             nameless,
@@ -239,6 +241,7 @@ impl NamedBodies {
             followers,
             touching,
             shared,
+            direct,
             most_on_body: Vec::new(),
         };
         let places = 0..read.parts.len();
@@ -258,6 +261,16 @@ impl NamedBodies {
         self.shared.get(&pair).copied().unwrap_or(0.0)
     }
 
+    /// The area by which a part lies on another one, as far as that decides what carries it: a part without a name belongs to what is
+    /// seen beside it.
+    fn on(&self, place: usize, other: usize) -> f64 {
+        if self.bodies[place].named {
+            return self.shared(place, other);
+        }
+        let pair = (place.min(other), place.max(other));
+        self.direct.get(&pair).copied().unwrap_or(0.0)
+    }
+
     /// The part that carries another by anatomy, or for a part without a name the named part that it overlaps most; one without a name
     /// if it overlaps none with one, and is only near a limb. A leg overlaps
     /// the cape behind it most, and a fork the wheel, and both hang on the body; so does what lies over limbs
@@ -266,7 +279,7 @@ impl NamedBodies {
         let own = &self.bodies[place];
         let joins_sides = !own.named && self.joins_sides(place);
         let most = self.touching[place].iter();
-        let most = most.map(|other| self.shared(place, *other));
+        let most = most.map(|other| self.on(place, *other));
         let most = most.fold(0.0, f64::max);
         let rank = |index: &usize| {
             let other = &self.bodies[*index];
@@ -278,7 +291,7 @@ impl NamedBodies {
                 return own.carried_by(other);
             }
             let is_limb = other.role.is_some_and(Role::is_piece_of_limb);
-            let shared = self.shared(place, *index);
+            let shared = self.on(place, *index);
             if !other.named {
                 return (shared > 0.0).then_some(2);
             }
@@ -297,7 +310,7 @@ impl NamedBodies {
             .iter()
             .filter_map(|other| Some((rank(other)?, *other)));
         let best = ranked.min_by(|(a, one), (b, other)| {
-            let shared = [*other, *one].map(|of| self.shared(place, of));
+            let shared = [*other, *one].map(|of| self.on(place, of));
             a.cmp(b).then(shared[0].total_cmp(&shared[1]))
         });
         best.map(|(_, other)| other)
@@ -526,17 +539,17 @@ fn shared(areas: &[Body<'_>], touching: &[Vec<usize>]) -> FxHashMap<(usize, usiz
     shared.collect()
 }
 
-/// Leaves of the areas that parts share those where nothing lies between them: a visor lies on a face, however much of the hair is
-/// behind that.
-fn show(
+/// Of the areas that parts share, those where nothing lies between them: a visor lies on a face, however much of the hair is behind
+/// that. What is not known to lie on anything keeps the whole.
+fn direct(
     context: Context<'_>,
     stacking: &Stacking,
     places: &FxHashMap<PartId, usize>,
-    shared: &mut FxHashMap<(usize, usize), f64>,
-) {
+    shared: &FxHashMap<(usize, usize), f64>,
+) -> FxHashMap<(usize, usize), f64> {
     let Context { matched, nodes, .. } = context;
     let place = |part: PartId| places.get(&nodes.main[part]).copied();
-    let mut direct: FxHashMap<(usize, usize), f64> = FxHashMap::default();
+    let mut seen: FxHashMap<(usize, usize), f64> = FxHashMap::default();
     let mut unknown: FxHashSet<usize> = FxHashSet::default();
     for part in matched.parts.keys() {
         let Some(own) = place(part) else {
@@ -550,13 +563,14 @@ fn show(
         for (other, share) in &facts.under {
             if let Some(other) = place(*other) {
                 let pair = (own.min(other), own.max(other));
-                *direct.entry(pair).or_default() += share * facts.area;
+                *seen.entry(pair).or_default() += share * facts.area;
             }
         }
     }
-    for (pair, area) in shared {
-        if !unknown.contains(&pair.0) && !unknown.contains(&pair.1) {
-            *area = area.min(direct.get(pair).copied().unwrap_or(0.0));
-        }
-    }
+    let shared = shared.iter().map(|(pair, area)| {
+        let is_unknown = unknown.contains(&pair.0) || unknown.contains(&pair.1);
+        let seen = seen.get(pair).copied().unwrap_or(0.0);
+        (*pair, if is_unknown { *area } else { area.min(seen) })
+    });
+    shared.collect()
 }
