@@ -120,8 +120,12 @@ export async function doubleClick(page: Page, { x, y }: { x: number; y: number }
 
 /** Where the middle of an element is in the window. */
 export async function middle(element: Locator): Promise<{ x: number; y: number }> {
-  const { x, y, width, height } = (await element.boundingBox())!;
-  return { x: x + width / 2, y: y + height / 2 };
+  for (;;) {
+    await element.waitFor({ state: "attached" });
+    const box = await element.boundingBox();
+    if (box) return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+    // A row of a list that was made anew before it was measured.
+  }
 }
 
 /** Moves the slider of the time, whose steps are milliseconds. */
