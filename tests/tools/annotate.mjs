@@ -3,8 +3,8 @@
 // The figures are the thirty emoji of sides/names.json and the sixteen drawings of ../motion/figures, to whose shapes people gave names.
 // Their names are taken away, and those found are compared: of heads, trunks, limbs, tails and wheels the kind must be right, and what
 // carries a shape must be what carries it with the names of people. The halves are decided by a hash of the figures' names; rules were
-// made on the first alone. `more` is about sixteen further emoji, those of sides/more.json, whose names say after `@` what carries a shape
-// where that is not what the names alone tell, and `unseen` about eight of that file on which no rule was made either. With a folder, the
+// made on the first alone. `more` scores sixteen further emoji, those of sides/more.json, whose names say after `@` what carries a shape
+// where that is not what the names alone tell, and `unseen` eight of that file on which no rule was made either. With a folder, the
 // annotated drawings are written there.
 import { execFileSync } from 'node:child_process'
 import crypto from 'node:crypto'

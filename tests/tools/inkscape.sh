@@ -279,11 +279,10 @@ xdotool windowmove --sync "$(window "^cow.svg: Okoshi")" 740 420
 settle
 shot suggest
 manual suggest inkscape-names
-names=$("$program" annotate "$here/cow.svg" -o "$SCRATCH/cow-expected.svg" | sed -nE '1s/^.*: ([0-9]+) names$/\1/p')
-[ "$names" -ge 5 ] || fail "the program finds '$names' names for the cow"
-[ "$(report cow.svg headline)" = "$names names in cow.svg" ] || fail "the headline is $(report cow.svg headline)"
+[ "$(report cow.svg headline)" = "6 names in cow.svg" ] || fail "the headline is $(report cow.svg headline)"
 selected s5
-[ "$(labels cow-named)" = "$names" ] || fail "the cow has not got its labels"
+[ "$(labels cow-named)" = 6 ] || fail "the cow has not got its labels"
+"$program" annotate -q "$here/cow.svg" -o "$SCRATCH/cow-expected.svg"
 for drawing in cow-named cow-expected; do "$program" inspect -q "$SCRATCH/$drawing.svg" | sed 1d > "$SCRATCH/$drawing.txt"; done
 cmp "$SCRATCH/cow-named.txt" "$SCRATCH/cow-expected.txt"
 close cow.svg
