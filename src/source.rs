@@ -100,9 +100,11 @@ impl Text {
 
     /// Appends decoded characters that are written at `raw`.
     ///
-    /// For [`Form::Plain`] and [`Form::Cdata`] both lengths must be equal.
+    /// # Panics
+    ///
+    /// If it is [`Form::Plain`] or [`Form::Cdata`], and both lengths are not equal.
     pub fn push(&mut self, decoded: &str, raw: Span, form: Form) {
-        debug_assert!(form == Form::Unit || decoded.len() == raw.end - raw.start);
+        assert!(form == Form::Unit || decoded.len() == raw.end - raw.start);
         if decoded.is_empty() {
             return;
         }

@@ -158,13 +158,16 @@ manual() {
   node $tools/public_items.mjs "$target/doc/okoshi" 250
 }
 
-# The core alone; each feature alone, for all together are the default; and a program that embeds the core, which runs. The core's tests have
-# run with all features, so that here it is enough that they compile.
+# The core with its tests; features alone, as far as no other step builds them: all together are the default, and the module for browsers has
+# `page` and `protocol`; and a program that embeds the core, which runs. The core's tests have run with all features, so that here it is
+# enough that they compile.
 features() {
   local feature packages
-  OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --lib --profile test
-  # `watch` is `disk` and one module, which comes with `preview`.
-  for feature in disk render tracking page protocol preview lsp; do
+  local -a alone=(disk render lsp)
+  [ -e "$target/module/okoshi_web.js" ] || alone+=(page protocol)
+  OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features tracking --lib --profile test
+  # `lsp` is `preview` and `protocol` with a module more, `watch` is `disk` with one, which comes with `preview`.
+  for feature in "${alone[@]}"; do
     OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features "$feature"
   done
   # The versions of the libraries are those of the program.

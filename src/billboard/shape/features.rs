@@ -65,7 +65,7 @@ pub(super) fn cuts(contours: &[Option<Contour>], points: &[&Vec<DVec2>]) -> Vec<
     };
     let start = vec![0.0; first.len()];
     let mut chains: Vec<(usize, Option<usize>)> = Vec::new();
-    for (index, (place, _)) in others.iter().enumerate() {
+    for (place, _) in &others {
         let mut chain = (0, None);
         if precedes(&start, place) {
             chain.0 = 1;
@@ -76,7 +76,6 @@ pub(super) fn cuts(contours: &[Option<Contour>], points: &[&Vec<DVec2>]) -> Vec<
             }
         }
         chains.push(chain);
-        debug_assert_eq!(chains.len(), index + 1);
     }
     let mut longest: Option<usize> = None;
     for (index, chain) in chains.iter().enumerate() {

@@ -179,7 +179,7 @@ impl Figure<'_> {
             reasons[node] = reason;
         }
         let mut depths: Vec<f64> = depths.into_iter().map(Option::unwrap_or_default).collect();
-        self.twins(&unit_of, &units, &mut depths, &mut reasons);
+        self.twins(&unit_of, &mut depths, &mut reasons);
         let depths = (0..nodes.len()).map(|node| depths[unit_of[node]]).collect();
         for node in 0..nodes.len() {
             if unit_of[node] != node
@@ -352,7 +352,7 @@ impl Figure<'_> {
     }
 
     /// Moves far limbs behind their parents by as much as near ones like them are in front.
-    fn twins(&self, unit_of: &[usize], units: &[Unit], depths: &mut [f64], reasons: &mut [Reason]) {
+    fn twins(&self, unit_of: &[usize], depths: &mut [f64], reasons: &mut [Reason]) {
         let nodes = self.nodes;
         let mut limbs: Vec<Vec<usize>> = vec![Vec::new(); nodes.len()];
         let mut worn: Vec<Vec<usize>> = vec![Vec::new(); nodes.len()];
@@ -449,7 +449,6 @@ impl Figure<'_> {
             }
             depths[node] += moved[node];
         }
-        debug_assert_eq!(units.len(), nodes.len());
     }
 
     fn is_free(&self, shape: usize) -> bool {

@@ -36,9 +36,9 @@ export class Ground {
     this.shadow.renderOrder = -1;
     this.grid.renderOrder = -2;
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(512, 512);
-    this.sun.shadow.radius = 6;
-    this.sun.shadow.blurSamples = 16;
+    this.sun.shadow.mapSize.set(256, 256);
+    this.sun.shadow.radius = 3;
+    this.sun.shadow.blurSamples = 8;
     // Variance shadow maps contain the shadow's receivers too: without a bias the ground would shade itself.
     this.sun.shadow.bias = -0.003;
     this.plane.matrixAutoUpdate = false;
