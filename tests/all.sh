@@ -367,7 +367,7 @@ clip_art() {
   cargo test --locked --lib -- --ignored --nocapture limbs_of_clip_art
 }
 
-# Emoji with names alone, from all sides. The pictures to look at are in the folder's index.html.
+# Emoji with names alone, from all sides, and the names that are found without any. The pictures to look at are in the folder's index.html.
 sides() {
   [ $quick = no ] || skip "--quick"
   need npm
@@ -375,6 +375,7 @@ sides() {
   use_program
   rm -rf "$target/sides"
   OKOSHI=$(realpath "$okoshi") node $tools/sides.mjs "$target/sides"
+  OKOSHI=$(realpath "$okoshi") node $tools/annotate.mjs all "$target/annotated"
 }
 
 blender_import() {
