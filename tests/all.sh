@@ -159,12 +159,12 @@ manual() {
 }
 
 # The core with its tests; features alone, as far as no other step builds them: all together are the default, and the module for browsers has
-# `page` and `protocol`; and a program that embeds the core, which runs. The core's tests have run with all features, so that here it is
+# `render`, `page` and `protocol`; and a program that embeds the core, which runs. The core's tests have run with all features, so that here it is
 # enough that they compile.
 features() {
   local feature packages
-  local -a alone=(disk render lsp)
-  [ -e "$target/module/okoshi_web.js" ] || alone+=(page protocol)
+  local -a alone=(disk lsp)
+  [ -e "$target/module/okoshi_web.js" ] || alone+=(render protocol)
   OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features tracking --lib --profile test
   # `lsp` is `preview` and `protocol` with a module more, `watch` is `disk` with one, which comes with `preview`.
   for feature in "${alone[@]}"; do
@@ -534,11 +534,11 @@ inkscape_extension() {
 
 step format formatting
 step clippy lints
-# Each of the two rows takes about one core: what needs cargo, and what needs the program. `firefox` needs the module, which is there long
-# before.
+# Each of the two rows takes about one core: what needs cargo, and what needs the program. `firefox` and `app` need the module, which is there
+# long before.
 if program; then is_built=yes; fi
 begin_aside examples:examples validator:validator schemas:schemas extension:extension workbench:workbench page:page editors:editors inkscape:inkscape_extension \
-  blender:blender_import blender-light:blender_light sides:sides gallery:gallery readme:readme firefox:firefox
+  blender:blender_import blender-light:blender_light sides:sides gallery:gallery readme:readme firefox:firefox app:app
 step package package
 step wasm wasm
 step test tests
@@ -548,7 +548,6 @@ step features features
 step licences licences
 step site site
 step packages packages
-step app app
 end_aside
 # Not beside the other tests of the extension, which are built in the same folder.
 step web-extension web_extension
