@@ -225,3 +225,24 @@ fn pieces_in_one_group_hang_on_each_other_outward() {
         Ok(names.len() == 6)
     });
 }
+
+/// The paw of a near leg lies over the far leg, too, and more of it may than over its own.
+#[test]
+fn what_is_left_hangs_on_no_limb_that_is_right() {
+    for [near, far] in [["left", "right"], ["right", "left"], ["左", "右"]] {
+        let text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 100 90\">\
+             <path id=\"{far} leg\" d=\"M30 40h10v34h-10z\"/><path id=\"body\" d=\"M15 20h70v28h-70z\"/>\
+             <path id=\"{near} leg\" d=\"M22 40h10v34h-10z\"/>\
+             <ellipse id=\"{near} leg end\" cx=\"34\" cy=\"72\" rx=\"10\" ry=\"4\"/></svg>"
+        );
+        let hierarchy = Hierarchy::of(&text);
+        let named = |name: String| {
+            let mut nodes = hierarchy.nodes.iter();
+            nodes.find(|(_, node)| node.name == name).expect("a part")
+        };
+        let (_, end) = named(format!("{near} leg end"));
+        let (leg, _) = named(format!("{near} leg"));
+        assert_eq!(end.parent, Some(*leg), "{near}");
+    }
+}

@@ -138,15 +138,18 @@ impl NamedBody {
     /// How well another part carries this one by their names, 0 the best; `None` if names do not tell.
     fn carried_by(&self, other: &Self) -> Option<usize> {
         let (role, carrier) = (self.role?, other.role?);
-        let opposite = self.sides != other.sides
-            && self.sides[0] != self.sides[1]
-            && other.sides[0] != other.sides[1];
         let carriers = role.carriers();
         let place = carriers.iter().position(|role| *role == carrier);
         // An animal in one shape has its eyes on its body.
         let is_on_body = self.is_headless && role == Role::OfHead && carrier == Role::Body;
         let place = place.or(is_on_body.then_some(carriers.len()));
-        place.filter(|_| !opposite)
+        place.filter(|_| !self.is_opposite(other))
+    }
+
+    /// Whether the names say that one is left and the other is right.
+    fn is_opposite(&self, other: &Self) -> bool {
+        let has_side = |sides: [bool; 2]| sides[0] != sides[1];
+        self.sides != other.sides && has_side(self.sides) && has_side(other.sides)
     }
 }
 
@@ -442,6 +445,8 @@ impl NamedBodies {
             }
             let doubt = match carriers[to] {
                 Some(carrier) if carrier == from => 0,
+                // The paw of a near leg lies over the far leg, too.
+                _ if self.bodies[from].is_opposite(&self.bodies[to]) => 3,
                 // A leg hangs on what has no name of the body rather than on a wing.
                 None if self.bodies[from].role.is_none() || self.bodies[to].role.is_none() => 1,
                 _ => 2,
@@ -492,7 +497,7 @@ struct Search {
 /// A way to attach a part; the least is taken first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Way {
-    /// 0 if names tell it, 1 if they tell nothing, 2 if they tell otherwise.
+    /// 0 if names tell it, 1 if they tell nothing, 2 if they tell otherwise, 3 if they tell that it is the other side's.
     doubt: u8,
     /// How many parts lie between the root and it.
     steps: u32,
