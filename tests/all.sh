@@ -158,15 +158,15 @@ manual() {
   node $tools/public_items.mjs "$target/doc/okoshi" 250
 }
 
-# The core with its tests; features alone, as far as no other step builds them: all together are the default, and the module for browsers has
-# `render`, `page` and `protocol`; and a program that embeds the core, which runs. The core's tests have run with all features, so that here it is
-# enough that they compile.
+# The core alone; each feature alone, for all together are the default; and a program that embeds the core, which runs. The core's tests have
+# run with all features, so that here it is enough that they compile.
 features() {
   local feature packages
-  local -a alone=(disk lsp)
-  [ -e "$target/module/okoshi_web.js" ] || alone+=(render protocol)
-  OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features tracking --lib --profile test
-  # `lsp` is `preview` and `protocol` with a module more, `watch` is `disk` with one, which comes with `preview`.
+  # The module for browsers is built with `protocol` alone.
+  local -a alone=(disk render tracking page preview lsp)
+  [ -e "$target/module/okoshi_web.js" ] || alone+=(protocol)
+  OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --lib --profile test
+  # `watch` is `disk` and one module, which comes with `preview`.
   for feature in "${alone[@]}"; do
     OKOSHI_NO_PAGE=1 cargo check --locked --no-default-features --features "$feature"
   done
@@ -217,9 +217,15 @@ page_tests() { # FOLDER [WRAPPER…] -- NAMES…
 # The page that has the module, in Chromium. The program serves it, too.
 app() {
   need npm
-  [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
+  use_module
   use_program
   OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests app -- app. worker. bytes. sharing. strings. welcome. lessons.
+}
+
+# The module, which the other row of steps builds.
+use_module() {
+  until [ -e "$logs/wasm.result" ]; do sleep 1; done
+  [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
 }
 
 # Whether there is a module with the language server.
@@ -240,7 +246,7 @@ web_extension() {
 # The same in Firefox.
 firefox() {
   need npm
-  [ -e "$target/module/okoshi_web.js" ] || skip "there is no module"
+  use_module
   if { [ -z "${FIREFOX:-}" ] && [ ! -x /usr/bin/firefox-esr ] && [ ! -x /usr/bin/firefox ]; } || ! command -v xvfb-run > /dev/null; then
     [ $quick = no ] || skip "--quick, and Firefox or Xvfb is not installed"
     install "Firefox or Xvfb" firefox-esr xvfb xauth libgl1-mesa-dri
@@ -534,8 +540,7 @@ inkscape_extension() {
 
 step format formatting
 step clippy lints
-# Each of the two rows takes about one core: what needs cargo, and what needs the program. `firefox` and `app` need the module, which is there
-# long before.
+# Each of the two rows takes about one core: what needs cargo, and what needs the program.
 if program; then is_built=yes; fi
 begin_aside examples:examples validator:validator schemas:schemas extension:extension workbench:workbench page:page editors:editors inkscape:inkscape_extension \
   blender:blender_import blender-light:blender_light sides:sides gallery:gallery readme:readme firefox:firefox app:app
