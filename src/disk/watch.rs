@@ -58,14 +58,14 @@ enum Backend {
 
 /// Folders whose changes the system reports.
 #[derive(Debug)]
-struct Native {
-    watcher: RecommendedWatcher,
+struct Native<W = RecommendedWatcher> {
+    watcher: W,
     wanted: BTreeSet<PathBuf>,
     /// Those of them that exist, and of the others the nearest folder above that does.
     watched: BTreeSet<PathBuf>,
 }
 
-impl Native {
+impl<W: Watcher> Native<W> {
     /// Watches the wanted folders that exist now. Returns those that cannot be watched, with the reasons.
     fn renew(&mut self) -> Vec<(PathBuf, WatchError)> {
         loop {
@@ -84,6 +84,8 @@ impl Native {
                 }
                 match self.watcher.watch(&new, RecursiveMode::NonRecursive) {
                     Ok(()) => is_changed |= self.watched.insert(new),
+                    // It was deleted since it was found: the one above it is watched instead.
+                    Err(_) if !new.is_dir() => is_changed = true,
                     Err(error) if self.wanted.contains(&new) => failed.push((new, error.into())),
                     Err(_) => {}
                 }
@@ -460,6 +462,60 @@ mod tests {
                 fs::remove_dir_all(folder.path().join("one")).unwrap();
                 is_reported("the deleted file");
             }
+        }
+    }
+
+    /// A watcher that is always late: the first folder that it is to watch is deleted before it is watched.
+    struct Late {
+        watched: BTreeSet<PathBuf>,
+        is_late: bool,
+    }
+
+    impl Watcher for Late {
+        fn new<F: notify::EventHandler>(_: F, _: notify::Config) -> notify::Result<Self> {
+            Ok(Self {
+                watched: BTreeSet::new(),
+                is_late: false,
+            })
+        }
+
+        fn watch(&mut self, path: &Path, _: RecursiveMode) -> notify::Result<()> {
+            if !std::mem::replace(&mut self.is_late, true) {
+                fs::remove_dir_all(path).unwrap();
+            }
+            if !path.is_dir() {
+                return Err(notify::Error::path_not_found());
+            }
+            self.watched.insert(path.to_owned());
+            Ok(())
+        }
+
+        fn unwatch(&mut self, path: &Path) -> notify::Result<()> {
+            self.watched.remove(path);
+            Ok(())
+        }
+
+        fn kind() -> notify::WatcherKind {
+            notify::WatcherKind::NullWatcher
+        }
+    }
+
+    #[test]
+    fn above_a_folder_that_is_deleted_before_it_is_watched_the_next_one_is() {
+        let root = tempfile::tempdir().unwrap();
+        let one = root.path().join("one");
+        for wanted in [&one, &one.join("two")] {
+            fs::create_dir(&one).unwrap();
+            let mut native = Native {
+                watcher: Late::new(|_| (), notify::Config::default()).unwrap(),
+                wanted: BTreeSet::from([wanted.clone()]),
+                watched: BTreeSet::new(),
+            };
+            assert!(native.renew().is_empty());
+            assert!(!one.exists());
+            let above = BTreeSet::from([root.path().to_owned()]);
+            assert_eq!(native.watched, above);
+            assert_eq!(native.watcher.watched, above);
         }
     }
 

@@ -92,10 +92,18 @@ inBrowser("keywords and parts are proposed, and a word is explained where the mo
   await proposal.filter({ hasText: "Texture" }).first().waitFor();
   await page.keyboard.press("Escape");
   await page.keyboard.press("Control+z");
-  await page.mouse.move(5, 5);
-  const box = (await lines(page).filter({ hasText: /^Arm@/ }).boundingBox())!;
-  await page.mouse.move(box.x + 22, box.y + 14, { steps: 4 });
-  await page.locator(".cm-tooltip-hover .described", { hasText: "Arm" }).waitFor();
+  // Whether what was typed is undone before the mouse rests or after that.
+  for (const typed of ["", "x"]) {
+    await page.mouse.move(5, 5);
+    await page.locator(".cm-tooltip-hover").waitFor({ state: "detached" });
+    const box = (await lines(page).filter({ hasText: /^Arm@/ }).boundingBox())!;
+    await page.keyboard.type(typed);
+    await page.mouse.move(box.x + 22, box.y + 14, { steps: 4 });
+    await page.locator(".cm-tooltip-hover .described", { hasText: "Arm" }).waitFor();
+    if (typed !== "") await page.keyboard.press("Control+z");
+    await lines(page).filter({ hasText: /^Arm@Body\$Shape default -8 8 Bend 0$/ }).waitFor();
+    assert.ok(await page.locator(".cm-tooltip-hover").isVisible());
+  }
   await picture(page, "strings-hover");
 });
 

@@ -52,6 +52,16 @@ function isWithinLines({ changes, startState }: Transaction): boolean {
   return isWithin;
 }
 
+/** Replaces what differs between two versions of a text that stands at a place: all but their common beginning and end. */
+function difference(from: number, to: number, before: string, text: string): { from: number; to: number; insert: string } {
+  const shorter = Math.min(before.length, text.length);
+  let start = 0;
+  while (start < shorter && before[start] === text[start]) start++;
+  let end = 0;
+  while (end < shorter - start && before[before.length - 1 - end] === text[text.length - 1 - end]) end++;
+  return { from: from + start, to: to - end, insert: text.slice(start, text.length - end) };
+}
+
 const theme = EditorView.theme({
   "&": { height: "100%", fontSize: "13px", color: "var(--ink)", backgroundColor: "var(--panel)" },
   "&.cm-focused": { outline: "2px solid var(--accent)", outlineOffset: "-2px" },
@@ -145,13 +155,13 @@ export class Editor {
     return this.view.state.doc.lines;
   }
 
-  /** Takes the texts of the drawing. As long as there are as many as before, only those that differ are replaced, so that the cursor stays. */
+  /** Takes the texts of the drawing. As long as there are as many as before, only what differs is replaced, so that the cursor and what is shown about a word stay. */
   show(texts: readonly string[]): void {
     const { doc, selection } = this.view.state;
     if (texts.length === doc.lines) {
       const changes = texts.flatMap((text, number) => {
         const { from, to, text: before } = doc.line(number + 1);
-        return before === text ? [] : [{ from, to, insert: text }];
+        return before === text ? [] : [difference(from, to, before, text)];
       });
       if (changes.length > 0) this.view.dispatch({ changes, annotations: fromOutside.of(true) });
       return;

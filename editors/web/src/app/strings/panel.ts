@@ -29,7 +29,11 @@ export class Strings {
 
   constructor(private readonly state: State, private readonly host: WorkerHost, private readonly editing: Editing) {
     this.editor = new Editor({
-      place: async (line, at) => (this.isClean(line) ? this.place(line, at) : null),
+      // What was typed a moment ago is part of the drawing first: whoever points at a word does not point again because it took a while.
+      place: async (line, at) => {
+        await this.flush();
+        return this.isClean(line) ? this.place(line, at) : null;
+      },
       proposals: async (line, at, text) => {
         const start = this.lines[line]?.start;
         return start === undefined ? null : readProposals(await this.ask({ proposals: { start, at, text } }));
@@ -65,10 +69,13 @@ export class Strings {
         const text = editor.text(line);
         // A line that is empty for the moment is no string.
         if (this.isClean(line) || text.trim() === "") continue;
-        const { start, text: was } = this.lines[line]!;
+        const known = this.lines[line]!;
+        const { start, text: was } = known;
         const made = await this.make({ change: "write", start, was, text, typing: this.typing });
         // The drawing is not what it was here: what is typed stays until it is read again.
         if (!made) break;
+        // What is typed before the texts are read again differs from this, even if it is what was there before.
+        this.lines = this.lines.map((each) => (each === known ? { ...known, text } : each));
         await this.read();
       }
     });
