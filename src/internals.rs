@@ -42,8 +42,8 @@ pub mod ide {
 
     pub mod changes {
         pub use crate::ide::changes::{
-            Change, History, NewShape, PartTurn, Place, Refusal, Stacking, Step, can_set, check,
-            edits, part_after, rebased,
+            Change, History, Moment, NewShape, PartTurn, Place, Refusal, Stacking, Step, can_set,
+            check, edits, part_after, rebased,
         };
     }
 }

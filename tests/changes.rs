@@ -16,7 +16,9 @@ use okoshi::compile::Compiled;
 use okoshi::diagnostic::{Edit, Severity};
 use okoshi::internals::bind::{PartId, PartKind};
 use okoshi::internals::ide::Analysis;
-use okoshi::internals::ide::changes::{Change, PartTurn, Place, Step, can_set, check, edits};
+use okoshi::internals::ide::changes::{
+    Change, Moment, PartTurn, Place, Step, can_set, check, edits,
+};
 use okoshi::internals::lang::keyword::Keyword;
 
 /// How many changes are tried of each drawing.
@@ -103,18 +105,35 @@ impl Drawing {
         })
     }
 
-    /// A change that poses one of the parts.
-    fn posed(&self, at: usize) -> Change {
+    /// Changes that pose one of the parts, and let it swing.
+    fn posed(&self, at: usize) -> [Change; 2] {
         let parts = &self.before.compiled().bindings.parts;
         let main = parts.iter().filter(|part| part.kind == PartKind::Main);
         let names: Vec<&str> = main.map(|part| part.name.as_str()).collect();
         let part = names.get(at % names.len().max(1)).copied();
-        Change::KeepPose {
-            turns: vec![PartTurn {
+        let turns = |degrees| {
+            vec![PartTurn {
                 part: part.unwrap_or_default().to_owned(),
-                degrees: 25.0,
-            }],
-        }
+                degrees,
+            }]
+        };
+        let swing = [
+            (0.0, 0.0),
+            (0.5, 25.0),
+            (1.0, -25.0),
+            (1.0, -20.0),
+            (2.0, -20.0),
+        ];
+        let moments = swing.map(|(seconds, degrees)| Moment {
+            seconds,
+            turns: turns(degrees),
+        });
+        [
+            Change::KeepPose { turns: turns(25.0) },
+            Change::KeepMovement {
+                moments: moments.into(),
+            },
+        ]
     }
 
     /// All changes that are tried.
@@ -231,6 +250,7 @@ fn kind(change: &Change) -> &'static str {
         Change::NameParts => "name-parts",
         Change::Clip { .. } => "clip",
         Change::KeepPose { .. } => "keep-pose",
+        Change::KeepMovement { .. } => "keep-movement",
         Change::Draw { .. } => "draw",
         Change::Move { .. } => "move",
         Change::Restack { .. } => "restack",
@@ -305,10 +325,13 @@ fn made(drawing: &Drawing, change: &Change, counts: &mut Counts) -> Option<(Stri
             format!("{place} makes an error: {error}")
         });
     }
-    if let Change::KeepPose { turns } = change {
-        counts.require(is_posed(new, &turns[0].part), || {
-            format!("{place} poses nothing")
-        });
+    let posed = match change {
+        Change::KeepPose { turns } => turns.first(),
+        Change::KeepMovement { moments } => moments.first().and_then(|first| first.turns.first()),
+        _ => None,
+    };
+    if let Some(PartTurn { part, .. }) = posed {
+        counts.require(is_posed(new, part), || format!("{place} poses nothing"));
         // What is written is read without complaints.
         let complaints = |compiled: &Compiled| {
             let warnings = compiled.diagnostics.iter();
@@ -443,7 +466,9 @@ fn hold(paths: &[PathBuf], shift: usize) -> Counts {
         };
         let all = drawing.changes();
         if at % 2 == shift % 2 {
-            made(&drawing, &drawing.posed(at), &mut counts);
+            for change in drawing.posed(at) {
+                made(&drawing, &change, &mut counts);
+            }
         }
         let count = tried().min(all.len());
         let stride = all.len() / count.max(1);
@@ -520,6 +545,7 @@ fn changes_of_cases_do_what_they_say() {
         ("hang", 15),
         ("leave out", 12),
         ("keep-pose", 100),
+        ("keep-movement", 100),
         ("pairs", 80),
     ];
     assert_counts(&counts, &made, 200);

@@ -98,6 +98,27 @@ impl FigureClip {
         self.retargeted.grounded.len()
     }
 
+    /// By how much a part is turned about its joint in a frame of the source, from how it is drawn: degrees, counter-clockwise.
+    #[cfg(test)]
+    pub(crate) fn turn_in(
+        &self,
+        bindings: &crate::bind::Bindings,
+        name: &str,
+        frame: usize,
+    ) -> f64 {
+        let named = |index: &FigurePartId| {
+            let (part, bone) = self.order[*index];
+            bindings.parts[part].name == name && bone == 0
+        };
+        let index = self.rig.parts.keys().find(named).expect(name);
+        let part = &self.rig.parts[index];
+        let carrier = part.parent.expect("what it hangs on");
+        let drawn = self.rig.parts[carrier].node.rotation.inverse() * part.node.rotation;
+        let turned = self.retargeted.rotations[index].as_ref();
+        let turned = turned.map_or(drawn, |turns| turns[frame]) * drawn.inverse();
+        2.0 * turned.z.atan2(turned.w).to_degrees()
+    }
+
     /// How many frames are shown.
     pub fn frames(&self) -> usize {
         match &self.cut {

@@ -64,7 +64,7 @@ use motion_files::MotionFiles;
 use moves::Roles;
 use performances::Performances;
 pub(crate) use performed::Performed;
-pub(crate) use poses::kept;
+pub(crate) use poses::{Copies, KeptPoses, key_moments};
 pub(crate) use rigging::RestNode;
 use rigging::RestNodes;
 use tracks::AnimatedNodes;

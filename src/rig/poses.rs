@@ -4,6 +4,7 @@
 //! their string also move.
 
 mod kept;
+mod recorded;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -33,7 +34,8 @@ use crate::retarget::{Drive, Follow, MatchedPart, Matching, RestSource, Retarget
 use crate::scene::Scene;
 use crate::source::Span;
 
-pub(crate) use kept::kept;
+pub(crate) use kept::{Copies, KeptPoses};
+pub(crate) use recorded::key_moments;
 
 /// The name of a clip whose strings give none.
 const NAME: &str = "poses";

@@ -16,6 +16,8 @@ export class Commands {
   editing: Editing | null = null;
   /** The tools that draw; set by the page. */
   drawing: { giveUp(): boolean; leave(): boolean } | null = null;
+  /** Gives up what is being recorded, and returns whether anything is; set by the page. */
+  giveUpRecording: () => boolean = () => false;
   /** Opens the help; set by the page. */
   help: () => void = () => {};
   /** Opens the panel that records a puppet, where there are cameras; set by the page. */
@@ -51,7 +53,7 @@ export class Commands {
 
   /** Undoes one thing: a drag, a tool, a pose, the mode, the view of the layers, the selection. */
   escape(): void {
-    if (this.pointer?.cancel() || this.drawing?.giveUp()) return;
+    if (this.pointer?.cancel() || this.drawing?.giveUp() || this.giveUpRecording()) return;
     if (this.editing?.isPicking) return this.editing.pick(null);
     if (this.editing?.refusal) return this.editing.clear();
     if (this.drawing?.leave()) return;

@@ -79,6 +79,7 @@ export function start(page: HTMLElement, host: Host): Shown {
     unfocused: () => viewer.canvas.focus(),
   });
   const poseBar = new PoseBar(viewer, commands, editing, state);
+  commands.giveUpRecording = () => poseBar.giveUpRecording();
   const pointer = new Pointer(viewer, state, picked, (part, degrees) => poseBar.show(part, degrees));
   commands.pointer = pointer;
   const clips = new Clips(viewer);

@@ -1,6 +1,7 @@
 // Keeping poses with the real program: what a person turns on the page becomes key poses in the drawing.
 
 import assert from "node:assert/strict";
+import type { ElementHandle } from "playwright-core";
 import { overlaps, project, shown, still } from "./browser";
 import { edit, type Edited } from "./edited";
 import { FIGURE, source } from "./setup";
@@ -61,18 +62,90 @@ edit("poses that are kept become a clip, and undo takes them back", async (edite
   await edited.has(BEFORE, "undone");
 });
 
+/** The key poses of a part in a drawing: seconds, and degrees of its clones. */
+function poses(text: string, id: string): (readonly [seconds: number, degrees: number])[] {
+  const layers = [...text.matchAll(/<g id="pose-[^]*?<desc>Body\$Pose ([\d.]+)<[^]*?<\/g>/g)];
+  return layers.flatMap(([layer, seconds]) => {
+    const turned = new RegExp(`href="#${id}" transform="rotate\\(([-\\d.]+),`).exec(layer);
+    return turned ? [[Number(seconds), Number(turned[1])] as const] : [];
+  });
+}
+
+edit("a movement that is recorded becomes key poses, also while a clip plays", async (edited) => {
+  const { page } = edited;
+  await page.locator("canvas").focus();
+  await page.keyboard.press("1");
+  await page.keyboard.press("p");
+  await still(page);
+  const record = page.locator(".posebar").getByRole("button", { name: "Record" });
+  const stop = page.locator(".posebar").getByRole("button", { name: "Stop" });
+  await record.click();
+  await stop.click();
+  await page.getByText("Nothing was dragged.").waitFor();
+
+  // What is given up is not written; the limb stays where it is until the next Esc.
+  await record.click();
+  await turn(edited, [240, 120], [170, 50]);
+  await page.keyboard.press("Escape");
+  await record.waitFor();
+  assert.equal(await page.locator("canvas").getAttribute("data-posed"), "Arm");
+  await page.keyboard.press("Escape");
+  await page.locator("canvas[data-posed='']").waitFor();
+  assert.equal(edited.text(), BEFORE);
+
+  await record.click();
+  assert.equal(await stop.getAttribute("aria-pressed"), "true");
+  await turn(edited, [240, 120], [170, 50]);
+  await turn(edited, [170, 50], [100, 120]);
+  await stop.click();
+  await edited.until(() => edited.text().includes("Body$Pose"), "pose layers");
+  const once = edited.text();
+  const arm = poses(once, "arm");
+  assert.ok(arm.length >= 2, once.slice(-900));
+  for (const [at, [seconds, degrees]] of arm.entries()) {
+    const [earlier, before] = arm[at - 1] ?? [0, 0];
+    assert.ok(seconds > earlier && (degrees <= before || at === arm.length - 1), JSON.stringify(arm));
+  }
+  assert.ok(Math.abs(Math.abs(arm.at(-1)![1]) - 180) < 8, JSON.stringify(arm));
+  await shown(page, 2);
+  await still(page);
+
+  // A clip plays, and the arm is turned further: both are in the poses, after those that were there.
+  const slider = page.locator(".timeline input");
+  const played = async (from: number): Promise<void> => void (await page.waitForFunction(([input, from]) => Math.abs(Number(input.value) - from) > Number(input.max) / 10, [(await slider.elementHandle()) as ElementHandle<HTMLInputElement>, from] as const));
+  await page.locator(".clips").getByRole("button", { name: "Play" }).click();
+  await record.click();
+  await played(0);
+  await page.locator("canvas").focus();
+  await page.keyboard.press(".");
+  await played(Number(await slider.inputValue()));
+  await stop.click();
+  await edited.until(() => poses(edited.text(), "arm").length > arm.length + 1, "more pose layers");
+  assert.ok(edited.text().startsWith(once.slice(0, once.lastIndexOf("</svg>"))));
+  const later = poses(edited.text(), "arm").slice(arm.length);
+  assert.ok(later.every(([seconds], at) => seconds > (later[at - 1] ?? arm.at(-1)!)[0]), JSON.stringify(later));
+  await shown(page, 3);
+
+  const undo = page.getByRole("button", { name: /^Undo/ });
+  await undo.click();
+  await edited.has(once, "undone");
+  await undo.click();
+  await edited.has(BEFORE, "undone");
+});
+
 edit("where nothing can be written, no pose is kept", async ({ page }) => {
   await page.locator("canvas").focus();
   await page.keyboard.press("p");
   await page.getByRole("button", { name: "Leave posing" }).waitFor();
-  assert.equal(await page.getByRole("button", { name: "Keep pose" }).isVisible(), false);
+  for (const name of ["Keep pose", "Record"]) assert.equal(await page.getByRole("button", { name }).isVisible(), false);
 }, { arguments: ["--read-only"] });
 
 for (const { name, ...size } of SIZES) {
   edit(`${name}: the bar has space for its buttons`, async ({ page }) => {
     await page.locator("canvas").focus();
     await page.keyboard.press("p");
-    await page.getByRole("button", { name: "Keep pose" }).waitFor();
+    await page.locator(".posebar").getByRole("button", { name: "Record" }).click();
+    await page.locator(".posebar").getByRole("button", { name: "Stop" }).waitFor();
     const bar = page.locator(".posebar");
     assert.ok(await bar.evaluate((bar) => [...bar.children].every((one) => one.getBoundingClientRect().right <= bar.getBoundingClientRect().right)), "nothing sticks out");
     assert.deepEqual(await overlaps(page), []);

@@ -29,7 +29,7 @@ use check::no_worse;
 pub use drawn::{NewShape, Stacking};
 pub(crate) use form::PartForm;
 pub use history::{History, Step, rebased};
-pub use poses::PartTurn;
+pub use poses::{Moment, PartTurn};
 pub(crate) use session::{Action, Done, Reading, Session, Steps};
 pub(crate) use unnamed::Suggestion;
 
@@ -119,6 +119,11 @@ pub enum Change {
     KeepPose {
         /// The parts that are turned. All others of their figures are as they are drawn.
         turns: Vec<PartTurn>,
+    },
+    /// A recorded movement becomes key poses after the last one, in layers of their own behind everything else.
+    KeepMovement {
+        /// What was recorded, in order of time.
+        moments: Vec<Moment>,
     },
     /// A shape is drawn in front of all others in the layer of the front-most part.
     Draw {
@@ -232,6 +237,7 @@ impl Change {
             | Self::Paint { part, .. } => Some(part),
             Self::NameParts
             | Self::KeepPose { .. }
+            | Self::KeepMovement { .. }
             | Self::Draw { .. }
             | Self::Variable { .. }
             | Self::Write { .. }
@@ -270,6 +276,7 @@ impl Change {
                 ..
             } => format!("Motion {motion}").trim_end().to_owned(),
             Self::KeepPose { .. } => "a key pose".to_owned(),
+            Self::KeepMovement { .. } => "a recorded movement".to_owned(),
             Self::Draw { .. } => "a new shape".to_owned(),
             Self::Move { part, .. } => format!("the place of {part}"),
             Self::Restack { part, .. } => format!("the order of {part}"),
@@ -340,6 +347,7 @@ pub fn edits(analysis: &Analysis, change: &Change) -> Result<Vec<Edit>, Refusal>
             analysis.set_clip(part, *clip, wanted, *place)?
         }
         Change::KeepPose { turns } => analysis.keep_pose(turns)?,
+        Change::KeepMovement { moments } => analysis.keep_movement(moments)?,
         Change::Draw { shape, fill } => analysis.draw(shape, fill)?,
         Change::Move { part, by } => analysis.shift(part, *by)?,
         Change::Restack { part, to } => analysis.restack(part, *to)?,

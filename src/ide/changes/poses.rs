@@ -1,4 +1,6 @@
-//! Keeps a pose: a pose layer with clones of the parts that are posed otherwise than before.
+//! Keeps poses: pose layers with clones of the parts that are posed otherwise than before.
+
+use std::collections::BTreeMap;
 
 use glam::DAffine2;
 use serde::{Deserialize, Serialize};
@@ -9,6 +11,7 @@ use crate::diagnostic::Edit;
 use crate::lang::keyword::Keyword;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
 use crate::math;
+use crate::mocap::resample::FPS;
 use crate::rig;
 use crate::source::{Span, end_of_tag, escape_xml};
 use crate::svg::{self, Element, GroupId, GroupKind, ShapeId};
@@ -23,44 +26,136 @@ pub struct PartTurn {
     pub degrees: f64,
 }
 
+/// A moment of a recorded movement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Moment {
+    /// When it is, since the movement began.
+    pub seconds: f64,
+    /// The parts that are turned; all others are as in the moment before, and in the first one as they are drawn.
+    pub turns: Vec<PartTurn>,
+}
+
 /// How much of the layer is seen where drawings are shown: like on a light table.
 const OPACITY: f64 = 0.3;
+/// The longest movement, in seconds.
+const LONGEST: f64 = 120.0;
 
 impl Analysis {
     /// Adds a key pose after the last one, behind everything else in the file.
     pub(super) fn keep_pose(&self, turns: &[PartTurn]) -> Result<Vec<Edit>, Refusal> {
-        let mut turned = Vec::with_capacity(turns.len());
-        for PartTurn { part, degrees } in turns {
-            if !degrees.is_finite() {
-                return Err(Refusal::new(format!(
-                    "`{part}` is turned by no number of degrees"
-                )));
-            }
-            turned.push((self.node_to_change(part)?, degrees.to_radians()));
-        }
-        let (bindings, drawing) = (self.bindings(), self.drawing());
-        let pose = rig::kept(drawing, bindings, &turned);
-        if pose.copies.is_empty() {
+        let turned = turns
+            .iter()
+            .map(|turn| self.turn(turn))
+            .collect::<Result<Vec<_>, _>>()?;
+        let parts: Vec<PartId> = turned.iter().map(|(part, _)| *part).collect();
+        let mut poses = rig::KeptPoses::of(self.drawing(), self.bindings(), &parts);
+        let copies = poses.go_on(&turned);
+        if copies.is_empty() {
             return Err(Refusal::new(
                 "no part is posed otherwise than in the pose before, or, without one, than it is drawn",
             ));
         }
-        let mut edits = Vec::new();
-        let mut ids = Ids::new(self);
-        let mut clones = Vec::new();
-        for (part, moved) in &pose.copies {
-            for element in self.drawn_as(*part) {
-                let id = ids.of(element, &bindings.parts[*part].name, &mut edits)?;
-                clones.push((element.span.start, id, *moved));
+        let seconds = poses.last.unwrap_or_default() + poses.step;
+        self.add_poses(&poses, &[(seconds, copies)])
+    }
+
+    /// Adds the key poses of a movement after the last one: few, between which it goes as it was recorded.
+    pub(super) fn keep_movement(&self, moments: &[Moment]) -> Result<Vec<Edit>, Refusal> {
+        let mut parts: Vec<PartId> = Vec::new();
+        let mut frames: Vec<usize> = Vec::new();
+        let mut tracks: Vec<Vec<f64>> = Vec::new();
+        for Moment { seconds, turns } in moments {
+            if !(0.0..=LONGEST).contains(seconds) {
+                return Err(Refusal::new(format!(
+                    "a movement lasts from 0 to {LONGEST} seconds, and a moment of this one is at {seconds}"
+                )));
+            }
+            let frame = (seconds * FPS).round() as usize;
+            match frames.last() {
+                Some(last) if *last > frame => {
+                    return Err(Refusal::new(format!(
+                        "the moments of the movement are not in order: {seconds} seconds come after a later one"
+                    )));
+                }
+                Some(last) if *last == frame => {}
+                _ => {
+                    frames.push(frame);
+                    for track in &mut tracks {
+                        track.push(track.last().copied().unwrap_or_default());
+                    }
+                }
+            }
+            for turn in turns {
+                let (part, angle) = self.turn(turn)?;
+                let place = parts.iter().position(|known| *known == part);
+                let place = place.unwrap_or_else(|| {
+                    parts.push(part);
+                    tracks.push(vec![0.0; frames.len()]);
+                    tracks.len() - 1
+                });
+                if let Some(now) = tracks[place].last_mut() {
+                    *now = angle;
+                }
             }
         }
-        let starts: Vec<usize> = clones.iter().map(|(start, ..)| *start).collect();
-        let around = svg::transforms_around(&self.source, &starts);
+        let mut poses = rig::KeptPoses::of(self.drawing(), self.bindings(), &parts);
+        let mut begin = poses.last;
+        let mut layers = Vec::new();
+        let mut moves = false;
+        for moment in rig::key_moments(&frames, &tracks) {
+            let turns: Vec<(PartId, f64)> = parts
+                .iter()
+                .zip(&tracks)
+                .map(|(part, track)| (*part, track[moment]))
+                .collect();
+            let copies = poses.go_on(&turns);
+            moves |= !copies.is_empty();
+            if moment == 0 {
+                // The clip ends in the pose in which the movement begins, or goes there first.
+                match begin {
+                    _ if copies.is_empty() => {}
+                    Some(last) => {
+                        begin = Some(last + poses.step);
+                        layers.push((last + poses.step, copies));
+                    }
+                    None => layers.push((0.0, copies)),
+                }
+                continue;
+            }
+            let seconds = begin.unwrap_or_default() + (frames[moment] - frames[0]) as f64 / FPS;
+            let waits = copies.is_empty();
+            layers.push((seconds, if waits { poses.wait() } else { copies }));
+        }
+        if !moves {
+            return Err(Refusal::new(
+                "no part of the movement is posed otherwise than in the pose before it",
+            ));
+        }
+        self.add_poses(&poses, &layers)
+    }
+
+    fn turn(&self, PartTurn { part, degrees }: &PartTurn) -> Result<(PartId, f64), Refusal> {
+        if !degrees.is_finite() {
+            return Err(Refusal::new(format!(
+                "`{part}` is turned by no number of degrees"
+            )));
+        }
+        Ok((self.node_to_change(part)?, degrees.to_radians()))
+    }
+
+    /// Adds layers of poses with their seconds behind everything else in the file.
+    fn add_poses(
+        &self,
+        poses: &rig::KeptPoses<'_>,
+        layers: &[(f64, rig::Copies)],
+    ) -> Result<Vec<Edit>, Refusal> {
         let Some(end) = self.source.rfind("</") else {
             return Err(Refusal::new(
                 "the drawing has no end to which a layer could be added",
             ));
         };
+        let (bindings, drawing) = (self.bindings(), self.drawing());
         let root = &drawing.groups[GroupId::ROOT].element;
         let prefix = self.source[root.span.start + 1..root.span.end].strip_suffix("svg");
         let prefix = prefix.unwrap_or_default();
@@ -68,26 +163,56 @@ impl Analysis {
             true => "xlink:href",
             false => "href",
         };
-        let name = format!("{} {}", Keyword::Pose.name(), pose.seconds);
-        let layer = match self.source.contains("xmlns:inkscape=") {
-            true => format!(" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\""),
-            false => String::new(),
-        };
-        let id = ids.free("pose");
-        let whose = pose.root.map(|root| bindings.parts[root].name.as_str());
-        let whose = whose.map(|name| quoted_if_needed(name, NamePlace::Head));
-        let string = escape_xml(&format!("{}${name}", whose.unwrap_or_default()));
-        let mut text = format!(
-            "  <{prefix}g id=\"{id}\"{layer} style=\"opacity:{OPACITY}\">\n    <{prefix}desc>{string}</{prefix}desc>\n"
-        );
-        for ((_, id, moved), around) in clones.iter().zip(around) {
-            let transform = written(*moved, around.unwrap_or_default());
-            let (id, own) = (escape_xml(id), ids.free("copy"));
-            text.push_str(&format!(
-                "    <{prefix}use id=\"{own}\" {link}=\"#{id}\"{transform} />\n"
-            ));
+        let is_layered = self.source.contains("xmlns:inkscape=");
+        let whose = poses
+            .root()
+            .map(|root| bindings.parts[root].name.as_str())
+            .map(|name| quoted_if_needed(name, NamePlace::Head));
+        let mut edits = Vec::new();
+        let mut ids = Ids::new(self);
+        // What draws each part: its elements' ids, and where their tags begin.
+        let mut drawn: BTreeMap<PartId, Vec<(usize, String)>> = BTreeMap::new();
+        for (part, _) in layers.iter().flat_map(|(_, copies)| copies) {
+            if !drawn.contains_key(part) {
+                let name = &bindings.parts[*part].name;
+                let elements = self.drawn_as(*part).into_iter().map(|element| {
+                    let id = ids.of(element, name, &mut edits)?;
+                    Ok((element.span.start, id))
+                });
+                drawn.insert(*part, elements.collect::<Result<_, Refusal>>()?);
+            }
         }
-        text.push_str(&format!("  </{prefix}g>\n"));
+        let starts: Vec<usize> = drawn.values().flatten().map(|(start, _)| *start).collect();
+        let around = svg::transforms_around(&self.source, &starts);
+        let around: BTreeMap<usize, DAffine2> = starts
+            .into_iter()
+            .zip(around)
+            .map(|(start, around)| (start, around.unwrap_or_default()))
+            .collect();
+        let mut text = String::new();
+        for (seconds, copies) in layers {
+            let seconds = (seconds * 1000.0).round() / 1000.0;
+            let name = format!("{} {seconds}", Keyword::Pose.name());
+            let layer = match is_layered {
+                true => format!(" inkscape:groupmode=\"layer\" inkscape:label=\"{name}\""),
+                false => String::new(),
+            };
+            let id = ids.free("pose");
+            let string = escape_xml(&format!("{}${name}", whose.as_deref().unwrap_or_default()));
+            text.push_str(&format!(
+                "  <{prefix}g id=\"{id}\"{layer} style=\"opacity:{OPACITY}\">\n    <{prefix}desc>{string}</{prefix}desc>\n"
+            ));
+            for (part, moved) in copies {
+                for (start, id) in &drawn[part] {
+                    let transform = written(*moved, around[start]);
+                    let (id, own) = (escape_xml(id), ids.free("copy"));
+                    text.push_str(&format!(
+                        "    <{prefix}use id=\"{own}\" {link}=\"#{id}\"{transform} />\n"
+                    ));
+                }
+            }
+            text.push_str(&format!("  </{prefix}g>\n"));
+        }
         edits.push(Edit {
             span: Span::at(end),
             text,
@@ -139,7 +264,8 @@ impl Analysis {
 pub(super) struct Ids<'a> {
     source: &'a str,
     given: Vec<(usize, String)>,
-    used: Vec<String>,
+    /// The last number of each word.
+    numbers: BTreeMap<String, usize>,
 }
 
 impl<'a> Ids<'a> {
@@ -147,24 +273,22 @@ impl<'a> Ids<'a> {
         Self {
             source: &analysis.source,
             given: Vec::new(),
-            used: Vec::new(),
+            numbers: BTreeMap::new(),
         }
     }
 
     /// An id that nothing has: a word with a number.
     pub(super) fn free(&mut self, word: &str) -> String {
-        let mut number = 1;
+        let number = self.numbers.entry(word.to_owned()).or_default();
         loop {
+            *number += 1;
             let id = format!("{word}-{number}");
-            let is_used = self.used.contains(&id)
-                || ['"', '\'']
-                    .iter()
-                    .any(|quote| self.source.contains(&format!("{quote}{id}{quote}")));
+            let is_used = ['"', '\'']
+                .iter()
+                .any(|quote| self.source.contains(&format!("{quote}{id}{quote}")));
             if !is_used {
-                self.used.push(id.clone());
                 return id;
             }
-            number += 1;
         }
     }
 

@@ -1,4 +1,6 @@
-//! The pose in which a person put a figure, as copies of its parts in a pose layer.
+//! Poses in which a person put figures, as copies of their parts in pose layers.
+
+use std::f64::consts::{PI, TAU};
 
 use glam::{DAffine2, DVec2};
 use typed_index_collections::{TiVec, ti_vec};
@@ -6,57 +8,99 @@ use typed_index_collections::{TiVec, ti_vec};
 use super::{NAME, SAME, SEQUENCE_STEP, Turned, about, angle_of, order, sequences, turned_up};
 use crate::bind::{Bindings, PartId};
 use crate::geometry::y_up;
-use crate::labels::FigurePartId;
-use crate::rig::figures;
+use crate::labels::{Figure, FigurePartId};
+use crate::rig::figures::{self, FigureGroup};
 use crate::rig::rigging;
 use crate::svg::Drawing;
 
-/// A key pose that continues those of some figures.
-#[derive(Debug, Clone)]
-pub(crate) struct KeptPose {
-    /// The root of the figure; `None` if there are several.
-    pub root: Option<PartId>,
-    /// When it is reached: after the last pose.
-    pub seconds: f64,
-    /// The parts whose pose is another one than before, in the order of the drawing, and from where each is drawn to where it is then:
-    /// a turn and a shift, drawing units, y down.
-    pub copies: Vec<(PartId, DAffine2)>,
+/// A pose as a layer has it: the parts whose pose is another one than before, in the order of the drawing, and from where each is drawn to
+/// where it is then: a turn and a shift, drawing units, y down.
+pub(crate) type Copies = Vec<(PartId, DAffine2)>;
+
+/// Figures that are posed, as they are after their last key pose.
+pub(crate) struct KeptPoses<'a> {
+    bindings: &'a Bindings,
+    figures: Vec<KeptFigure>,
+    /// When the last key pose is reached; `None` without one.
+    pub last: Option<f64>,
+    /// How long after it the next one is.
+    pub step: f64,
 }
 
-/// The key pose of figures whose parts are turned by hand from where they are drawn, each by an angle about its joint, radians,
-/// counter-clockwise. A part that is not among them is as it is drawn. Figures of which no part is turned keep their pose.
-pub(crate) fn kept(drawing: &Drawing, bindings: &Bindings, turns: &[(PartId, f64)]) -> KeptPose {
-    let parts_of_nodes = bindings.parts_of_nodes();
-    let mut kept = KeptPose {
-        root: None,
-        seconds: 0.0,
-        copies: Vec::new(),
-    };
-    let mut step = SEQUENCE_STEP;
-    let mut roots = Vec::new();
-    let groups = figures::find(bindings);
-    let is_posed = |part: &PartId| turns.iter().any(|(turned, _)| turned == part);
-    for group in groups
-        .iter()
-        .filter(|group| group.parts.iter().any(is_posed))
-    {
-        let figure = rigging::figure(drawing, bindings, &parts_of_nodes, group, |_| 0);
-        let mut before: TiVec<FigurePartId, Turned> = ti_vec![Turned::default(); group.parts.len()];
-        let sequences = sequences(group, &bindings.poses, &mut Vec::new());
-        if let Some((_, poses)) = sequences.iter().find(|(name, _)| *name == NAME) {
-            for pose in poses {
-                super::advance(&mut before, group, &figure, pose, |_, _, _| {});
-            }
-            if let [.., last] = poses.as_slice()
-                && last.seconds >= kept.seconds
-            {
-                let earlier = poses.iter().rev().nth(1).map_or(0.0, |pose| pose.seconds);
-                kept.seconds = last.seconds;
-                if last.seconds > earlier {
-                    step = last.seconds - earlier;
+struct KeptFigure {
+    group: FigureGroup,
+    figure: Figure,
+    now: TiVec<FigurePartId, Turned>,
+}
+
+impl<'a> KeptPoses<'a> {
+    /// The figures of some parts.
+    pub(crate) fn of(drawing: &Drawing, bindings: &'a Bindings, parts: &[PartId]) -> Self {
+        let parts_of_nodes = bindings.parts_of_nodes();
+        let mut kept = Self {
+            bindings,
+            figures: Vec::new(),
+            last: None,
+            step: SEQUENCE_STEP,
+        };
+        let groups = figures::find(bindings).into_iter();
+        for group in groups.filter(|group| group.parts.iter().any(|part| parts.contains(part))) {
+            let figure = rigging::figure(drawing, bindings, &parts_of_nodes, &group, |_| 0);
+            let mut now = ti_vec![Turned::default(); group.parts.len()];
+            let sequences = sequences(&group, &bindings.poses, &mut Vec::new());
+            if let Some((_, poses)) = sequences.iter().find(|(name, _)| *name == NAME) {
+                for pose in poses {
+                    super::advance(&mut now, &group, &figure, pose, |_, _, _| {});
+                }
+                if let [.., last] = poses.as_slice()
+                    && kept.last.is_none_or(|latest| last.seconds >= latest)
+                {
+                    let earlier = poses.iter().rev().nth(1).map_or(0.0, |pose| pose.seconds);
+                    kept.last = Some(last.seconds);
+                    if last.seconds > earlier {
+                        kept.step = last.seconds - earlier;
+                    }
                 }
             }
+            kept.figures.push(KeptFigure { group, figure, now });
         }
+        kept
+    }
+
+    /// The root of the figure; `None` if there are several.
+    pub(crate) fn root(&self) -> Option<PartId> {
+        match self.figures.as_slice() {
+            [figure] => Some(figure.group.root),
+            _ => None,
+        }
+    }
+
+    /// Goes on to a pose in which parts are turned by hand from where they are drawn, each by an angle about its joint, radians,
+    /// counter-clockwise. A part that is not among them is as it is drawn.
+    pub(crate) fn go_on(&mut self, turns: &[(PartId, f64)]) -> Copies {
+        let mut copies = Vec::new();
+        for figure in &mut self.figures {
+            figure.go_on(self.bindings, turns, &mut copies);
+        }
+        copies.sort_by_key(|(part, _)| self.bindings.parts[*part].shape);
+        copies
+    }
+
+    /// The pose once more, for a figure that waits in it: a layer without copies would be no pose.
+    pub(crate) fn wait(&self) -> Copies {
+        let roots = self.figures.iter().filter_map(|figure| {
+            let KeptFigure { group, now, .. } = figure;
+            let first = *order(group).first()?;
+            let placed = about(figure.figure.parts[first].joint, now[first]);
+            Some((group.parts[first], turned_up(placed)))
+        });
+        roots.collect()
+    }
+}
+
+impl KeptFigure {
+    fn go_on(&mut self, bindings: &Bindings, turns: &[(PartId, f64)], copies: &mut Copies) {
+        let Self { group, figure, now } = self;
         let mut placed: TiVec<FigurePartId, DAffine2> =
             ti_vec![DAffine2::IDENTITY; group.parts.len()];
         for index in order(group) {
@@ -65,10 +109,11 @@ pub(crate) fn kept(drawing: &Drawing, bindings: &Bindings, turns: &[(PartId, f64
             let angle = angle.map_or(0.0, |(_, angle)| *angle);
             let above = group.parents[index].map_or(DAffine2::IDENTITY, |parent| placed[parent]);
             let joint = figure.parts[index].joint;
-            let wanted = if group.is_rooted(index) {
+            let is_rooted = group.is_rooted(index);
+            let wanted = if is_rooted {
                 // Its node turns about its own middle, and nothing carries it; only a figure as a whole was moved before.
                 let shift = match group.parents[index] {
-                    None => before[index].shift,
+                    None => now[index].shift,
                     Some(_) => DVec2::ZERO,
                 };
                 about(y_up(bindings.parts[part].origin), Turned { angle, shift })
@@ -76,7 +121,7 @@ pub(crate) fn kept(drawing: &Drawing, bindings: &Bindings, turns: &[(PartId, f64
                 let shift = DVec2::ZERO;
                 above * about(joint, Turned { angle, shift })
             };
-            let without = above * about(joint, before[index]);
+            let without = above * about(joint, now[index]);
             let off = angle_of(without.inverse() * wanted).abs();
             let length = joint
                 .distance(figure.parts[index].tip)
@@ -85,17 +130,18 @@ pub(crate) fn kept(drawing: &Drawing, bindings: &Bindings, turns: &[(PartId, f64
                 .transform_point2(joint)
                 .distance(without.transform_point2(joint));
             if off > SAME || apart > SAME * length {
-                kept.copies.push((part, turned_up(wanted)));
+                copies.push((part, turned_up(wanted)));
+                let relative = above.inverse() * wanted;
+                let before = now[index].angle;
+                now[index] = Turned {
+                    angle: before + (angle_of(relative) - before + PI).rem_euclid(TAU) - PI,
+                    shift: match is_rooted {
+                        true => relative.transform_point2(joint) - joint,
+                        false => DVec2::ZERO,
+                    },
+                };
             }
             placed[index] = wanted;
         }
-        roots.push(group.root);
     }
-    kept.seconds = ((kept.seconds + step) * 1000.0).round() / 1000.0;
-    kept.copies
-        .sort_by_key(|(part, _)| bindings.parts[*part].shape);
-    if let [root] = roots.as_slice() {
-        kept.root = Some(*root);
-    }
-    kept
 }

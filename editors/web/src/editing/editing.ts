@@ -127,7 +127,7 @@ export class Editing {
     return this.send(() => ({ make: change }));
   }
 
-  /** Makes a pose the next key pose. Editing is turned on, so that it can be undone. */
+  /** Makes a pose the next key pose, or a movement the next ones. Editing is turned on, so that it can be undone. */
   async keep(pose: KeepPose): Promise<boolean> {
     if (!this.isOn) this.toggle();
     return this.choose(pose);

@@ -28,11 +28,20 @@ export type DrawnChange =
   | { readonly change: "erase"; readonly part: string }
   | { readonly change: "paint"; readonly part: string; readonly fill: string };
 
-/** A change that keeps a pose: the parts that are turned, by degrees from how they are drawn, counter-clockwise. */
-export interface KeepPose {
-  readonly change: "keep-pose";
-  readonly turns: readonly { readonly part: string; readonly degrees: number }[];
+/** A part that is turned, by degrees from how it is drawn, counter-clockwise. */
+export interface Turn {
+  readonly part: string;
+  readonly degrees: number;
 }
+
+/** A moment of a movement, with the parts that are turned otherwise than in the one before. */
+export interface Moment {
+  readonly seconds: number;
+  readonly turns: readonly Turn[];
+}
+
+/** A change that makes key poses of a pose, or of a movement. */
+export type KeepPose = { readonly change: "keep-pose"; readonly turns: readonly Turn[] } | { readonly change: "keep-movement"; readonly moments: readonly Moment[] };
 
 /** A change that can be made instead of one that was refused. It goes back as it came. */
 export interface Choice {

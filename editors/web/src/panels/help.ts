@@ -35,7 +35,7 @@ export class Help {
         ...groups(host).map(([title, keys]) => h("section", {}, h("h3", {}, title), h("dl", {}, ...keys.flatMap(([key, does]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, does)])))),
       ),
       h("label", { class: "help-switch" }, letters, "Letters, digits and signs are shortcuts. Without them, the arrow keys, Space, Home and Escape still work."),
-      h("p", { class: "muted" }, "Posing only changes this view; Keep pose writes the pose into the drawing."),
+      h("p", { class: "muted" }, "Posing only changes this view; Keep pose and Record write poses into the drawing."),
     );
     // A click on the backdrop is one on the dialog element itself.
     this.element.addEventListener("click", ({ target }) => {

@@ -1,39 +1,50 @@
 // The bar that is shown in posing mode.
 
-import { BookmarkPlus, RotateCcw, RotateCw, Undo2, X } from "lucide";
-import { button, fill, h, setHidden } from "../dom";
+import { BookmarkPlus, Circle, RotateCcw, RotateCw, Square, Undo2, X } from "lucide";
+import { button, fill, h, icon, prefersReducedMotion, setHidden } from "../dom";
 import type { Commands } from "../commands";
 import type { Editing } from "../editing/editing";
+import type { KeepPose, Turn } from "../editing/messages";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
+import { Movement, STILL } from "./movement";
 
 /** The name of the clip of key poses. */
 const POSES = "poses";
-/** A smaller turn is none, in degrees. */
-const STILL = 0.05;
+/** The longest recording, in milliseconds. */
+const LONGEST = 30_000;
 
 export class PoseBar {
   readonly element = h("section", { class: "posebar", hidden: true, attributes: { "aria-label": "Posing" } });
   private readonly readout = h("output", { class: "pose-readout" });
   private readonly reset: HTMLButtonElement;
   private readonly keep: HTMLButtonElement;
+  private readonly record: HTMLButtonElement;
+  /** What is being recorded. */
+  private movement: Movement | null = null;
+  private timer: ReturnType<typeof setTimeout> | undefined;
   /** The revision of the model in which a pose was kept that is to be shown; `null` if none is. */
   private keptIn: string | null = null;
+  /** Whether what was kept is a movement, which is played. */
+  private keptMoves = false;
 
   constructor(private readonly viewer: Viewer, private readonly commands: Commands, private readonly editing: Editing, private readonly state: State) {
     this.reset = button({ icon: Undo2, label: "Reset pose", key: "Esc", wide: true, press: () => commands.resetPose() });
     this.keep = button({ icon: BookmarkPlus, label: "Keep pose", wide: true, press: () => void this.keepPose() });
+    this.record = button({ icon: Circle, label: "Record", wide: true, press: () => this.toggleRecording() });
     fill(
       this.element,
       this.readout,
       button({ icon: RotateCcw, label: "Turn the selected part left by 5°", key: ",", press: ({ shiftKey }) => commands.turn(5, shiftKey) }),
       button({ icon: RotateCw, label: "Turn the selected part right by 5°", key: ".", press: ({ shiftKey }) => commands.turn(-5, shiftKey) }),
       this.keep,
+      this.record,
       this.reset,
       button({ icon: X, label: "Leave posing", key: "P", press: () => commands.togglePosing() }),
     );
     commands.onMode(() => this.follow());
     viewer.on(["pose"], () => this.follow());
+    viewer.on(["pose", "time"], () => this.note());
     viewer.on(["model"], () => this.showKept());
     editing.listen(["mode", "done"], () => this.follow());
     this.follow();
@@ -44,32 +55,82 @@ export class PoseBar {
     fill(this.readout, h("strong", {}, part), ` ${rounded > 0 ? "+" : rounded < 0 ? "−" : ""}${Math.abs(rounded)}°`);
   }
 
-  /** The parts of the figures that are posed, and how they are turned. */
-  private turns(): { readonly part: string; readonly degrees: number }[] {
+  /** How all parts are turned, in degrees. */
+  private allTurns(): Map<string, number> {
     const { viewer, state } = this;
-    const top = (part: string): string => state.parts.above(part).at(-1) ?? part;
-    const posed = viewer.pose.names.map((name) => viewer.model?.node(name)).filter((node) => node !== undefined);
-    const figures = new Set(posed.map((node) => top(viewer.parts.nameOf(node))));
-    const parts = state.parts.all.filter(({ kind, name }) => kind === "main" && figures.has(top(name)));
-    const turned = parts.flatMap(({ name }) => {
-      const node = viewer.parts.nodesOf(name)[0];
-      return node ? [{ part: name, degrees: Math.round(viewer.pose.drawnTurn(node) * 1e3) / 1e3 }] : [];
-    });
-    return turned.filter(({ degrees }) => Math.abs(degrees) > STILL);
+    const main = state.parts.all.filter(({ kind }) => kind === "main");
+    return new Map(
+      main.flatMap(({ name }) => {
+        const node = viewer.parts.nodesOf(name)[0];
+        return node ? [[name, Math.round(viewer.pose.drawnTurn(node) * 1e3) / 1e3] as const] : [];
+      }),
+    );
+  }
+
+  /** The parts that are turned by hand. */
+  private byHand(): string[] {
+    const { viewer } = this;
+    return viewer.pose.names.map((name) => viewer.model?.node(name)).flatMap((node) => (node ? [viewer.parts.nameOf(node)] : []));
+  }
+
+  /** The part that carries all of a figure. */
+  private readonly figure = (part: string): string => this.state.parts.above(part).at(-1) ?? part;
+
+  /** The parts of the figures that are posed, and how they are turned. */
+  private turns(): Turn[] {
+    const figures = new Set(this.byHand().map(this.figure));
+    const turns = [...this.allTurns()].filter(([part, degrees]) => Math.abs(degrees) > STILL && figures.has(this.figure(part)));
+    return turns.map(([part, degrees]) => ({ part, degrees }));
+  }
+
+  /** Begins to record what is dragged, and what a clip does meanwhile; or makes key poses of what was recorded. */
+  private toggleRecording(): void {
+    if (this.movement) return void this.finishRecording();
+    this.movement = new Movement();
+    this.timer = setTimeout(() => void this.finishRecording(), LONGEST);
+    this.note();
+    this.follow();
+  }
+
+  private note(): void {
+    this.movement?.note(this.allTurns(), this.byHand());
+  }
+
+  private async finishRecording(): Promise<void> {
+    this.note();
+    const { movement } = this;
+    this.giveUpRecording();
+    if (!movement) return;
+    if (movement.isEmpty) this.readout.textContent = "Nothing was dragged.";
+    else await this.keepAs({ change: "keep-movement", moments: movement.of(this.figure) });
+  }
+
+  /** Records no more, and forgets what was recorded. Returns whether anything was. */
+  giveUpRecording(): boolean {
+    const recorded = this.movement !== null;
+    clearTimeout(this.timer);
+    this.movement = null;
+    this.follow();
+    return recorded;
   }
 
   private get revision(): string {
     return this.viewer.canvas.dataset["revision"] ?? "";
   }
 
-  private async keepPose(): Promise<void> {
+  private keepPose(): Promise<void> {
+    return this.keepAs({ change: "keep-pose", turns: this.turns() });
+  }
+
+  private async keepAs(pose: KeepPose): Promise<void> {
     this.keptIn = this.revision;
-    if (!(await this.editing.keep({ change: "keep-pose", turns: this.turns() }))) this.keptIn = null;
+    this.keptMoves = pose.change === "keep-movement";
+    if (!(await this.editing.keep(pose))) this.keptIn = null;
     // Its model may have come before the answer.
     this.showKept();
   }
 
-  /** Shows the kept pose, from which the next one is made: the end of the clip, without what was turned by hand. */
+  /** Shows the kept pose, from which the next one is made: the end of the clip, without what was turned by hand. A movement is played first. */
   private showKept(): void {
     const { playback, pose } = this.viewer;
     const { player } = playback;
@@ -79,8 +140,9 @@ export class PoseBar {
     pose.reset();
     playback.moved(() => {
       player.choose(clip);
-      player.play(false);
-      player.seek(player.end);
+      const plays = this.keptMoves && !prefersReducedMotion();
+      player.play(plays);
+      player.seek(plays ? 0 : player.end);
     });
     this.viewer.posed();
   }
@@ -88,9 +150,16 @@ export class PoseBar {
   private follow(): void {
     const { viewer, commands, editing } = this;
     setHidden(this.element, !commands.isPosing && viewer.pose.isEmpty, viewer.canvas);
-    setHidden(this.keep, !editing.isPossible, viewer.canvas);
-    this.keep.disabled = this.reset.disabled = viewer.pose.isEmpty;
-    if (editing.busy) this.keep.disabled = true;
+    const records = this.movement !== null;
+    for (const button of [this.keep, this.record]) setHidden(button, !editing.isPossible, viewer.canvas);
+    this.keep.disabled = viewer.pose.isEmpty || editing.busy || records;
+    this.reset.disabled = viewer.pose.isEmpty;
+    this.record.disabled = editing.busy;
+    if (this.record.getAttribute("aria-pressed") !== String(records)) {
+      this.record.setAttribute("aria-pressed", String(records));
+      this.record.title = records ? "Stop, and make key poses of what was recorded" : "Record what you drag, also while a clip plays, as key poses";
+      fill(this.record, icon(records ? Square : Circle), h("span", {}, records ? "Stop" : "Record"));
+    }
     if (viewer.pose.isEmpty) this.readout.textContent = matchMedia("(max-width: 760px)").matches ? "Drag a limb" : "Drag a limb. Shift: about its own axis.";
   }
 }

@@ -4,7 +4,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 use super::super::super::fixtures::analysis;
-use super::super::poses::PartTurn;
+use super::super::poses::{Moment, PartTurn};
 use super::*;
 
 /// A crane in a transformed layer, with strings, namespaces and ids as Inkscape has them, or without.
@@ -133,4 +133,111 @@ fn nothing_new_is_not_kept() {
     }
     let refusal = made(&source, &keep(&[("Leg", 20.0)])).unwrap_err();
     assert_eq!(refusal.why, "there is no part `Leg`");
+}
+
+fn movement(moments: &[(f64, &[(&str, f64)])]) -> Change {
+    let moments = moments.iter().map(|(seconds, turns)| {
+        let turns = turns.iter().map(|(part, degrees)| PartTurn {
+            part: (*part).to_owned(),
+            degrees: *degrees,
+        });
+        Moment {
+            seconds: *seconds,
+            turns: turns.collect(),
+        }
+    });
+    Change::KeepMovement {
+        moments: moments.collect(),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// The clip has every recorded turn in its frame, also after earlier key poses.
+    #[test]
+    fn a_movement_is_played_as_it_was_recorded(
+        is_from_inkscape: bool,
+        before in prop::option::of(1.0..90.0_f64),
+        steps in prop::collection::vec((1_usize..5, -12.0..12.0_f64, -12.0..12.0_f64), 2..40),
+    ) {
+        let mut source = crane(is_from_inkscape);
+        if let Some(degrees) = before {
+            source = made(&source, &keep(&[("Arm", degrees)])).unwrap();
+        }
+        let (mut frame, mut boom, mut arm) = (0, 0.0, before.unwrap_or_default());
+        let mut recorded = vec![(0, boom, arm)];
+        for (step, boom_turn, arm_turn) in steps {
+            frame += step;
+            boom += boom_turn;
+            arm += arm_turn;
+            recorded.push((frame, boom, arm));
+        }
+        let turns: Vec<[(&str, f64); 2]> = recorded
+            .iter()
+            .map(|(_, boom, arm)| [("Boom", *boom), ("Arm", *arm)])
+            .collect();
+        let moments: Vec<(f64, &[(&str, f64)])> = recorded
+            .iter()
+            .zip(&turns)
+            .map(|((frame, ..), turns)| (*frame as f64 / 24.0, turns.as_slice()))
+            .collect();
+        let after = made(&source, &movement(&moments)).unwrap();
+        let (analysis, _) = analysis(&after);
+        let warnings: Vec<_> = analysis.diagnostics().iter().map(|found| &found.message).collect();
+        let [clip] = analysis.compiled().clips.as_slice() else {
+            panic!("{after}");
+        };
+        // The movement begins where the clip ended.
+        let begin = before.map_or(0, |_| 12);
+        prop_assert_eq!(clip.source_frames(), begin + frame + 1, "{:?} {}", warnings, after);
+        let poses = &analysis.bindings().poses;
+        prop_assert!(poses.len() <= recorded.len() + usize::from(before.is_some()));
+        for (frame, boom, arm) in recorded {
+            for (part, wanted) in [("Boom", boom), ("Arm", arm)] {
+                let found = clip.turn_in(analysis.bindings(), part, begin + frame);
+                let off = (found - wanted + 180.0).rem_euclid(360.0) - 180.0;
+                prop_assert!(off.abs() < 2.6, "{part} in {frame}: {found} for {wanted}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_movement_waits_where_it_was_still() {
+    let moments: &[(f64, &[(&str, f64)])] = &[
+        (0.0, &[("Boom", 30.0)]),
+        (1.0, &[]),
+        (2.0, &[("Boom", -10.0)]),
+        (3.0, &[]),
+    ];
+    let after = made(&crane(true), &movement(moments)).unwrap();
+    let (analysis, _) = analysis(&after);
+    let poses = analysis.bindings().poses.iter();
+    let poses: Vec<(f64, usize)> = poses.map(|pose| (pose.seconds, pose.parts.len())).collect();
+    assert_eq!(poses, [(0.0, 1), (1.0, 1), (2.0, 1), (3.0, 1)]);
+    assert_eq!(analysis.compiled().clips[0].source_frames(), 73);
+    // After a clip that ends otherwise it goes to where the movement begins first.
+    let twice = made(&after, &movement(moments)).unwrap();
+    let (seconds, _) = last_pose(&twice);
+    assert_eq!(seconds, 3.0 + 1.0 + 3.0);
+}
+
+#[test]
+fn movements_that_are_none_are_refused() {
+    let source = crane(true);
+    let nothing: &[(f64, &[(&str, f64)])] = &[(0.0, &[("Arm", 0.0)]), (1.0, &[])];
+    let backwards: &[(f64, &[(&str, f64)])] = &[(1.0, &[("Arm", 9.0)]), (0.5, &[])];
+    for (moments, why) in [
+        (&[][..], "no part of the movement is posed"),
+        (nothing, "no part of the movement is posed"),
+        (backwards, "the moments of the movement are not in order"),
+        (&[(-1.0, &[][..])], "a movement lasts from 0 to 120 seconds"),
+        (&[(f64::NAN, &[])], "a movement lasts from 0 to 120 seconds"),
+        (&[(0.0, &[("Leg", 20.0)])], "there is no part `Leg`"),
+        (&[(0.0, &[("Arm", f64::INFINITY)])], "`Arm` is turned by no"),
+    ] {
+        let refusal = made(&source, &movement(moments)).unwrap_err();
+        assert!(refusal.why.starts_with(why), "{refusal}");
+    }
 }
