@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import type { ElementHandle } from "playwright-core";
-import { overlaps, project, shown, still } from "./browser";
+import { overlaps, picture, project, shown, still } from "./browser";
 import { edit, type Edited } from "./edited";
 import { FIGURE, source } from "./setup";
 import { SIZES } from "./sizes";
@@ -113,6 +113,7 @@ edit("a movement that is recorded becomes key poses, also while a clip plays", a
   // A clip plays, and the arm is turned further: both are in the poses, after those that were there.
   const slider = page.locator(".timeline input");
   const played = async (from: number): Promise<void> => void (await page.waitForFunction(([input, from]) => Math.abs(Number(input.value) - from) > Number(input.max) / 10, [(await slider.elementHandle()) as ElementHandle<HTMLInputElement>, from] as const));
+  await page.locator("[data-part=Arm]").click();
   await page.locator(".clips").getByRole("button", { name: "Play" }).click();
   await record.click();
   await played(0);
@@ -137,7 +138,7 @@ edit("where nothing can be written, no pose is kept", async ({ page }) => {
   await page.locator("canvas").focus();
   await page.keyboard.press("p");
   await page.getByRole("button", { name: "Leave posing" }).waitFor();
-  for (const name of ["Keep pose", "Record"]) assert.equal(await page.getByRole("button", { name }).isVisible(), false);
+  for (const name of ["Keep pose", "Record"]) assert.equal(await page.locator(".posebar").getByRole("button", { name }).isVisible(), false);
 }, { arguments: ["--read-only"] });
 
 for (const { name, ...size } of SIZES) {
@@ -149,5 +150,6 @@ for (const { name, ...size } of SIZES) {
     const bar = page.locator(".posebar");
     assert.ok(await bar.evaluate((bar) => [...bar.children].every((one) => one.getBoundingClientRect().right <= bar.getBoundingClientRect().right)), "nothing sticks out");
     assert.deepEqual(await overlaps(page), []);
+    await picture(page, `recording-${name}`);
   }, size);
 }

@@ -160,6 +160,9 @@ export class PoseBar {
       this.record.title = records ? "Stop, and make key poses of what was recorded" : "Record what you drag, also while a clip plays, as key poses";
       fill(this.record, icon(records ? Square : Circle), h("span", {}, records ? "Stop" : "Record"));
     }
-    if (viewer.pose.isEmpty) this.readout.textContent = matchMedia("(max-width: 760px)").matches ? "Drag a limb" : "Drag a limb. Shift: about its own axis.";
+    if (!viewer.pose.isEmpty) return;
+    const isNarrow = matchMedia("(max-width: 760px)").matches;
+    if (records) this.readout.textContent = isNarrow ? "Recording" : "Recording: drag a limb, also while a clip plays.";
+    else this.readout.textContent = isNarrow ? "Drag a limb" : "Drag a limb. Shift: about its own axis.";
   }
 }
