@@ -368,6 +368,8 @@ mod tests {
         memo.misses.load(Ordering::Relaxed)
     }
 
+    // Small functions may be compiled once for each place that uses them: they are different functions then, and computed again.
+    #[inline(never)]
     fn squared(Square(number): &Square) -> i32 {
         number * number
     }

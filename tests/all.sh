@@ -198,7 +198,7 @@ wasm() {
   fi
   CARGO_TARGET_DIR=$target bash editors/web/wasm/build.sh "$target/module"
   # In MB with Brotli, as Debian's compiler makes it: docs/speed.md says how it comes about.
-  if [ $has_target = no ]; then node editors/web/scripts/size.mjs "$target/module/okoshi_web_bg.wasm" 2.55
+  if [ $has_target = no ]; then node editors/web/scripts/size.mjs "$target/module/okoshi_web_bg.wasm" 2.5
   else echo "skipped: the size of the module, which is checked as Debian's compiler makes it"; fi
 }
 

@@ -11,7 +11,6 @@ use crate::diagnostic::Edit;
 use crate::lang::keyword::Keyword;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
 use crate::math;
-use crate::mocap::resample::FPS;
 use crate::rig;
 use crate::source::{Span, end_of_tag, escape_xml};
 use crate::svg::{self, Element, GroupId, GroupKind, ShapeId};
@@ -71,7 +70,7 @@ impl Analysis {
                     "a movement lasts from 0 to {LONGEST} seconds, and a moment of this one is at {seconds}"
                 )));
             }
-            let frame = (seconds * FPS).round() as usize;
+            let frame = (seconds * rig::KeptPoses::FRAME_RATE).round() as usize;
             match frames.last() {
                 Some(last) if *last > frame => {
                     return Err(Refusal::new(format!(
@@ -123,7 +122,8 @@ impl Analysis {
                 }
                 continue;
             }
-            let seconds = begin.unwrap_or_default() + (frames[moment] - frames[0]) as f64 / FPS;
+            let since = (frames[moment] - frames[0]) as f64 / rig::KeptPoses::FRAME_RATE;
+            let seconds = begin.unwrap_or_default() + since;
             let waits = copies.is_empty();
             layers.push((seconds, if waits { poses.wait() } else { copies }));
         }

@@ -9,6 +9,7 @@ use super::{NAME, SAME, SEQUENCE_STEP, Turned, about, angle_of, order, sequences
 use crate::bind::{Bindings, PartId};
 use crate::geometry::y_up;
 use crate::labels::{Figure, FigurePartId};
+use crate::mocap::resample::FPS;
 use crate::rig::figures::{self, FigureGroup};
 use crate::rig::rigging;
 use crate::svg::Drawing;
@@ -34,6 +35,9 @@ struct KeptFigure {
 }
 
 impl<'a> KeptPoses<'a> {
+    /// The frames a second of clips.
+    pub(crate) const FRAME_RATE: f64 = FPS;
+
     /// The figures of some parts.
     pub(crate) fn of(drawing: &Drawing, bindings: &'a Bindings, parts: &[PartId]) -> Self {
         let parts_of_nodes = bindings.parts_of_nodes();
