@@ -25,6 +25,18 @@ pub struct PartTurn {
     pub degrees: f64,
 }
 
+impl PartTurn {
+    fn radians(&self) -> Result<f64, Refusal> {
+        let Self { part, degrees } = self;
+        match degrees.is_finite() {
+            true => Ok(degrees.to_radians()),
+            false => Err(Refusal::new(format!(
+                "`{part}` is turned by no number of degrees"
+            ))),
+        }
+    }
+}
+
 /// A moment of a recorded movement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -45,8 +57,8 @@ impl Analysis {
     pub(super) fn keep_pose(&self, turns: &[PartTurn]) -> Result<Vec<Edit>, Refusal> {
         let turned = turns
             .iter()
-            .map(|turn| self.turn(turn))
-            .collect::<Result<Vec<_>, _>>()?;
+            .map(|turn| Ok((self.node_to_change(&turn.part)?, turn.radians()?)))
+            .collect::<Result<Vec<_>, Refusal>>()?;
         let parts: Vec<PartId> = turned.iter().map(|(part, _)| *part).collect();
         let mut poses = rig::KeptPoses::of(self.drawing(), self.bindings(), &parts);
         let copies = poses.go_on(&turned);
@@ -64,6 +76,7 @@ impl Analysis {
         let mut parts: Vec<PartId> = Vec::new();
         let mut frames: Vec<usize> = Vec::new();
         let mut tracks: Vec<Vec<f64>> = Vec::new();
+        let mut places: BTreeMap<&str, usize> = BTreeMap::new();
         for Moment { seconds, turns } in moments {
             if !(0.0..=LONGEST).contains(seconds) {
                 return Err(Refusal::new(format!(
@@ -86,15 +99,17 @@ impl Analysis {
                 }
             }
             for turn in turns {
-                let (part, angle) = self.turn(turn)?;
-                let place = parts.iter().position(|known| *known == part);
-                let place = place.unwrap_or_else(|| {
-                    parts.push(part);
-                    tracks.push(vec![0.0; frames.len()]);
-                    tracks.len() - 1
-                });
+                let place = match places.get(turn.part.as_str()) {
+                    Some(place) => *place,
+                    None => {
+                        parts.push(self.node_to_change(&turn.part)?);
+                        tracks.push(vec![0.0; frames.len()]);
+                        places.insert(&turn.part, tracks.len() - 1);
+                        tracks.len() - 1
+                    }
+                };
                 if let Some(now) = tracks[place].last_mut() {
-                    *now = angle;
+                    *now = turn.radians()?;
                 }
             }
         }
@@ -110,22 +125,16 @@ impl Analysis {
                 .collect();
             let copies = poses.go_on(&turns);
             moves |= !copies.is_empty();
+            let since = (frames[moment] - frames[0]) as f64 / rig::KeptPoses::FRAME_RATE;
             if moment == 0 {
                 // The clip ends in the pose in which the movement begins, or goes there first.
-                match begin {
-                    _ if copies.is_empty() => {}
-                    Some(last) => {
-                        begin = Some(last + poses.step);
-                        layers.push((last + poses.step, copies));
-                    }
-                    None => layers.push((0.0, copies)),
+                if copies.is_empty() {
+                    continue;
                 }
-                continue;
+                begin = begin.map(|last| last + poses.step);
             }
-            let since = (frames[moment] - frames[0]) as f64 / rig::KeptPoses::FRAME_RATE;
             let seconds = begin.unwrap_or_default() + since;
-            let waits = copies.is_empty();
-            layers.push((seconds, if waits { poses.wait() } else { copies }));
+            layers.push((seconds, poses.with_those_that_wait(copies)));
         }
         if !moves {
             return Err(Refusal::new(
@@ -133,15 +142,6 @@ impl Analysis {
             ));
         }
         self.add_poses(&poses, &layers)
-    }
-
-    fn turn(&self, PartTurn { part, degrees }: &PartTurn) -> Result<(PartId, f64), Refusal> {
-        if !degrees.is_finite() {
-            return Err(Refusal::new(format!(
-                "`{part}` is turned by no number of degrees"
-            )));
-        }
-        Ok((self.node_to_change(part)?, degrees.to_radians()))
     }
 
     /// Adds layers of poses with their seconds behind everything else in the file.

@@ -90,15 +90,19 @@ impl<'a> KeptPoses<'a> {
         copies
     }
 
-    /// The pose once more, for a figure that waits in it: a layer without copies would be no pose.
-    pub(crate) fn wait(&self) -> Copies {
-        let roots = self.figures.iter().filter_map(|figure| {
-            let KeptFigure { group, now, .. } = figure;
-            let first = *order(group).first()?;
-            let placed = about(figure.figure.parts[first].joint, now[first]);
-            Some((group.parts[first], turned_up(placed)))
-        });
-        roots.collect()
+    /// Adds a copy of figures that stay as they are: a layer without one is no pose of theirs, and they would be on their way to the next.
+    pub(crate) fn with_those_that_wait(&self, mut copies: Copies) -> Copies {
+        for KeptFigure { group, figure, now } in &self.figures {
+            if copies.iter().any(|(part, _)| group.parts.contains(part)) {
+                continue;
+            }
+            if let Some(&first) = order(group).first() {
+                let placed = about(figure.parts[first].joint, now[first]);
+                copies.push((group.parts[first], turned_up(placed)));
+            }
+        }
+        copies.sort_by_key(|(part, _)| self.bindings.parts[*part].shape);
+        copies
     }
 }
 

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use super::super::super::fixtures::analysis;
 use super::super::poses::{Moment, PartTurn};
 use super::*;
+use crate::rig::FigureClip;
 
 /// A crane in a transformed layer, with strings, namespaces and ids as Inkscape has them, or without.
 fn crane(is_from_inkscape: bool) -> String {
@@ -221,6 +222,38 @@ fn a_movement_waits_where_it_was_still() {
     let twice = made(&after, &movement(moments)).unwrap();
     let (seconds, _) = last_pose(&twice);
     assert_eq!(seconds, 3.0 + 1.0 + 3.0);
+}
+
+#[test]
+fn a_figure_waits_while_another_moves() {
+    let source = crane(true).replace(
+        "</g>\n</svg>",
+        r#"<rect x="140" y="140" width="30" height="30"><desc>Foot</desc></rect><rect x="150" y="90" width="8" height="55"><desc>Lamp@Foot$Origin 154 142</desc></rect></g>
+</svg>"#,
+    );
+    let moments: &[(f64, &[(&str, f64)])] = &[
+        (0.0, &[]),
+        (0.5, &[("Boom", 30.0)]),
+        (1.0, &[("Boom", -30.0), ("Lamp", 0.0)]),
+        (1.5, &[("Lamp", 40.0)]),
+    ];
+    let after = made(&source, &movement(moments)).unwrap();
+    let (analysis, _) = analysis(&after);
+    for (part, wanted) in [
+        ("Boom", [0.0, 30.0, -30.0, -30.0]),
+        ("Lamp", [0.0, 0.0, 0.0, 40.0]),
+    ] {
+        let root = if part == "Boom" { "Base" } else { "Foot" };
+        let clips = &analysis.compiled().clips;
+        let of = |clip: &&FigureClip| analysis.bindings().parts[clip.root].name == root;
+        let clip = clips.iter().find(of).expect(root);
+        let turns = [0, 12, 24, 36].map(|frame| clip.turn_in(analysis.bindings(), part, frame));
+        let off = turns
+            .iter()
+            .zip(wanted)
+            .map(|(turn, wanted)| (turn - wanted).abs());
+        assert!(off.fold(0.0, f64::max) < 0.01, "{part}: {turns:?}");
+    }
 }
 
 #[test]
