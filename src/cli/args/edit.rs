@@ -21,6 +21,10 @@ Changes, as JSON; parts are called as in `okoshi inspect`:
   {"change": "leave-out", "part": …}                         the part is no longer built
   {"change": "variable", "name": …, "value": …}              a variable of `Let` gets this number
   {"change": "clip", "part": …, "clip": 0, "motion": …}      a clip of the part's figure; with null it is taken away
+  {"change": "keep-pose", "turns": [{"part": …, "degrees": 40}]}
+                                                             the next key pose, turned from how the parts are drawn
+  {"change": "keep-movement", "moments": [{"seconds": 0, "turns": …}, …]}
+                                                             key poses that show a movement
   {"change": "draw", "shape": …, "fill": "#cc4422"}          a new shape in front of the others: {"path": "M 0 0 H 20 V 30 Z"},
                                                              {"ellipse": [cx, cy, rx, ry]} or {"rect": [x, y, width, height]}
   {"change": "move", "part": …, "by": [5, -2]}               the part lies so many user units to the right and down
