@@ -1,13 +1,21 @@
 // Keeping poses with the real program: what a person turns on the page becomes key poses in the drawing.
 
 import assert from "node:assert/strict";
-import type { ElementHandle } from "playwright-core";
+import type { ElementHandle, Page } from "playwright-core";
 import { overlaps, picture, project, shown, still } from "./browser";
 import { edit, type Edited } from "./edited";
 import { FIGURE, source } from "./setup";
 import { SIZES } from "./sizes";
 
 const BEFORE = source(FIGURE);
+
+/** From the front. */
+async function beginPosing(page: Page): Promise<void> {
+  await page.locator("canvas").focus();
+  await page.keyboard.press("1");
+  await page.keyboard.press("p");
+  await still(page);
+}
 
 /** Turns the arm by dragging its tip to a point of the page. */
 async function turn({ page }: Edited, from: readonly [number, number], to: readonly [number, number]): Promise<void> {
@@ -25,10 +33,7 @@ const point = ([x, y]: readonly [number, number]): [number, number, number] => [
 
 edit("poses that are kept become a clip, and undo takes them back", async (edited) => {
   const { page } = edited;
-  await page.locator("canvas").focus();
-  await page.keyboard.press("1");
-  await page.keyboard.press("p");
-  await still(page);
+  await beginPosing(page);
   const keep = page.getByRole("button", { name: "Keep pose" });
   assert.ok(await keep.isDisabled(), "nothing is posed yet");
   // About the shoulder at (170, 120): from the right to above it.
@@ -73,10 +78,7 @@ function poses(text: string, id: string): (readonly [seconds: number, degrees: n
 
 edit("a movement that is recorded becomes key poses, also while a clip plays", async (edited) => {
   const { page } = edited;
-  await page.locator("canvas").focus();
-  await page.keyboard.press("1");
-  await page.keyboard.press("p");
-  await still(page);
+  await beginPosing(page);
   const record = page.locator(".posebar").getByRole("button", { name: "Record" });
   const stop = page.locator(".posebar").getByRole("button", { name: "Stop" });
   await record.click();

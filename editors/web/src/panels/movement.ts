@@ -5,19 +5,14 @@ import type { Moment, Turn } from "../editing/messages";
 /** Moments a second: as many as frames of a clip. */
 const RATE = 24;
 /** A smaller turn is none, in degrees. */
-export const STILL = 0.05;
+const STILL = 0.05;
 
 export class Movement {
   private readonly moments = new Map<number, ReadonlyMap<string, number>>();
   /** The parts that were turned by hand. */
   private readonly turned = new Set<string>();
 
-  /** `now` gives milliseconds. */
-  constructor(private readonly now: () => number = () => performance.now(), private readonly began = now()) {}
-
-  get seconds(): number {
-    return (this.now() - this.began) / 1e3;
-  }
+  private readonly began = performance.now();
 
   get isEmpty(): boolean {
     return this.turned.size === 0;
@@ -25,7 +20,7 @@ export class Movement {
 
   /** Notes how all parts are turned, in degrees from how they are drawn, and which are by hand. */
   note(turns: ReadonlyMap<string, number>, byHand: Iterable<string>): void {
-    this.moments.set(Math.round(this.seconds * RATE), turns);
+    this.moments.set(Math.round(((performance.now() - this.began) / 1e3) * RATE), turns);
     for (const part of byHand) this.turned.add(part);
   }
 

@@ -4,10 +4,10 @@ import { BookmarkPlus, Circle, RotateCcw, RotateCw, Square, Undo2, X } from "luc
 import { button, fill, h, icon, prefersReducedMotion, setHidden } from "../dom";
 import type { Commands } from "../commands";
 import type { Editing } from "../editing/editing";
-import type { KeepPose, Turn } from "../editing/messages";
+import type { KeepPose } from "../editing/messages";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
-import { Movement, STILL } from "./movement";
+import { Movement } from "./movement";
 
 /** The name of the clip of key poses. */
 const POSES = "poses";
@@ -23,10 +23,8 @@ export class PoseBar {
   /** What is being recorded. */
   private movement: Movement | null = null;
   private timer: ReturnType<typeof setTimeout> | undefined;
-  /** The revision of the model in which a pose was kept that is to be shown; `null` if none is. */
-  private keptIn: string | null = null;
-  /** Whether what was kept is a movement, which is played. */
-  private keptMoves = false;
+  /** What was kept and is to be shown: the revision of the model before it, and whether it is a movement, which is played. */
+  private kept: { readonly revision: string; readonly moves: boolean } | null = null;
 
   constructor(private readonly viewer: Viewer, private readonly commands: Commands, private readonly editing: Editing, private readonly state: State) {
     this.reset = button({ icon: Undo2, label: "Reset pose", key: "Esc", wide: true, press: () => commands.resetPose() });
@@ -76,11 +74,10 @@ export class PoseBar {
   /** The part that carries all of a figure. */
   private readonly figure = (part: string): string => this.state.parts.above(part).at(-1) ?? part;
 
-  /** The parts of the figures that are posed, and how they are turned. */
-  private turns(): Turn[] {
-    const figures = new Set(this.byHand().map(this.figure));
-    const turns = [...this.allTurns()].filter(([part, degrees]) => Math.abs(degrees) > STILL && figures.has(this.figure(part)));
-    return turns.map(([part, degrees]) => ({ part, degrees }));
+  /** Notes the pose as it is now. */
+  private noted(movement: Movement): Movement {
+    movement.note(this.allTurns(), this.byHand());
+    return movement;
   }
 
   /** Begins to record what is dragged, and what a clip does meanwhile; or makes key poses of what was recorded. */
@@ -93,7 +90,7 @@ export class PoseBar {
   }
 
   private note(): void {
-    this.movement?.note(this.allTurns(), this.byHand());
+    if (this.movement) this.noted(this.movement);
   }
 
   private async finishRecording(): Promise<void> {
@@ -119,28 +116,29 @@ export class PoseBar {
   }
 
   private keepPose(): Promise<void> {
-    return this.keepAs({ change: "keep-pose", turns: this.turns() });
+    const [now] = this.noted(new Movement()).of(this.figure);
+    return this.keepAs({ change: "keep-pose", turns: now?.turns ?? [] });
   }
 
   private async keepAs(pose: KeepPose): Promise<void> {
-    this.keptIn = this.revision;
-    this.keptMoves = pose.change === "keep-movement";
-    if (!(await this.editing.keep(pose))) this.keptIn = null;
+    this.kept = { revision: this.revision, moves: pose.change === "keep-movement" };
+    if (!(await this.editing.keep(pose))) this.kept = null;
     // Its model may have come before the answer.
     this.showKept();
   }
 
   /** Shows the kept pose, from which the next one is made: the end of the clip, without what was turned by hand. A movement is played first. */
   private showKept(): void {
+    const { kept } = this;
     const { playback, pose } = this.viewer;
     const { player } = playback;
     const clip = player.clips.find(({ name }) => name === POSES);
-    if (!clip || this.editing.busy || this.keptIn === null || this.keptIn === this.revision) return;
-    this.keptIn = null;
+    if (!clip || this.editing.busy || kept === null || kept.revision === this.revision) return;
+    this.kept = null;
     pose.reset();
     playback.moved(() => {
       player.choose(clip);
-      const plays = this.keptMoves && !prefersReducedMotion();
+      const plays = kept.moves && !prefersReducedMotion();
       player.play(plays);
       player.seek(plays ? 0 : player.end);
     });
