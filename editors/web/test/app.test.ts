@@ -437,6 +437,26 @@ inBrowser("a fault of okoshi is said, the worker starts again, and nothing that 
   await page.getByText("2 drawings").waitFor();
 }, { prepare: withFaults, serviceWorkers: "block", expected: /unreachable|^Error$|Service Worker registration blocked/ });
 
+inBrowser("what is done in the moment before the page is left is kept", async (app) => {
+  const { page } = app;
+  const kept = async (): Promise<IDBValidKey[]> => page.evaluate(() => new Promise((resolve) => {
+    const opening = indexedDB.open("okoshi");
+    opening.onsuccess = () => {
+      const asked = opening.result.transaction("files").objectStore("files").getAllKeys();
+      asked.onsuccess = () => (opening.result.close(), resolve(asked.result));
+    };
+  }));
+  const names = Array.from({ length: 6 }, (_, at) => `figure-${at}.svg`);
+  await app.drop(...names.map((name) => ({ name, text: TEXT })));
+  await app.part("Arm");
+  for (const next of [...names.slice(1), ""]) {
+    const close = page.getByRole("button", { name: "Close", exact: true });
+    await Promise.all([page.waitForEvent("load"), close.evaluate((close: HTMLElement, next) => (close.click(), (location.hash = next), location.reload()), next)]);
+    assert.deepEqual(await kept(), next ? names.slice(names.indexOf(next)) : []);
+    if (next) await app.part("Arm");
+  }
+}, { serviceWorkers: "block", expected: /Service Worker registration blocked/ });
+
 inBrowser("what takes too long can be stopped by a person, also when the browser kept it", async (app) => {
   const { page } = app;
   await app.drop({ name: "other.svg", text: TEXT });

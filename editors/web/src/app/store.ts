@@ -1,6 +1,6 @@
 // What the browser keeps of the files, so that they are there again after a reload.
 
-import { createStore, del, set, values, type UseStore } from "idb-keyval";
+import { createStore, promisifyRequest, values, type UseStore } from "idb-keyval";
 import type { ProjectFile } from "../host/worker/calls";
 
 export interface Kept extends ProjectFile {
@@ -43,11 +43,20 @@ export class Store {
 
   /** Rejects if there is no space left. */
   async keep(kept: Kept): Promise<void> {
-    if (this.store) await set(kept.path, kept, this.store);
+    await this.write((store) => store.put(kept, kept.path));
   }
 
   async forget(path: string): Promise<void> {
-    if (this.store) await del(path, this.store);
+    await this.write((store) => store.delete(path));
+  }
+
+  /** Without the explicit commit, the browser would wait for the page, and give up what was written just before the page is left. */
+  private async write(request: (store: IDBObjectStore) => unknown): Promise<void> {
+    await this.store?.("readwrite", (store) => {
+      request(store);
+      store.transaction.commit();
+      return promisifyRequest(store.transaction);
+    });
   }
 }
 
