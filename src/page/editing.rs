@@ -77,6 +77,8 @@ pub(crate) struct ToChange {
 #[serde(rename_all = "kebab-case")]
 enum ToDo {
     Make(Change),
+    /// What was offered when the last change was refused.
+    Choose(Change),
     Undo,
     Redo,
 }
@@ -121,6 +123,7 @@ impl Hub {
     pub(crate) fn change_as_asked(&self, asked: ToChange) -> Result<Value, Refusal> {
         let action = match asked.action {
             ToDo::Make(change) => Action::Make(change),
+            ToDo::Choose(change) => Action::Choose(change),
             ToDo::Undo => Action::Undo,
             ToDo::Redo => Action::Redo,
         };

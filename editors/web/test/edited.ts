@@ -20,6 +20,8 @@ const TYPES: Readonly<Record<string, string>> = { "": "page.html", "page.js": "p
 /** Why some tests are for the program alone. */
 export const BY_OTHERS = "only the program has files that others save";
 export const HELD_BACK = "only requests of the program can be held back";
+/** How late messages of the program are, in milliseconds, where a test does not say that: what passes at once must pass on a slow machine. */
+const LATE = Number(process.env["LATE"] ?? 0);
 /** How often the kept text is looked at, in milliseconds. */
 const PAUSE = 20;
 
@@ -97,11 +99,13 @@ export interface EditOptions extends PageOptions {
   readonly arguments?: readonly string[];
   /** Why this is for the program alone. */
   readonly program?: string;
+  /** How much later than it sends them the page gets the program's messages, in milliseconds. */
+  readonly late?: number;
 }
 
 /** A test with a drawing that is edited. */
 export function edit(name: string, run: (edited: Edited) => Promise<void>, options: EditOptions = {}): void {
-  const { drawing = FIGURE, arguments: more = [], program, ...context } = options;
+  const { drawing = FIGURE, arguments: more = [], program, late = LATE, ...context } = options;
   const isForProgram = more.length > 0 ? "only the program takes arguments" : program;
   const why = (isFirefox && options.hasTouch === true && "Firefox's driver has no fingers") || (byModule && isForProgram !== undefined && isForProgram);
   test(name, { skip: skip || why, timeout: TEST_LIMIT }, async (t) => {
@@ -110,7 +114,7 @@ export function edit(name: string, run: (edited: Edited) => Promise<void>, optio
     onClose(() => rmSync(folder, { recursive: true }));
     const file = join(folder, "figure.svg");
     copyFileSync(drawing, file);
-    const { edited, wrong } = byModule ? await inBrowser(file, onClose, context) : await inProgram(file, onClose, context, more);
+    const { edited, wrong } = byModule ? await inBrowser(file, onClose, context) : await inProgram(file, onClose, context, more, late);
     await run(edited);
     // What is refused is answered with a status that the browser reports.
     assert.deepEqual(wrong().filter((one) => !/status of 409/.test(one)), []);
@@ -123,11 +127,17 @@ interface Begun {
 }
 
 /** The page is the one that was bundled for the tests, and is served as the program serves its own. */
-async function inProgram(file: string, onClose: (close: Close) => void, options: PageOptions, more: readonly string[]): Promise<Begun> {
+async function inProgram(file: string, onClose: (close: Close) => void, options: PageOptions, more: readonly string[], late: number): Promise<Begun> {
   const { address } = await preview(okoshi, dirname(file), basename(file), onClose, more);
   // To Chromium, a page that a test hands over is not on this machine, and would not be let to it.
   browser ??= launch(isFirefox ? [] : ["--disable-features=LocalNetworkAccessChecks"]);
   const { page, wrong } = await open(await browser, address, onClose, options, async (context) => {
+    if (late > 0) {
+      await context.routeWebSocket(/./, (page) => {
+        const program = page.connectToServer();
+        program.onMessage((message) => void setTimeout(() => page.send(message), late));
+      });
+    }
     for (const [path, name] of Object.entries(TYPES)) {
       await context.route(address + path, async (route) => {
         const { "content-length": _, ...headers } = (await route.fetch()).headers();

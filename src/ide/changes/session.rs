@@ -22,6 +22,8 @@ const MAX_KNOWN_BYTES: usize = 32 << 20;
 pub(crate) enum Action {
     /// A change is made.
     Make(Change),
+    /// A change is made that was offered when the last one was refused.
+    Choose(Change),
     /// The last change is undone.
     Undo,
     /// What was undone last is made again.
@@ -71,6 +73,8 @@ pub(crate) struct Session {
     tried: Option<Arc<Analysis>>,
     /// The texts before and after the last changes.
     made: VecDeque<[Arc<str>; 2]>,
+    /// The text in which a change was refused last.
+    refused: Option<Arc<str>>,
 }
 
 /// How a drawing is compiled.
@@ -150,7 +154,16 @@ impl Session {
             part,
             note,
         } = match action {
-            Action::Make(change) => self.wanted(before, change, shown, reading)?,
+            Action::Make(change) | Action::Choose(change) => {
+                // Who chooses has been told what is in that text, also if no build of it is shown yet.
+                let refused = self.refused.take();
+                let told = refused
+                    .as_deref()
+                    .filter(|_| matches!(action, Action::Choose(_)));
+                let wanted = self.wanted(before, change, told.or(shown), reading);
+                self.refused = wanted.is_err().then(|| before.source().clone());
+                wanted?
+            }
             Action::Undo | Action::Redo => self.stepped(before, action, reading)?,
         };
         let before = before.source().clone();
@@ -176,11 +189,13 @@ impl Session {
         } = pending;
         let history = &mut self.history;
         match action {
-            Action::Make(_) if text == before => {}
+            Action::Make(_) | Action::Choose(_) if text == before => {}
             Action::Make(change) if goes_on(history, change, &before) => {
                 history.go_on(change.clone(), &text);
             }
-            Action::Make(change) => history.add(Step::new(change.clone(), &before, &edits)),
+            Action::Make(change) | Action::Choose(change) => {
+                history.add(Step::new(change.clone(), &before, &edits))
+            }
             Action::Undo => history.undo(&before, &edits),
             Action::Redo => history.redo(&before, &edits),
         }

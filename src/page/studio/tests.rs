@@ -99,6 +99,29 @@ fn a_change_is_tried_made_and_undone() {
 }
 
 #[test]
+fn what_a_refusal_offers_is_decided_in_the_text_that_it_tells_of() {
+    let mut studio = with_drawing("a.svg");
+    let saved = |depth: u32| DRAWING.replace("default -2 2", &format!("default -{depth} {depth}"));
+    let set =
+        json!({ "change": "set", "part": "Body", "attribute": "Shape", "value": "default -5 5" });
+    // The page shows the first build all the time.
+    studio.put("a.svg", saved(3).into_bytes(), 1.0).unwrap();
+    let refused = change(&mut studio, &json!({ "make": set }), 1);
+    assert_eq!(refused["ok"], false);
+    let offered = &refused["body"]["choices"][0];
+    assert_eq!(offered["title"], "Change it all the same");
+    // What is saved after that is asked about anew.
+    studio.put("a.svg", saved(4).into_bytes(), 2.0).unwrap();
+    let choose = json!({ "choose": offered["change"] });
+    assert_eq!(change(&mut studio, &choose, 1)["ok"], false);
+    assert_eq!(studio.text("a.svg").as_deref(), Some(saved(4).as_str()));
+    assert_eq!(change(&mut studio, &choose, 1)["ok"], true);
+    assert_eq!(studio.text("a.svg").as_deref(), Some(saved(5).as_str()));
+    change(&mut studio, &json!("undo"), 1);
+    assert_eq!(studio.text("a.svg").as_deref(), Some(saved(4).as_str()));
+}
+
+#[test]
 fn files_that_are_linked_to_come_and_go() {
     let text = DRAWING.replace("Shape default -2 2", r#"Texture "wood.png""#);
     let mut studio = Studio::default();

@@ -112,7 +112,7 @@ export class DrawingTools implements Desk {
 
   make(change: DrawnChange, draft: SVGElement | null): void {
     const since = this.state.drawing?.build?.revision ?? 0;
-    void this.editing.choose(change).then((made) => {
+    void this.editing.apply(change).then((made) => {
       if (draft) this.paper.settle(draft, made, since);
     });
   }
@@ -179,7 +179,7 @@ export class DrawingTools implements Desk {
     const { selected } = this.state;
     if (selected === null) return;
     // Others may get the number that was its name.
-    void this.editing.choose({ change: "erase", part: selected } satisfies DrawnChange).then((made) => {
+    void this.editing.apply({ change: "erase", part: selected } satisfies DrawnChange).then((made) => {
       if (made && this.state.selected === selected) this.state.select(null);
     });
   }

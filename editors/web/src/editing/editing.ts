@@ -122,23 +122,29 @@ export class Editing {
     this.tries(null);
   }
 
-  /** Makes a change that the program has offered. */
-  async choose(change: unknown): Promise<boolean> {
+  /** Makes a change that is in no part's form. */
+  async apply(change: unknown): Promise<boolean> {
     return this.send(() => ({ make: change }));
+  }
+
+  /** Makes a change that was offered when the last one was refused. */
+  async choose(change: unknown): Promise<boolean> {
+    return this.send(() => ({ choose: change }));
   }
 
   /** Makes a pose the next key pose, or a movement the next ones. Editing is turned on, so that it can be undone. */
   async keep(pose: KeepPose): Promise<boolean> {
     if (!this.isOn) this.toggle();
-    return this.choose(pose);
+    return this.apply(pose);
   }
 
+  /** The host knows what there is to undo before the page does, and says if that is nothing. */
   undo(): void {
-    if (this.undoes !== null) void this.send(() => "undo");
+    void this.send(() => "undo");
   }
 
   redo(): void {
-    if (this.redoes !== null) void this.send(() => "redo");
+    void this.send(() => "redo");
   }
 
   /** What can be changed about a part; null if nothing can. */

@@ -97,7 +97,7 @@ export class FormPanel {
   askParent(): void {
     const { selected } = this.state;
     if (selected === null) return;
-    this.editing.pick((parent) => void this.editing.choose({ change: "hang", part: selected, parent }));
+    this.editing.pick((parent) => void this.editing.apply({ change: "hang", part: selected, parent }));
   }
 
   private release(): void {

@@ -118,7 +118,7 @@ export class HangingByDrag {
   private up(event: PointerEvent): void {
     const { press, goal, drags } = this;
     if (!press || event.pointerId !== press.id) return;
-    if (drags && goal) void this.editing.choose({ change: "hang", part: press.part, parent: goal.parent });
+    if (drags && goal) void this.editing.apply({ change: "hang", part: press.part, parent: goal.parent });
     // The click comes after this.
     setTimeout(() => this.press === press && this.stop());
     this.label.hidden = true;

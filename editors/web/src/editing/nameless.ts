@@ -12,6 +12,6 @@ export function isNameless(parts: Parts): boolean {
 
 /** What is shown while nothing has a name. */
 export function namelessLine(editing: Editing): HTMLElement {
-  const name = h("button", { class: "button choice", attributes: { type: "button" }, on: { click: () => void editing.choose({ change: "name-parts" }) } }, "Name the parts for me");
+  const name = h("button", { class: "button choice", attributes: { type: "button" }, on: { click: () => void editing.apply({ change: "name-parts" }) } }, "Name the parts for me");
   return h("div", { class: "offer", hidden: true }, h("p", {}, "Nothing here has a name. Click a part and name it, or let okoshi do it."), h("div", { class: "choices" }, name));
 }

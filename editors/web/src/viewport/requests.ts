@@ -111,8 +111,8 @@ export class ModelRequests {
   private failed(error: unknown, wanted: Wanted): void {
     if (wanted !== this.awaited) return;
     this.awaited = null;
-    // A change that cannot be made is not shown.
-    if (wanted.attempt) return this.tries(null);
+    // A change that cannot be made is not shown. One that is made already is shown by the build that comes.
+    if (wanted.attempt) return this.made ? undefined : this.tries(null);
     // The build that replaced it is asked for as soon as the page reads of it.
     if (error instanceof Replaced) return;
     if (wanted.drawing !== this.state.current || this.state.link === "lost") return;

@@ -89,7 +89,7 @@ export class Strings {
 
   private async make(change: unknown): Promise<boolean> {
     if (!this.editing.isOn) this.editing.toggle();
-    return this.editing.choose(change);
+    return this.editing.apply(change);
   }
 
   /** Undoes or redoes something, which ends what is typed in one go. */
