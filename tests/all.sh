@@ -222,6 +222,15 @@ app() {
   OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests app -- app. worker. bytes. sharing. strings. welcome. lessons.
 }
 
+# Drawings that are edited by the page with the module instead of the program.
+page_worker() {
+  need npm
+  use_module
+  if [ $quick = no ] && ! has_chromium; then (install Chromium chromium) || [ $? = 77 ] || exit 1; fi
+  use_program
+  OKOSHI_HOST=worker OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests worker -- drawing. editing-clips. editing-handles. editing-quick. editing-sheet. editing.test. keep-pose. part-menu.
+}
+
 # The module, which the other row of steps builds.
 use_module() {
   until [ -e "$logs/wasm.result" ]; do sleep 1; done
@@ -553,6 +562,7 @@ step features features
 step licences licences
 step site site
 step packages packages
+step page-worker page_worker
 end_aside
 # Not beside the other tests of the extension, which are built in the same folder.
 step web-extension web_extension
