@@ -155,7 +155,7 @@ async function measure(parts) {
   const url = await new Promise((found) => server.stdout.once("data", (line) => found(String(line).trim())));
   const browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run"],
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing", "--disable-quic", "--no-first-run"],
   });
   console.log(`${parts} parts`);
   // The first visit waits for the first build; the second is measured.
@@ -173,7 +173,7 @@ async function measure(parts) {
     await page.close();
   }
   const page = await browser.newPage({ viewport: { width: 1000, height: 600 } });
-  page.setDefaultTimeout(300_000);
+  page.setDefaultTimeout(60_000);
   await page.goto(url);
   await page.waitForSelector("canvas[data-frames]");
   await presses(page, print);

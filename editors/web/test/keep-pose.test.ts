@@ -2,9 +2,9 @@
 
 import assert from "node:assert/strict";
 import type { ElementHandle, Page } from "playwright-core";
-import { overlaps, picture, project, shown, still } from "./browser";
+import { manual, overlaps, picture, project, shown, still } from "./browser";
 import { edit, type Edited } from "./edited";
-import { FIGURE, source } from "./setup";
+import { example, FIGURE, source } from "./setup";
 import { SIZES } from "./sizes";
 
 const BEFORE = source(FIGURE);
@@ -135,6 +135,24 @@ edit("a movement that is recorded becomes key poses, also while a clip plays", a
   await undo.click();
   await edited.has(BEFORE, "undone");
 });
+
+edit("the page of the manual shows a movement that is recorded", async (edited) => {
+  const { page } = edited;
+  await beginPosing(page);
+  await page.locator(".posebar").getByRole("button", { name: "Record" }).click();
+  // The last rows are not there before they are scrolled to.
+  await page.locator(".tree").evaluate((list) => list.scrollTo(0, list.scrollHeight));
+  await page.locator("[data-part=Larm]").click();
+  await page.locator("canvas").focus();
+  // Up, as somebody who waves.
+  for (let step = 0; step < 24; step++) await page.keyboard.press(",");
+  await still(page);
+  await page.locator("canvas").evaluate((canvas) => canvas.blur());
+  await manual(page, "without-strings/7-record.png");
+  await page.locator(".posebar").getByRole("button", { name: "Stop" }).click();
+  await edited.until(() => edited.text().includes("$Pose"), "pose layers");
+  await page.waitForFunction(() => /^poses/.test(document.querySelector<HTMLSelectElement>(".clip-choice")?.selectedOptions[0]?.textContent ?? ""));
+}, { drawing: example("girl"), viewport: { width: 1060, height: 720 }, smoothEdges: true });
 
 edit("where nothing can be written, no pose is kept", async ({ page }) => {
   await page.locator("canvas").focus();
