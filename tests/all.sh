@@ -252,16 +252,27 @@ web_extension() {
   else echo "skipped: the workbench, which npm run workbench --prefix editors/vscode installs"; fi
 }
 
+# Installs Firefox and a screen for it, or leaves the step.
+use_firefox() {
+  if { [ -n "${FIREFOX:-}" ] || [ -x /usr/bin/firefox-esr ] || [ -x /usr/bin/firefox ]; } && command -v xvfb-run > /dev/null; then return; fi
+  [ $quick = no ] || skip "--quick, and Firefox or Xvfb is not installed"
+  install "Firefox or Xvfb" firefox-esr xvfb xauth libgl1-mesa-dri
+}
+
 # The same in Firefox.
 firefox() {
   need npm
   use_module
-  if { [ -z "${FIREFOX:-}" ] && [ ! -x /usr/bin/firefox-esr ] && [ ! -x /usr/bin/firefox ]; } || ! command -v xvfb-run > /dev/null; then
-    [ $quick = no ] || skip "--quick, and Firefox or Xvfb is not installed"
-    install "Firefox or Xvfb" firefox-esr xvfb xauth libgl1-mesa-dri
-  fi
+  use_firefox
   use_program
   BROWSER=firefox OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests firefox xvfb-run -a -- app.
+}
+firefox_worker() {
+  need npm
+  use_module
+  use_firefox
+  use_program
+  BROWSER=firefox OKOSHI_HOST=worker OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests firefox-worker xvfb-run -a -- editing.test.
 }
 
 # What a package holds is enough: installed from it without npm, the program serves the page.
@@ -563,6 +574,7 @@ step licences licences
 step site site
 step packages packages
 step page-worker page_worker
+step firefox-worker firefox_worker
 end_aside
 # Not beside the other tests of the extension, which are built in the same folder.
 step web-extension web_extension
