@@ -148,6 +148,8 @@ test("changes are made in the text, which undoes them", async (t) => {
   done.splice(0);
   assert.deepEqual(await ask(6, "changes", { do: { make: change("same") } }), [answer(6, true, made)]);
   assert.deepEqual(await ask(7, "changes", { do: { make: change("wrong") } }), [answer(7, false, { why: "no", choices: [] })]);
+  // What a refusal offers.
+  assert.deepEqual(await ask(16, "changes", { do: { choose: change("same") } }), [answer(16, true, made)]);
   assert.deepEqual(done, []);
   await ask(8, "changes", { do: "undo" });
   await ask(9, "changes", { do: "redo" });

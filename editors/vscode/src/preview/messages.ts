@@ -46,8 +46,10 @@ function readQuestion(what: unknown, request: unknown): Question | undefined {
   if (what === "tries") return typeof change === "object" && change !== null ? { what: "try", change } : undefined;
   if (what !== "changes") return undefined;
   if (action === "undo" || action === "redo") return { what: action };
-  const { make } = fields(action);
-  return typeof make === "object" && make !== null ? { what: "change", change: make } : undefined;
+  // Both are decided in the text as it is: the panel shows it, or the question has told of it.
+  const { make, choose } = fields(action);
+  const made = make ?? choose;
+  return typeof made === "object" && made !== null ? { what: "change", change: made } : undefined;
 }
 
 /** Parses a request; undefined if its type is unknown or a field is invalid. */

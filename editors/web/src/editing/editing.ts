@@ -138,13 +138,13 @@ export class Editing {
     return this.apply(pose);
   }
 
-  /** The host knows what there is to undo before the page does, and says if that is nothing. */
+  /** Once changes were sent, the host knows what there is to undo before the page does, and says if that is nothing. */
   undo(): void {
-    void this.send(() => "undo");
+    if (this.undoes !== null || this.sent > 0) void this.send(() => "undo");
   }
 
   redo(): void {
-    void this.send(() => "redo");
+    if (this.redoes !== null || this.sent > 0) void this.send(() => "redo");
   }
 
   /** What can be changed about a part; null if nothing can. */
