@@ -226,7 +226,7 @@ app() {
 page_worker() {
   need npm
   use_module
-  if [ $quick = no ] && ! has_chromium; then (install Chromium chromium) || [ $? = 77 ] || exit 1; fi
+  use_chromium
   use_program
   OKOSHI_HOST=worker OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests worker -- drawing. editing-clips. editing-handles. editing-quick. editing-sheet. editing.test. keep-pose. part-menu.
 }
@@ -259,21 +259,16 @@ use_firefox() {
   install "Firefox or Xvfb" firefox-esr xvfb xauth libgl1-mesa-dri
 }
 
-# The same in Firefox.
-firefox() {
+# The page that has the module, in Firefox.
+firefox_tests() { # FOLDER NAMES…
   need npm
   use_module
   use_firefox
   use_program
-  BROWSER=firefox OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests firefox xvfb-run -a -- app.
+  BROWSER=firefox OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests "$1" xvfb-run -a -- "${@:2}"
 }
-firefox_worker() {
-  need npm
-  use_module
-  use_firefox
-  use_program
-  BROWSER=firefox OKOSHI_HOST=worker OKOSHI=$(realpath "$okoshi") OKOSHI_MODULE=$(realpath "$target/module") page_tests firefox-worker xvfb-run -a -- editing.test.
-}
+firefox() { firefox_tests firefox app.; }
+firefox_worker() { OKOSHI_HOST=worker firefox_tests firefox-worker editing.test.; }
 
 # What a package holds is enough: installed from it without npm, the program serves the page.
 package() {
@@ -522,10 +517,14 @@ has_chromium() {
   return 1
 }
 
+# Installs Chromium, if that may be done. Without a browser, what needs none is tested.
+use_chromium() {
+  if [ $quick = no ] && ! has_chromium; then (install Chromium chromium) || [ $? = 77 ] || exit 1; fi
+}
+
 page() {
   need npm
-  # Without a browser, the modules of the page are tested.
-  if [ $quick = no ] && ! has_chromium; then (install Chromium chromium) || [ $? = 77 ] || exit 1; fi
+  use_chromium
   use_program
   OKOSHI=$(realpath "$okoshi") page_tests page --
 }
