@@ -9,7 +9,7 @@ import { tmpdir } from "node:os";
 import { extname, join, resolve } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, BrowserContext, Download, Page } from "playwright-core";
-import { isFirefox, launch, noBrowser, open, type, type PageOptions } from "./browser";
+import { isFirefox, launch, noBrowser, open, type, type Motion, type PageOptions } from "./browser";
 import { closeAll, closing, serving, TEST_LIMIT, type Close, type Serving } from "./closing";
 
 const module = process.env["OKOSHI_MODULE"] ?? "";
@@ -20,9 +20,17 @@ const TYPES: Readonly<Record<string, string>> = { ".html": "text/html; charset=u
 /** The model of a first visit, once it is drawn. */
 export const STAGE = ".welcome-stage canvas[data-revision]";
 
-let browser: Promise<Browser> | undefined;
+const browsers = new Map<Motion, Promise<Browser>>();
 let folder: string | undefined;
-after(() => closeAll([async () => (await browser)?.close(), () => folder && rmSync(folder, { recursive: true })]));
+after(() => closeAll([...[...browsers.values()].map((browser) => async () => (await browser).close()), () => folder && rmSync(folder, { recursive: true })]));
+
+/** The browser for pages of this kind, started once: Chromium is one for all. */
+export function browserFor(motion: Motion): Promise<Browser> {
+  const kind = isFirefox ? motion : "reduce";
+  const browser = browsers.get(kind) ?? launch([], kind);
+  browsers.set(kind, browser);
+  return browser;
+}
 
 /** The folder, made once: for all files of tests, by scripts/test.mjs. */
 function made(): string {
@@ -151,6 +159,9 @@ export class App {
   }
 }
 
+/** Whether a message of the browser is about the page: Playwright adds a style for each screenshot, which Firefox holds against the page's policy. */
+export const isOfPage = (message: string): boolean => !isFirefox || !message.includes("style-src-elem");
+
 interface InBrowser extends PageOptions {
   /** Messages of the browser that belong to the test. */
   readonly expected?: RegExp;
@@ -162,8 +173,7 @@ interface InBrowser extends PageOptions {
 /** Opens the program in the browser; what it reports that it should not is added to `wrong`. */
 export async function openApp(onClose: (close: Close) => void, { expected = /^$/, prepare, server = host, ...options }: InBrowser = {}): Promise<{ app: App; wrong: () => string[] }> {
   const { address, stop } = await server(made(), onClose);
-  browser ??= launch();
-  const { page, wrong } = await open(await browser, address, onClose, options, async (context) => {
+  const { page, wrong } = await open(await browserFor(options.reducedMotion ?? "reduce"), address, onClose, options, async (context) => {
     // A test cannot choose a file that the browser then lets the page at: without that, files are chosen and saved as in other browsers.
     await context.addInitScript(() => ["showOpenFilePicker", "showSaveFilePicker"].forEach((name) => delete (globalThis as unknown as Record<string, unknown>)[name]));
     await context.addInitScript(() => {
@@ -172,9 +182,7 @@ export async function openApp(onClose: (close: Close) => void, { expected = /^$/
     if (isFirefox) await context.addInitScript(noteDownloads);
     await prepare?.(context);
   });
-  // Playwright adds a style for each screenshot, which Firefox holds against the page's policy.
-  const own = isFirefox ? /style-src-elem/ : /^$/;
-  return { app: new App(page, stop), wrong: () => wrong.filter((one) => !expected.test(one) && !own.test(one)) };
+  return { app: new App(page, stop), wrong: () => wrong.filter((one) => !expected.test(one) && isOfPage(one)) };
 }
 
 /** A test of the program in a browser of its own; it fails at any error or violation of the policy that is not among those that it expects. */

@@ -22,17 +22,19 @@ const PROGRAM = isFirefox ? first(process.env["FIREFOX"], "/usr/bin/firefox-esr"
 /** Why there is no browser; `false` if there is one. */
 export const noBrowser = PROGRAM !== undefined ? false : isFirefox ? "there is no Firefox; FIREFOX names one" : "there is no Chromium; CHROMIUM names one";
 export const OUT = process.env["OKOSHI_OUT"] ?? join("test", "out");
+/** What the browser's user wants of motion. */
+export type Motion = NonNullable<BrowserContextOptions["reducedMotion"]>;
 /** The page that was bundled for the tests. */
 export const DIST = join(OUT, "dist");
 
-/** Starts the browser, with more arguments for Chromium. */
-export async function launch(more: readonly string[] = []): Promise<Browser> {
+/** Starts the browser, with more arguments for Chromium. Firefox's driver cannot ask for less motion page by page. */
+export async function launch(more: readonly string[] = [], motion: Motion = "reduce"): Promise<Browser> {
   mkdirSync(OUT, { recursive: true });
   if (PROGRAM === undefined) throw new Error(String(noBrowser));
   const options = { executablePath: PROGRAM, timeout: LAUNCH_LIMIT };
   if (isFirefox) {
     // Without a window it has no WebGL, which may be software. The list of downloads would take the focus.
-    return firefox.launch({ ...options, channel: "moz-firefox", headless: false, firefoxUserPrefs: { "webgl.force-enabled": true, "ui.prefersReducedMotion": 1, "browser.download.alwaysOpenPanel": false } });
+    return firefox.launch({ ...options, channel: "moz-firefox", headless: false, firefoxUserPrefs: { "webgl.force-enabled": true, "ui.prefersReducedMotion": motion === "reduce" ? 1 : 0, "browser.download.alwaysOpenPanel": false } });
   }
   // WebGL is drawn by the processor here; the page around it is then put together faster without its detour.
   return chromium.launch({ ...options, args: ["--no-sandbox", "--disable-gpu-compositing", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", ...more] });
