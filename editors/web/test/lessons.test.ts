@@ -41,11 +41,13 @@ inBrowser("the program leads to the lessons, and each of their drawings opens by
 inBrowser("each lesson begins a page when it is printed, and what leads back to the program is left out", async ({ page }) => {
   await page.goto(new URL("lessons.html", page.url()).href);
   const headings = await page.locator("section h2").allInnerTexts();
+  const drawings = await page.locator("a.opens").allInnerTexts();
   const back = await page.locator("header").innerText();
   const { text } = await extractText(new Uint8Array(await page.pdf()));
   const pages = text.map((text) => text.replace(/\s+/g, " ").trim());
   const begun = headings.map((heading) => pages.findIndex((text) => text.startsWith(heading)));
   assert.deepEqual(begun.filter((at, lesson) => at <= (begun[lesson - 1] ?? 0)), [], pages.join("\n"));
+  assert.deepEqual(drawings.filter((name) => !pages.some((text) => text.includes(name))), []);
   assert.deepEqual(pages.filter((text) => text.startsWith(back)), []);
 });
 
