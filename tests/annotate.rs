@@ -19,7 +19,8 @@ use okoshi::compile::{Compiled, Options, compile};
 use okoshi::diagnostic::Edit;
 use okoshi::internals::bind::PartKind;
 use okoshi::internals::ide::Analysis;
-use okoshi::internals::ide::changes::{Change, Step, check, edits};
+use okoshi::internals::ide::changes::{Change, Place, Step, check, edits};
+use okoshi::internals::lang::keyword::Keyword;
 
 /// Figures of the examples whose strings name heads, bodies and limbs.
 const FIGURES: &[&str] = &[
@@ -166,6 +167,55 @@ fn figures_get_back_the_names_that_their_strings_gave() {
         hangs * 100 >= PARENTS * hung,
         "{hangs} of {hung} parents are right"
     );
+}
+
+/// What was named moves, and each of its parts can be changed, whatever its shapes were drawn as: both shoes in one path, say.
+#[test]
+fn what_was_named_moves_and_can_be_changed() {
+    let art = [
+        "fluent-dog",
+        "fluent-person-standing",
+        "openclipart-blueman-201",
+    ];
+    let mut pieces = 0;
+    for case in art {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+        let path = path.join(format!("art-{case}/drawing.svg"));
+        let bare = fs::read_to_string(path).expect("a case");
+        let (text, _) = annotated(&bare);
+        let before = Analysis::new(text.as_str(), compiled(&text));
+        let parts = &before.compiled().bindings.parts;
+        let mains = || parts.iter().filter(|part| part.kind == PartKind::Main);
+        let body = mains().find(|part| part.name == "Body").expect("a body");
+        let above = std::iter::successors(Some(body), |part| Some(&parts[part.parent?]));
+        let carrier = above.last().expect("the body itself");
+        let clip = Change::Clip {
+            part: carrier.name.clone(),
+            clip: 0,
+            motion: Some(String::new()),
+            limited: None,
+            held: None,
+            place: Place::Ask,
+        };
+        let set = mains().map(|part| Change::Set {
+            part: part.name.clone(),
+            attribute: Keyword::Offset,
+            value: "1".to_owned(),
+            place: Place::Ask,
+        });
+        for change in set.chain([clip]) {
+            let edits = edits(&before, &change)
+                .unwrap_or_else(|refusal| panic!("{case}: {change:?}: {refusal}"));
+            let step = Step::new(change.clone(), &text, &edits);
+            let after = Analysis::new(step.after().clone(), compiled(step.after()));
+            if let Err(refusal) = check(&before, &after, &change) {
+                panic!("{case}: {change:?}: {refusal}");
+            }
+            assert_eq!(after.compiled().bindings.parts.len(), parts.len());
+        }
+        pieces += mains().filter(|part| part.name.ends_with("-2")).count();
+    }
+    assert!(pieces >= 2, "only {pieces} second pieces of paths");
 }
 
 /// A bare drawing with labels for some of its shapes, by their numbers in the file.

@@ -54,7 +54,7 @@ fn value(keyword: Keyword) -> &'static str {
     }
 }
 
-/// What a drawing says about its parts, without the attribute `but` of the part `of`.
+/// What a drawing says about its parts, without the attribute `but` of a part and of the other islands of its path, which share it.
 fn described(compiled: &Compiled, but: Option<(usize, Keyword)>) -> Vec<String> {
     let bindings = &compiled.bindings;
     let parts = bindings.parts.iter_enumerated();
@@ -63,8 +63,15 @@ fn described(compiled: &Compiled, but: Option<(usize, Keyword)>) -> Vec<String> 
             .parent
             .map(|parent| usize::from(bindings.parts[parent].shape));
         let attributes = bindings.resolved(&compiled.drawing, index).into_iter();
+        let is_island_of = |other: usize| {
+            let mut parts = bindings.parts.iter().skip(other);
+            parts.next().is_some_and(|other| {
+                other.shape == part.shape && !other.is_stroke && !part.is_stroke
+            })
+        };
         let attributes = attributes.filter(|one| {
-            let changed = but.filter(|(part, _)| *part == usize::from(index));
+            let changed =
+                but.filter(|(other, _)| is_island_of(*other) || *other == usize::from(index));
             changed.is_none_or(|(_, keyword)| one.keyword != keyword)
         });
         let attributes: Vec<String> = attributes
@@ -527,6 +534,25 @@ fn assert_counts(counts: &Counts, made: &[(&str, usize)], restored: usize) {
         "only {} changes were taken back",
         counts.restored
     );
+}
+
+/// Each of two limbs that are one path is posed by a copy of the path that is turned about its own joint.
+#[test]
+fn islands_of_a_path_are_posed_one_by_one() {
+    let mut counts = Counts::default();
+    for case in ["pairs-in-one-path", "pairs-with-attributes"] {
+        let path = format!("tests/cases/{case}/drawing.svg");
+        let drawing = Drawing::read(Path::new(&path)).expect("a drawing");
+        let parts = &drawing.before.compiled().bindings.parts;
+        let mains = parts.iter().filter(|part| part.kind == PartKind::Main);
+        for at in 0..mains.count() {
+            for change in drawing.posed(at) {
+                made(&drawing, &change, &mut counts);
+            }
+        }
+    }
+    let made = [("keep-pose", 12), ("keep-movement", 12)];
+    assert_counts(&counts, &made, 0);
 }
 
 #[test]

@@ -10,14 +10,14 @@ use crate::anatomy::{self, Role, Term};
 use crate::geometry::area;
 use crate::svg::Drawing;
 
-/// The share of its border that is drawn as curves, at least, of a part of a body that is inflated. What is drawn with straight lines
-/// alone is meant to have edges, but for clothes on a body that has none.
+/// The share of its border that is drawn as curves, at least, of a part of a body that is rounded by itself.
 const CURVED: f64 = 0.15;
-/// The share of a body that is rounded, by area, from which on all its clothes are.
+/// The share of a body that is rounded, by area and without its clothes, from which on all of it is. What is drawn with straight lines
+/// alone is meant to have edges only where most of the body has them, as a robot's.
 const MOSTLY: f64 = 0.5;
 
-/// Inflates the parts of bodies that would be plates because no string says `Shape` and most of their border is straight: trousers,
-/// a horse with straight legs, a jacket below a round head.
+/// Inflates the parts of bodies that would be plates because no string says `Shape` and most of their border is straight: a horse with
+/// straight legs; trousers and a jacket below a round head.
 pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
     if !matched.is_first_look {
         return;
@@ -39,11 +39,13 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
     }
     let main = |part: PartId| tree.nodes.main[part];
     let roots = extents::roots(matched.parts.len(), main, |part| tree.parents[part]);
-    let is_clothes = |part: &PartId| is_worn(&anatomy::terms(&tree.names[*part].name));
-    let (clothes, below): (Vec<PartId>, Vec<PartId>) = of_body.into_iter().partition(is_clothes);
+    let terms = |part: PartId| anatomy::terms(&tree.names[part].name);
+    let is_clothes = |part: PartId| is_worn(&terms(part));
+    // A flat sole is what a figure stands on.
+    let is_foot = |part: PartId| Role::of(&terms(part)) == Some(Role::Foot) && !is_clothes(part);
     // Per root the areas of what is rounded and of all of the body below its clothes.
     let mut areas: TiVec<PartId, [f64; 2]> = ti_vec![[0.0; 2]; matched.parts.len()];
-    for index in below {
+    for index in of_body.iter().copied().filter(|part| !is_clothes(*part)) {
         let part = &matched.parts[index];
         let area = area(&part.outline);
         let [rounded, all] = &mut areas[roots[index]];
@@ -52,7 +54,7 @@ pub(super) fn soften(drawing: &Drawing, matched: &mut Matched, tree: &Tree) {
             *rounded += area;
         }
     }
-    for part in clothes {
+    for part in of_body.into_iter().filter(|part| !is_foot(*part)) {
         let [rounded, all] = areas[roots[part]];
         matched.parts[part].is_balloon |= all > 0.0 && rounded >= MOSTLY * all;
     }

@@ -113,7 +113,7 @@ fn assembled(matched: Matched, attributes: PartAttributes, tree: Tree) -> Bindin
         is_too_fine: false,
         measure: tree.axes.turned(index).unwrap_or(part.measure),
         of_group: tree.axes.of_group(index).map(Box::new),
-        string: part.string,
+        string: part.string.or(part.described_by),
         legend: attributes.legend_of_part[index],
         parent: tree.parents[index],
         main: tree.nodes.main[index],

@@ -1,9 +1,10 @@
 //! Key poses: which part each copy in a pose layer is one of, and how it is moved.
 
 use glam::DAffine2;
+use rustc_hash::FxHashSet;
 
 use super::attributes::ClipLimits;
-use super::bindings::{Bindings, PartId, PartKind};
+use super::bindings::{Bindings, Part, PartId, PartKind};
 use super::matching::group_of;
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{Similarity, between_points, between_rings, bounds_of};
@@ -178,11 +179,20 @@ impl Layer<'_> {
         self.name_by_texts(&copies, &mut originals);
         let mut posed: Vec<(PosedPart, bool)> = Vec::new();
         let mut unknown = Vec::new();
+        // Where a clone shows a shape, the rest of it are arrowheads and the like.
+        let showing = copies.iter().filter(|copy| copy.shows.is_some());
+        let showing: FxHashSet<Span> = showing.map(|copy| copy.element.span).collect();
         for (copy, original) in copies.iter().zip(originals) {
             let Original::Part(part, shape) = original else {
-                unknown.push(*copy);
+                if !showing.contains(&copy.element.span) {
+                    unknown.push(*copy);
+                }
                 continue;
             };
+            let fitting = self.fit(shape, copy);
+            let part = fitting
+                .as_ref()
+                .map_or(part, |found| self.island(part, found));
             let main = self.bindings.parts[part].main;
             let is_main = part == main;
             // A detail that is cloned with its part says nothing more.
@@ -190,7 +200,7 @@ impl Layer<'_> {
             if known.is_some_and(|known| posed[known].1 || !is_main) {
                 continue;
             }
-            let Some(found) = self.fit(shape, copy) else {
+            let Some(found) = fitting else {
                 continue;
             };
             if !self.is_usable(copy, main, &found, diagnostics) {
@@ -224,6 +234,30 @@ impl Layer<'_> {
         let mut parts: Vec<PosedPart> = posed.into_iter().map(|(posed, _)| posed).collect();
         parts.sort_by_key(|posed| posed.part);
         parts
+    }
+
+    /// The island that a copy of a whole path turns: of several, the one whose joint, or that of what it is a piece of, stays where it is.
+    fn island(&self, part: PartId, found: &Similarity) -> PartId {
+        let parts = &self.bindings.parts;
+        let own = &parts[part];
+        let is_island = |other: &Part| {
+            let is_built = matches!(other.kind, PartKind::Main | PartKind::Sub);
+            other.shape == own.shape && !other.is_stroke && is_built
+        };
+        if !is_island(own) {
+            return part;
+        }
+        let moved = found.rigid();
+        let off = |part: PartId| {
+            let joint = parts[parts[part].main].origin;
+            moved.transform_point2(joint).distance(joint)
+        };
+        // They come one after the other.
+        let islands = parts.iter_enumerated().skip(part.into());
+        let islands = islands.take_while(|(_, other)| other.shape == own.shape);
+        let islands = islands.filter(|(_, other)| is_island(other));
+        let nearest = islands.min_by(|(a, _), (b, _)| off(*a).total_cmp(&off(*b)));
+        nearest.map_or(part, |(part, _)| part)
     }
 
     /// Whether a copy shows its part in another place; reports what is odd about it.

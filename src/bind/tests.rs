@@ -231,7 +231,10 @@ fn settings_of_the_drawing_have_defaults() {
     assert_eq!(default.axes, DQuat::IDENTITY);
     assert_eq!(default.ground, None);
     assert_eq!(default.bind, BindRule::Meant);
-    assert_eq!(default.strokes, Strokes::Visible);
+    // A description tells nothing of other shapes; a text does.
+    assert_eq!(default.strokes, Strokes::All);
+    let named = settings(&text(20, 20, "B"));
+    assert_eq!(named.strokes, Strokes::Visible);
     let said = settings(&text(100, 100, "%Shape round"));
     assert_eq!(said.strokes, Strokes::Ink);
     assert_eq!(

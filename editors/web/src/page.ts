@@ -123,7 +123,7 @@ export function start(page: HTMLElement, host: Host): Shown {
     handles.show(form);
     sheet.show(form);
   };
-  place.append(handles.element, new EditBar(editing, state, viewer).element);
+  place.append(handles.element, new EditBar(editing, state, viewer, commands).element);
   place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer, exports, editing, () => drawing.begin()).element, findings.element, side.opener);
   const toolbar = new Toolbar(viewer, commands, exports, paper);
   const gallery = new Gallery(state, host);

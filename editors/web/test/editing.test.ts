@@ -450,24 +450,48 @@ for (const colorScheme of ["light", "dark"] as const) {
 
 const BARE = join("..", "..", "tests", "cases", "art-fluent-person-standing", "drawing.svg");
 
-edit("a drawing without names is named in one step, and undo takes all names back", async (edited) => {
+edit("a drawing without names is named in one step and moves by another, and undo takes all names back", async (edited) => {
   const { page } = edited;
   const before = source(BARE);
-  await page.getByRole("button", { name: "Edit" }).click();
-  await page.getByText("Nothing here has a name.").waitFor();
+  // Before anybody has heard of editing.
+  await page.getByText("Nothing here has a name yet.").waitFor();
+  assert.equal(await page.getByRole("button", { name: "Edit" }).getAttribute("aria-pressed"), "false");
   await page.getByRole("button", { name: "Name the parts for me" }).click();
   await page.locator("[data-part=Head]").waitFor();
-  await page.getByText("Nothing here has a name.").waitFor({ state: "hidden" });
+  await page.getByText("Nothing here has a name").waitFor({ state: "hidden" });
   await picture(page, "edit-named");
   await edited.matches(/="Body"/);
+  await page.getByRole("button", { name: "Let it move" }).click();
+  await page.locator(".clips").waitFor();
+  await page.getByRole("button", { name: "Let it move" }).waitFor({ state: "hidden" });
+  await edited.matches(/Motion/);
+  await picture(page, "edit-moves");
+  await page.getByRole("button", { name: /^Undo/ }).click();
+  await page.locator(".clips").waitFor({ state: "hidden" });
+  await page.getByRole("button", { name: "Let it move" }).waitFor();
   await page.getByRole("button", { name: /^Undo/ }).click();
   await edited.has(before, "undo");
   await page.getByText("Nothing here has a name.").waitFor();
 }, { drawing: BARE });
 
+edit("the offer to name the parts is closed for a drawing, and gives way to posing", async (edited) => {
+  const { page } = edited;
+  const offer = page.getByRole("button", { name: "Name the parts for me" });
+  await offer.waitFor();
+  await page.getByRole("button", { name: "Pose", exact: true }).click();
+  await offer.waitFor({ state: "hidden" });
+  await page.getByRole("button", { name: "Leave posing" }).click();
+  await page.getByRole("button", { name: "Name them myself" }).click();
+  await page.getByText("Click a part and name it, or let okoshi do it.").waitFor();
+  assert.equal(await page.getByRole("button", { name: "Edit", exact: true }).getAttribute("aria-pressed"), "true");
+  await page.getByRole("button", { name: "Close the offer" }).click();
+  await offer.waitFor({ state: "hidden" });
+  await page.getByRole("button", { name: "Stop editing" }).click();
+  await page.locator(".editbar").waitFor({ state: "hidden" });
+}, { drawing: BARE });
+
 edit("the offer to name the parts fits on a phone", async (edited) => {
   const { page } = edited;
-  await page.getByRole("button", { name: "Edit" }).click();
   const offer = page.getByRole("button", { name: "Name the parts for me" });
   await offer.waitFor();
   assert.deepEqual(await overlaps(page), []);
@@ -477,6 +501,8 @@ edit("the offer to name the parts fits on a phone", async (edited) => {
   await picture(page, "edit-nameless-phone");
   await offer.click();
   await offer.waitFor({ state: "hidden" });
+  await page.getByRole("button", { name: "Let it move" }).waitFor();
+  assert.deepEqual(await overlaps(page), []);
   await picture(page, "edit-named-phone");
   await edited.matches(/="Head"/);
 }, { drawing: BARE, viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });

@@ -217,7 +217,7 @@ impl PartAttributes {
         let (part, legend) = (&matched.parts[part], self.legend_of_part[part]);
         let layer = part.stands_in.map(|layer| matched.layers[layer].string);
         setters
-            .attributes(part.string, legend)
+            .attributes(part.attributes_from(), legend)
             .in_layer(layer.map(|string| setters.settings_of(string)))
             .of_form(part.is_balloon, part.plate)
     }

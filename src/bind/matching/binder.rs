@@ -141,10 +141,34 @@ impl<'a> Binder<'a> {
                     _ => self.back_most[group],
                 },
             };
-            if let Some(part) = part {
+            if let Some(part) = part
+                && !self.describe_islands(string, part)
+            {
                 self.bind(string, part, BoundBy::Desc);
             }
         }
+    }
+
+    /// Whether a description is that of a shape whose islands are parts, of which a part is the first: then it is about all of them.
+    fn describe_islands(&mut self, string: StringId, first: PartId) -> bool {
+        let StringHolder::Shape(shape) = self.strings[string].holder else {
+            return false;
+        };
+        // They come one after the other. A shape with an outline has none.
+        let is_island = |part: &&mut MatchedPart| part.shape == shape && !part.is_stroke;
+        let islands = self.parts.raw[first.into()..].iter_mut();
+        let islands: Vec<&mut MatchedPart> = islands.take_while(is_island).collect();
+        if islands.len() < 2 {
+            return false;
+        }
+        for island in islands {
+            island.described_by = Some(string);
+        }
+        self.bound[string].binding = Some(Binding {
+            part: first,
+            by: BoundBy::Desc,
+        });
+        true
     }
 
     /// Rule 2: strings in a group belong to the back-most part of the innermost group that holds a part.
@@ -406,7 +430,9 @@ impl<'a> Binder<'a> {
     }
 
     fn bind(&mut self, string: StringId, part: PartId, by: BoundBy) {
-        if let Some(other) = self.parts[part].string {
+        // Bound in any case, so that it is not reported as unbound too.
+        self.bound[string].binding = Some(Binding { part, by });
+        if let Some(other) = self.parts[part].attributes_from() {
             let other_span = self.strings[other].text.whole();
             let shape = self.parts[part].shape;
             let element = &self.drawing.shapes[shape].element;
@@ -420,12 +446,9 @@ impl<'a> Binder<'a> {
                     .related(element.span, "the part")
                     .help("delete one of them, or move it out of the group"),
             );
-            // Bound all the same, so that it is not reported as unbound too.
-            self.bound[string].binding = Some(Binding { part, by });
             return;
         }
         self.parts[part].string = Some(string);
-        self.bound[string].binding = Some(Binding { part, by });
     }
 }
 

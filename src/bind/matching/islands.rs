@@ -1,13 +1,13 @@
 //! Pairs that are one shape: both arms, shoes or wheels in one path, as programs merge paths of one colour.
 //!
-//! Each of them moves on its own, so each island of such a shape is a part where no string names parts. What lies on several of
-//! them, such as both cuffs, is split likewise.
+//! Each of them moves on its own, so each island of such a shape is a part where no text names parts, and the description of the shape
+//! does not say which part it is: one that says attributes alone is about all of its islands. What lies on several of them, such as both cuffs, is split likewise.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
-use typed_index_collections::TiVec;
+use typed_index_collections::{TiSlice, TiVec};
 
 use super::areas::Area;
 use super::node_groups::PartSource;
@@ -31,15 +31,19 @@ const MOST_PIECES: usize = 64;
 /// The most points of a border that are looked at.
 const MOST_POINTS: usize = 16;
 
-/// Splits the pairs of a drawing, and what lies on several of them. The islands of a shape come one after the other.
+/// Splits the pairs of a drawing, and what lies on several of them, but for shapes whose description says which part they are. The
+/// islands of a shape come one after the other.
 pub(super) fn split(
     drawing: &Drawing,
     drawn: Vec<(PartSource, Area)>,
+    is_described: &TiSlice<ShapeId, bool>,
     memo: &Memo,
 ) -> Vec<(PartSource, Area)> {
     let shapes = drawing.shapes.iter();
     let is_pair: TiVec<ShapeId, bool> = shapes.map(names_a_pair).collect();
-    let can_split = |source: &PartSource| is_splittable(&drawing.shapes[source.shape]);
+    let can_split = |source: &PartSource| {
+        !is_described[source.shape] && is_splittable(&drawing.shapes[source.shape])
+    };
     let drawn = replaced(
         drawn,
         |source, _| (is_pair[source.shape] && can_split(source)).then_some(()),

@@ -18,7 +18,10 @@ pub(super) fn classify(
 ) -> TiVec<PartId, PartKind> {
     let kind = |(index, part): (PartId, &MatchedPart)| {
         let is_main = part.main == index;
-        match part.string.map(|string| &strings[string].annotation) {
+        match part
+            .attributes_from()
+            .map(|string| &strings[string].annotation)
+        {
             None if backgrounds[part.shape] => PartKind::Unused,
             Some(Annotation::Unused) => PartKind::Unused,
             Some(Annotation::Legend(_)) if is_main => PartKind::Legend,
@@ -42,7 +45,8 @@ pub(super) fn classify(
             if layers.of_props(group).is_some() && matches!(kind, PartKind::Main | PartKind::Sub) {
                 *kind = PartKind::Prop;
             }
-            let unbound = part.string.is_none() && parts[part.main].string.is_none();
+            let unbound =
+                part.attributes_from().is_none() && parts[part.main].attributes_from().is_none();
             if in_layer(LayerKind::View) && *kind != PartKind::Unused {
                 *kind = PartKind::Region;
             } else if unbound && in_layer(LayerKind::Tiles) {

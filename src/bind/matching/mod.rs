@@ -112,8 +112,9 @@ pub(in crate::bind) fn find(
     let drawn = node_groups.sources.iter().copied().zip(areas);
     let drawn = drawn.filter_map(|(source, area)| Some((source, area?)));
     let mut drawn: Vec<(PartSource, Area)> = drawn.collect();
-    if !strings::mean_parts(&read.all) {
-        drawn = islands::split(drawing, drawn, memo);
+    if !strings::texts_mean_parts(&read.all) {
+        let is_described = strings::described(drawing, &read.all);
+        drawn = islands::split(drawing, drawn, &is_described, memo);
     }
     let parts = ink::attach(drawn);
     let binder = Binder::new(

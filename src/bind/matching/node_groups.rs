@@ -18,7 +18,7 @@ use super::parts::MatchedPart;
 use super::props;
 use super::settings::Strokes;
 use super::stacking::ground_count;
-use super::strings::{ReadString, mean_parts};
+use super::strings::{ReadString, texts_mean_parts};
 use super::wrappers::{self, Wrappers};
 use crate::bind::bindings::{NamedBy, PartId, StringHolder, StringId};
 use crate::bind::names::of_element;
@@ -129,7 +129,7 @@ impl NodeGroups {
             described: described_lines(drawing, strings),
             named: self.named_lines(drawing, strings),
             leaders,
-            has_guides: mean_parts(strings),
+            has_guides: texts_mean_parts(strings),
         };
         let backgrounds = &self.backgrounds;
         let prop_of = |shape: ShapeId| {
@@ -162,7 +162,7 @@ impl NodeGroups {
         strings: &TiSlice<StringId, ReadString>,
     ) -> TiVec<ShapeId, bool> {
         let filled = holding(drawing, wrappers::is_filled);
-        let ids_count = !mean_parts(strings);
+        let ids_count = !texts_mean_parts(strings);
         let attached_to = strings
             .iter()
             .filter_map(|string| match &string.annotation {

@@ -35,6 +35,9 @@ pub(in crate::bind) struct MatchedPart {
     pub(in crate::bind) stands_in: Option<LayerId>,
     /// Its string.
     pub(in crate::bind) string: Option<StringId>,
+    /// For an island, the description of its shape, which says attributes of all islands. What each is called and hangs on is found as
+    /// without a string.
+    pub(in crate::bind) described_by: Option<StringId>,
     /// The main part candidate of its node, which may be itself.
     pub(in crate::bind) main: PartId,
     /// The group whose content shares its node.
@@ -66,10 +69,16 @@ impl MatchedPart {
             plate: None,
             stands_in: None,
             string: None,
+            described_by: None,
             main: index,
             node_group: None,
             source: source.index,
         }
+    }
+
+    /// The string that says its attributes.
+    pub(in crate::bind) fn attributes_from(&self) -> Option<StringId> {
+        self.string.or(self.described_by)
     }
 
     /// Its paint: that of the fill or of the stroke.

@@ -62,7 +62,7 @@ pub(super) fn join_loose(
         .collect();
     for (place, index) in loose.iter().enumerate() {
         let part = &parts[*index];
-        let Some(foot) = foot([&*part.outline]).filter(|_| part.string.is_none()) else {
+        let Some(foot) = foot([&*part.outline]).filter(|_| part.attributes_from().is_none()) else {
             continue;
         };
         let group = drawing.shapes[part.shape].group;

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use typed_index_collections::{TiSlice, TiVec};
+use typed_index_collections::{TiSlice, TiVec, ti_vec};
 
 use super::bare_names;
 use super::layers::LayerKind;
@@ -16,7 +16,7 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::Setting;
 use crate::lang::{self, variables::Variables};
 use crate::source::{Span, Text};
-use crate::svg::{Drawing, GroupKind, Label};
+use crate::svg::{Drawing, GroupKind, Label, ShapeId};
 use crate::threads::GRAIN;
 
 /// What the texts and descriptions of a drawing are taken for.
@@ -64,6 +64,14 @@ impl ReadString {
     pub(super) fn wants_part(&self) -> bool {
         wants_part(&self.annotation)
     }
+
+    /// Whether it says neither which part it is about nor what this hangs on, as the description of a part may.
+    pub(super) fn says_attributes_alone(&self) -> bool {
+        matches!(
+            &self.annotation,
+            Annotation::Part(part) if part.name.is_none() && part.parent.is_none()
+        )
+    }
 }
 
 /// Whether a string belongs to a part, rather than to a group or to the whole drawing.
@@ -81,9 +89,27 @@ pub(in crate::bind) fn wants_part(annotation: &Annotation) -> bool {
     }
 }
 
-/// Whether a string belongs to a part.
-pub(super) fn mean_parts(strings: &TiSlice<StringId, ReadString>) -> bool {
-    strings.iter().any(ReadString::wants_part)
+/// Whether a text on the page belongs to a part: then a person names the parts by texts, and what has none is looked at in another
+/// way. A description is about its own element, and tells nothing of others.
+pub(super) fn texts_mean_parts(strings: &TiSlice<StringId, ReadString>) -> bool {
+    let is_text = |string: &ReadString| matches!(string.holder, StringHolder::Label(_));
+    strings
+        .iter()
+        .any(|string| is_text(string) && string.wants_part())
+}
+
+/// Per shape, whether its own description says which part it is: its name, or what it hangs on.
+pub(super) fn described(
+    drawing: &Drawing,
+    strings: &TiSlice<StringId, ReadString>,
+) -> TiVec<ShapeId, bool> {
+    let mut described = ti_vec![false; drawing.shapes.len()];
+    for string in strings.iter().filter(|string| string.wants_part()) {
+        if let StringHolder::Shape(shape) = string.holder {
+            described[shape] |= !string.says_attributes_alone();
+        }
+    }
+    described
 }
 
 /// Whether a string is about the whole drawing: it says nothing about what other texts and descriptions are.
@@ -197,7 +223,7 @@ pub(super) fn read(drawing: &Drawing, texts: Texts, diagnostics: &mut Vec<Diagno
         attributes.any(|attribute| attribute.keyword == Keyword::Shape)
     };
     let is_first_look = !all.iter().any(says_shape);
-    let strokes = match (is_first_look, mean_parts(&all)) {
+    let strokes = match (is_first_look, texts_mean_parts(&all)) {
         (false, _) => Strokes::Ink,
         (true, true) => Strokes::Visible,
         (true, false) => Strokes::All,

@@ -7,7 +7,10 @@ use crate::svg::Drawing;
 /// Reports the backgrounds that no string names.
 pub(super) fn report(drawing: &Drawing, matched: &Matched, diagnostics: &mut Vec<Diagnostic>) {
     for part in &matched.parts {
-        if !matched.node_groups.backgrounds[part.shape] || part.string.is_some() || part.is_stroke {
+        if !matched.node_groups.backgrounds[part.shape]
+            || part.attributes_from().is_some()
+            || part.is_stroke
+        {
             continue;
         }
         let element = &drawing.shapes[part.shape].element;

@@ -159,7 +159,7 @@ impl AllTaken {
         let mut is_part: TiVec<ShapeId, bool> = ti_vec![false; drawing.shapes.len()];
         for (index, part) in matched.parts.iter_enumerated() {
             is_part[part.shape] = true;
-            if part.string.is_none() && part.main != index {
+            if part.attributes_from().is_none() && part.main != index {
                 let main = &matched.parts[part.main];
                 subs[drawing.common_group(part.shape, main.shape)] += 1;
             }

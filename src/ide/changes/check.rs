@@ -170,10 +170,13 @@ fn compare(
         return Some("the parent");
     }
     let set = changed_keyword(before, old, change);
+    let is_renamed = matches!(change, Change::Name { .. });
     let values = |analysis: &Analysis| {
         let resolved = analysis.bindings().resolved(analysis.drawing(), index);
         let others = resolved.into_iter().filter(|one| Some(one.keyword) != set);
         let others = others.filter(|one| !depends(one.keyword, change));
+        // What nobody has said may follow from names.
+        let others = others.filter(|one| one.string.is_some() || !is_renamed);
         let all: Vec<_> = others
             .map(|one| (one.keyword, one.value, one.from))
             .collect();

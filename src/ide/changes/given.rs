@@ -46,7 +46,12 @@ fn label_or_string(
 impl Analysis {
     /// The edit that gives a part without a string one that says `attributes`, and nothing else that was not so before.
     pub(super) fn given(&self, part: PartId, attributes: &str) -> Result<Vec<Edit>, Refusal> {
-        let head = self.head_and_parent(part);
+        let head = if self.is_island(part) {
+            // Its name and what it hangs on are found by rule, whatever attributes are said of its path.
+            String::new()
+        } else {
+            self.head_and_parent(part)
+        };
         self.describe_with(part, &format!("{head}${attributes}"))
     }
 
@@ -73,6 +78,26 @@ impl Analysis {
             }
             None => head,
         }
+    }
+
+    /// Whether a part is one of several islands of its shape.
+    fn is_island(&self, part: PartId) -> bool {
+        let parts = &self.bindings().parts;
+        let of_shape = parts.iter().filter(|other| {
+            other.shape == parts[part].shape && !other.is_stroke && other.host.is_none()
+        });
+        !parts[part].is_stroke && of_shape.count() > 1
+    }
+
+    /// Refuses what cannot be said of one island alone.
+    fn is_whole(&self, part: PartId) -> Result<(), Refusal> {
+        if !self.is_island(part) {
+            return Ok(());
+        }
+        let name = self.bindings().describe(self.drawing(), part);
+        Err(Refusal::new(format!(
+            "{name} is one of several pieces of one path: break the path apart in the drawing first (in Inkscape: Path → Break Apart)"
+        )))
     }
 
     /// The edit that gives a part a description.
@@ -122,6 +147,7 @@ impl Analysis {
         if name == old {
             return Ok(vec![]);
         }
+        self.is_whole(index)?;
         let part = &self.bindings().parts[index];
         let is_named = part.string.is_some()
             || self
@@ -176,6 +202,7 @@ impl Analysis {
                 parent.unwrap_or_default()
             )));
         }
+        self.is_whole(index)?;
         let written = quoted_if_needed(parent.unwrap_or(ROOT), NamePlace::Head);
         let Some(string) = parts[index].string else {
             let head = self.head(index);
@@ -230,6 +257,7 @@ impl Analysis {
             }
             return Err(refusal);
         }
+        self.is_whole(index)?;
         let pieces = parts.iter().filter(|part| part.main == index).count();
         if pieces > 1 {
             return Err(Refusal::new(format!(
