@@ -1,7 +1,8 @@
 //! Pairs that are one shape: both arms, shoes or wheels in one path, as programs merge paths of one colour.
 //!
 //! Each of them moves on its own, so each island of such a shape is a part where no text names parts, and the description of the shape
-//! does not say which part it is: one that says attributes alone is about all of its islands. What lies on several of them, such as both cuffs, is split likewise.
+//! does not say which part it is: one that says attributes alone is about all of its islands. What lies on several of them, such as both
+//! cuffs, is split likewise.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
