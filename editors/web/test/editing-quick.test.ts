@@ -137,6 +137,8 @@ edit("a change that is built before the page knows that it is made is shown as t
   let tries = 0;
   page.on("response", (response) => response.url().endsWith("/tries") && tries++);
   await page.route("**/changes", async (route) => {
+    // What is asked for once the change is made is asked for too late, and would not be tried again.
+    await page.waitForFunction(() => document.querySelector("canvas")!.dataset["tried"] !== "");
     const response = await route.fetch();
     await page.waitForFunction(() => document.querySelector("canvas")!.dataset["revision"] === "2");
     // What was tried is tried again in the new build.
