@@ -360,6 +360,18 @@ impl Bindings {
         parts_of_nodes
     }
 
+    /// The islands of the path that a part fills, in their order: more than the part itself if the path consists of several pieces. What
+    /// is a line has none but itself.
+    pub(crate) fn islands(&self, part: PartId) -> impl Iterator<Item = PartId> {
+        let is_fill = |one: &Part| !one.is_stroke && one.host.is_none();
+        let own = &self.parts[part];
+        let is_island = move |index: PartId, other: &Part| {
+            index == part || (is_fill(own) && is_fill(other) && other.shape == own.shape)
+        };
+        let parts = self.parts.iter_enumerated();
+        parts.filter_map(move |(index, other)| is_island(index, other).then_some(index))
+    }
+
     /// The main part that is the parent of a layer; `None` for a child of the root.
     pub fn parent_of_layer(&self, layer: LayerId) -> Option<PartId> {
         self.parent_of_layer[layer]

@@ -4,7 +4,7 @@ use glam::DAffine2;
 use rustc_hash::FxHashSet;
 
 use super::attributes::ClipLimits;
-use super::bindings::{Bindings, Part, PartId, PartKind};
+use super::bindings::{Bindings, PartId, PartKind};
 use super::matching::group_of;
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{Similarity, between_points, between_rings, bounds_of};
@@ -239,25 +239,16 @@ impl Layer<'_> {
     /// The island that a copy of a whole path turns: of several, the one whose joint, or that of what it is a piece of, stays where it is.
     fn island(&self, part: PartId, found: &Similarity) -> PartId {
         let parts = &self.bindings.parts;
-        let own = &parts[part];
-        let is_island = |other: &Part| {
-            let is_built = matches!(other.kind, PartKind::Main | PartKind::Sub);
-            other.shape == own.shape && !other.is_stroke && is_built
-        };
-        if !is_island(own) {
-            return part;
-        }
         let moved = found.rigid();
         let off = |part: PartId| {
             let joint = parts[parts[part].main].origin;
             moved.transform_point2(joint).distance(joint)
         };
-        // They come one after the other.
-        let islands = parts.iter_enumerated().skip(part.into());
-        let islands = islands.take_while(|(_, other)| other.shape == own.shape);
-        let islands = islands.filter(|(_, other)| is_island(other));
-        let nearest = islands.min_by(|(a, _), (b, _)| off(*a).total_cmp(&off(*b)));
-        nearest.map_or(part, |(part, _)| part)
+        let islands = self.bindings.islands(part);
+        let islands =
+            islands.filter(|one| matches!(parts[*one].kind, PartKind::Main | PartKind::Sub));
+        let nearest = islands.min_by(|a, b| off(*a).total_cmp(&off(*b)));
+        nearest.unwrap_or(part)
     }
 
     /// Whether a copy shows its part in another place; reports what is odd about it.

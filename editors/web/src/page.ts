@@ -10,6 +10,7 @@ import { Editing } from "./editing/editing";
 import { FormPanel } from "./editing/form";
 import { Handles } from "./editing/handles";
 import { HangingByDrag } from "./editing/hanging";
+import { Offers } from "./editing/offers";
 import { SheetEditor } from "./editing/sheet";
 import { Exports } from "./exports";
 import type { Host } from "./host/host";
@@ -123,7 +124,7 @@ export function start(page: HTMLElement, host: Host): Shown {
     handles.show(form);
     sheet.show(form);
   };
-  place.append(handles.element, new EditBar(editing, state, viewer, commands).element);
+  place.append(handles.element, new EditBar(editing, state, viewer).element, new Offers(editing, state, commands, viewer.canvas).element);
   place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer, exports, editing, () => drawing.begin()).element, findings.element, side.opener);
   const toolbar = new Toolbar(viewer, commands, exports, paper);
   const gallery = new Gallery(state, host);

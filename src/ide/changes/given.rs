@@ -80,13 +80,9 @@ impl Analysis {
         }
     }
 
-    /// Whether a part is one of several islands of its shape.
+    /// Whether a part is one of several islands of its path.
     fn is_island(&self, part: PartId) -> bool {
-        let parts = &self.bindings().parts;
-        let of_shape = parts.iter().filter(|other| {
-            other.shape == parts[part].shape && !other.is_stroke && other.host.is_none()
-        });
-        !parts[part].is_stroke && of_shape.count() > 1
+        self.bindings().islands(part).nth(1).is_some()
     }
 
     /// Refuses what cannot be said of one island alone.

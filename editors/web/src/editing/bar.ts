@@ -1,45 +1,36 @@
-// The bar over the model: what is offered for a drawing that does not move yet, and while it is edited undo, redo, and why something was not
-// done.
+// The bar over the model while it is edited: undo, redo, and why something was not done.
 
 import { Redo2, Undo2, X } from "lucide";
-import type { Commands } from "../commands";
 import { button, fill, h, inCode, setHidden } from "../dom";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
 import type { Editing } from "./editing";
-import { Offers } from "./offers";
 
 export class EditBar {
   readonly element = h("section", { class: "editbar", hidden: true, attributes: { "aria-label": "Editing" } });
   private readonly words = h("p", { class: "edit-words", attributes: { role: "status" } });
   private readonly refused = h("div", { class: "refusal", hidden: true, attributes: { role: "alert" } });
-  private readonly row: HTMLElement;
-  private readonly offers: Offers;
   private readonly undo: HTMLButtonElement;
   private readonly redo: HTMLButtonElement;
 
-  constructor(private readonly editing: Editing, private readonly state: State, private readonly viewer: Viewer, private readonly commands: Commands) {
+  constructor(private readonly editing: Editing, private readonly state: State, private readonly viewer: Viewer) {
     this.undo = button({ icon: Undo2, label: "Undo", press: () => editing.undo() });
     this.redo = button({ icon: Redo2, label: "Redo", press: () => editing.redo() });
-    this.row = h("div", { class: "edit-row" }, this.words, this.undo, this.redo, button({ icon: X, label: "Stop editing", key: "W", press: () => editing.toggle() }));
-    this.offers = new Offers(editing, state, viewer.canvas, () => this.draw());
-    fill(this.element, this.row, this.offers.element, this.refused);
+    const row = h("div", { class: "edit-row" }, this.words, this.undo, this.redo, button({ icon: X, label: "Stop editing", key: "W", press: () => editing.toggle() }));
+    fill(this.element, row, this.refused);
     this.refused.addEventListener("keydown", (event) => {
       if (event.key !== "Escape") return;
       event.preventDefault();
       this.dismiss();
     });
     editing.listen(["mode", "done", "picking"], () => this.draw());
-    commands.onMode(() => this.draw());
-    state.on(["steps", "selection", "build", "current"], () => this.draw());
+    state.on(["steps", "selection"], () => this.draw());
     this.draw();
   }
 
   private draw(): void {
     const { editing } = this;
-    this.offers.draw(editing.isOn || !this.commands.isPosing);
-    setHidden(this.element, !editing.isOn && this.offers.now === null, this.viewer.canvas);
-    setHidden(this.row, !editing.isOn, this.viewer.canvas);
+    setHidden(this.element, !editing.isOn, this.viewer.canvas);
     if (!editing.isOn) return void (this.refused.hidden = true);
     label(this.undo, "Undo", editing.undoes, "Ctrl+Z");
     label(this.redo, "Redo", editing.redoes, "Ctrl+Shift+Z");

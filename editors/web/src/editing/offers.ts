@@ -1,6 +1,7 @@
-// What is offered for a drawing that does not move yet: names for its parts where nothing has one, then a motion.
+// What is offered below the model of a drawing that does not move yet: names for its parts where nothing has one, then a motion.
 
 import { X } from "lucide";
+import type { Commands } from "../commands";
 import { button, fill, h, setHidden } from "../dom";
 import { isAutomatic, type Parts } from "../parts";
 import type { State } from "../state";
@@ -22,30 +23,31 @@ function carrier(parts: Parts): string | null {
 type Offer = "names" | "motion";
 
 export class Offers {
-  readonly element = h("div", { class: "offer", hidden: true });
-  /** What is offered. */
-  now: Offer | null = null;
+  readonly element = h("section", { class: "offer", hidden: true, attributes: { "aria-label": "What to do next" } });
   /** The drawing whose parts okoshi named, and those whose offers were turned down. */
   private named: string | null = null;
   private readonly declined = new Set<string | null>();
 
   /** The focus goes `elsewhere` if it is on an offer that ends. */
-  constructor(private readonly editing: Editing, private readonly state: State, private readonly elsewhere: HTMLElement, private readonly changed: () => void) {}
+  constructor(private readonly editing: Editing, private readonly state: State, private readonly commands: Commands, private readonly elsewhere: HTMLElement) {
+    editing.listen(["mode", "done", "picking"], () => this.draw());
+    commands.onMode(() => this.draw());
+    state.on(["selection", "build", "current"], () => this.draw());
+    this.draw();
+  }
 
-  /** Shows what can be offered now, if anything `isWanted`. */
-  draw(isWanted: boolean): void {
-    const next = isWanted ? this.next() : null;
+  private draw(): void {
     const { isOn } = this.editing;
+    const next = isOn || !this.commands.isPosing ? this.next() : null;
     const key = next === null ? "" : `${next} ${isOn}`;
     if (this.element.dataset["offer"] === key) return;
     this.element.dataset["offer"] = key;
-    this.now = next;
     const hasFocus = this.element.contains(document.activeElement);
     setHidden(this.element, next === null, this.elsewhere);
     if (next === null) return fill(this.element);
     const close = button({ icon: X, label: "Close the offer", press: () => this.decline() });
     const [words, ...choices] = next === "motion" ? this.motion() : this.names(isOn);
-    fill(this.element, h("div", { class: "offer-row" }, words, close), h("div", { class: "choices" }, ...choices));
+    fill(this.element, words, h("div", { class: "choices" }, ...choices), close);
     if (hasFocus) choices[0]!.focus();
   }
 
@@ -72,7 +74,7 @@ export class Offers {
     if (!editing.isOn) editing.toggle();
     const { current } = state;
     if (await editing.apply({ change: "name-parts" })) this.named = current;
-    this.changed();
+    this.draw();
   }
 
   /** The clip that fits the figure. */
@@ -83,7 +85,7 @@ export class Offers {
 
   private decline(): void {
     this.declined.add(this.state.current);
-    this.changed();
+    this.draw();
   }
 }
 
