@@ -389,7 +389,8 @@ clip_art() {
   cargo test --locked --lib -- --ignored --nocapture limbs_of_clip_art
 }
 
-# Emoji with names alone, from all sides, and the names that are found without any. The pictures to look at are in the folder's index.html.
+# Emoji with names alone, from all sides; the names that are found without any; and the changes that are refused then. The pictures to look
+# at are in the folder's index.html.
 sides() {
   [ $quick = no ] || skip "--quick"
   need npm
@@ -398,6 +399,7 @@ sides() {
   rm -rf "$target/sides"
   OKOSHI=$(realpath "$okoshi") node $tools/sides.mjs "$target/sides"
   OKOSHI=$(realpath "$okoshi") node $tools/annotate.mjs all "$target/annotated"
+  OKOSHI=$(realpath "$okoshi") node $tools/refused.mjs
 }
 
 blender_import() {

@@ -106,8 +106,9 @@ export class Batches {
   /** The geometry or material of a mesh changed. */
   change(mesh: Mesh): void {
     const place = this.places.get(mesh);
-    if (place) this.remove(mesh, place);
     const look = lookOf(mesh);
+    if (place && look?.key === place.batch.key && this.replace(mesh, place)) return;
+    if (place) this.remove(mesh, place);
     const batch = look && this.batches.findLast(({ key }) => key === look.key);
     if (batch) this.add(batch, mesh);
     else mesh.layers.mask = LAYERS.alone;
@@ -144,11 +145,30 @@ export class Batches {
     known.users++;
     const { instanceCount, maxInstanceCount } = batch.mesh;
     if (instanceCount === maxInstanceCount) batch.mesh.setInstanceCount(Math.ceil((maxInstanceCount + 1) * ROOM));
-    const instance = batch.mesh.addInstance(known.id);
-    batch.mesh.setColorAt(instance, colorOf(mesh));
-    batch.mesh.setMatrixAt(instance, mesh.matrixWorld);
-    this.places.set(mesh, { batch, instance, geometry });
+    this.put(mesh, { batch, instance: batch.mesh.addInstance(known.id), geometry });
     mesh.layers.mask = LAYERS.batched;
+  }
+
+  /** Writes the new geometry of a mesh over its old one; false if others use that too, or have the new one, or if it does not fit in there. */
+  private replace(mesh: Mesh, { batch, instance, geometry: before }: Place): boolean {
+    const { geometry } = mesh;
+    const known = batch.geometries.get(before);
+    if (geometry !== before) {
+      if (known?.users !== 1 || batch.geometries.has(geometry)) return false;
+      const { reservedVertexCount, reservedIndexCount } = batch.mesh.getGeometryRangeAt(known.id)!;
+      if (vertices(geometry) > reservedVertexCount || indices(geometry) > reservedIndexCount) return false;
+      batch.mesh.setGeometryAt(known.id, geometry);
+      batch.geometries.delete(before);
+      batch.geometries.set(geometry, known);
+    }
+    this.put(mesh, { batch, instance, geometry });
+    return true;
+  }
+
+  private put(mesh: Mesh, place: Place): void {
+    place.batch.mesh.setColorAt(place.instance, colorOf(mesh));
+    place.batch.mesh.setMatrixAt(place.instance, mesh.matrixWorld);
+    this.places.set(mesh, place);
   }
 
   private remove(mesh: Mesh, { batch, instance, geometry }: Place): void {
