@@ -35,7 +35,7 @@ use crate::scene::Scene;
 use crate::source::Span;
 
 pub(crate) use kept::{Copies, KeptPoses};
-pub(crate) use recorded::key_moments;
+pub(crate) use recorded::{KeyBefore, key_moments};
 
 /// The name of a clip whose strings give none.
 const NAME: &str = "poses";

@@ -113,33 +113,43 @@ impl Analysis {
                 }
             }
         }
+        let still = || {
+            Refusal::new("no part of the movement is posed otherwise than in the pose before it")
+        };
+        if frames.is_empty() {
+            return Err(still());
+        }
+        let turns = |moment: usize| -> Vec<(PartId, f64)> {
+            let angles = tracks.iter().map(|track| track[moment]);
+            parts.iter().copied().zip(angles).collect()
+        };
         let mut poses = rig::KeptPoses::of(self.drawing(), self.bindings(), &parts);
-        let mut begin = poses.last;
+        let first = poses.go_on(&turns(0));
+        let mut moves = !first.is_empty();
+        // The clip ends in the pose in which the movement begins, or goes there first.
+        let begin = match poses.last {
+            Some(last) if moves => last + poses.step,
+            last => last.unwrap_or_default(),
+        };
         let mut layers = Vec::new();
-        let mut moves = false;
-        for moment in rig::key_moments(&frames, &tracks) {
-            let turns: Vec<(PartId, f64)> = parts
-                .iter()
-                .zip(&tracks)
-                .map(|(part, track)| (*part, track[moment]))
-                .collect();
-            let copies = poses.go_on(&turns);
+        if moves {
+            layers.push((begin, poses.with_those_that_wait(first)));
+        }
+        let before: Vec<_> = parts
+            .iter()
+            .map(|part| poses.key_before(*part, begin))
+            .collect();
+        for moment in rig::key_moments(&frames, &tracks, &before)
+            .into_iter()
+            .skip(1)
+        {
+            let copies = poses.go_on(&turns(moment));
             moves |= !copies.is_empty();
             let since = (frames[moment] - frames[0]) as f64 / rig::KeptPoses::FRAME_RATE;
-            if moment == 0 {
-                // The clip ends in the pose in which the movement begins, or goes there first.
-                if copies.is_empty() {
-                    continue;
-                }
-                begin = begin.map(|last| last + poses.step);
-            }
-            let seconds = begin.unwrap_or_default() + since;
-            layers.push((seconds, poses.with_those_that_wait(copies)));
+            layers.push((begin + since, poses.with_those_that_wait(copies)));
         }
         if !moves {
-            return Err(Refusal::new(
-                "no part of the movement is posed otherwise than in the pose before it",
-            ));
+            return Err(still());
         }
         self.add_poses(&poses, &layers)
     }

@@ -5,7 +5,9 @@ use std::f64::consts::{PI, TAU};
 use glam::{DAffine2, DVec2};
 use typed_index_collections::{TiVec, ti_vec};
 
-use super::{NAME, SAME, SEQUENCE_STEP, Turned, about, angle_of, order, sequences, turned_up};
+use super::{
+    KeyBefore, NAME, SAME, SEQUENCE_STEP, Turned, about, angle_of, order, sequences, turned_up,
+};
 use crate::bind::{Bindings, PartId};
 use crate::geometry::y_up;
 use crate::labels::{Figure, FigurePartId};
@@ -32,6 +34,8 @@ struct KeptFigure {
     group: FigureGroup,
     figure: Figure,
     now: TiVec<FigurePartId, Turned>,
+    /// The last key poses that it had when it was read, two of them at most: their seconds, and the parts' turns.
+    last: Vec<(f64, TiVec<FigurePartId, Turned>)>,
 }
 
 impl<'a> KeptPoses<'a> {
@@ -51,10 +55,16 @@ impl<'a> KeptPoses<'a> {
         for group in groups.filter(|group| group.parts.iter().any(|part| parts.contains(part))) {
             let figure = rigging::figure(drawing, bindings, &parts_of_nodes, &group, |_| 0);
             let mut now = ti_vec![Turned::default(); group.parts.len()];
+            // A clip begins as the figure is drawn.
+            let mut latest = vec![(0.0, now.clone())];
             let sequences = sequences(&group, &bindings.poses, &mut Vec::new());
             if let Some((_, poses)) = sequences.iter().find(|(name, _)| *name == NAME) {
                 for pose in poses {
                     super::advance(&mut now, &group, &figure, pose, |_, _, _| {});
+                    if latest.len() == 2 {
+                        latest.remove(0);
+                    }
+                    latest.push((pose.seconds, now.clone()));
                 }
                 if let [.., last] = poses.as_slice()
                     && kept.last.is_none_or(|latest| last.seconds >= latest)
@@ -66,7 +76,12 @@ impl<'a> KeptPoses<'a> {
                     }
                 }
             }
-            kept.figures.push(KeptFigure { group, figure, now });
+            kept.figures.push(KeptFigure {
+                group,
+                figure,
+                now,
+                last: latest,
+            });
         }
         kept
     }
@@ -77,6 +92,26 @@ impl<'a> KeptPoses<'a> {
             [figure] => Some(figure.group.root),
             _ => None,
         }
+    }
+
+    /// The last key pose of a part that was there before, earlier than a second; `None` without one.
+    pub(crate) fn key_before(&self, part: PartId, seconds: f64) -> Option<KeyBefore> {
+        let mut figures = self.figures.iter();
+        let found = figures.find(|figure| figure.group.parts.contains(&part))?;
+        let (index, _) = found
+            .group
+            .parts
+            .iter_enumerated()
+            .find(|(_, own)| **own == part)?;
+        let frames = |earlier: f64| ((seconds - earlier) * Self::FRAME_RATE).round();
+        let earlier = found
+            .last
+            .iter()
+            .rfind(|(earlier, _)| frames(*earlier) >= 1.0)?;
+        Some(KeyBefore {
+            frames: frames(earlier.0) as usize,
+            angle: earlier.1[index].angle,
+        })
     }
 
     /// Goes on to a pose in which parts are turned by hand from where they are drawn, each by an angle about its joint, radians,
@@ -92,7 +127,10 @@ impl<'a> KeptPoses<'a> {
 
     /// Adds a copy of figures that stay as they are: a layer without one is no pose of theirs, and they would be on their way to the next.
     pub(crate) fn with_those_that_wait(&self, mut copies: Copies) -> Copies {
-        for KeptFigure { group, figure, now } in &self.figures {
+        for KeptFigure {
+            group, figure, now, ..
+        } in &self.figures
+        {
             if copies.iter().any(|(part, _)| group.parts.contains(part)) {
                 continue;
             }
@@ -108,7 +146,9 @@ impl<'a> KeptPoses<'a> {
 
 impl KeptFigure {
     fn go_on(&mut self, bindings: &Bindings, turns: &[(PartId, f64)], copies: &mut Copies) {
-        let Self { group, figure, now } = self;
+        let Self {
+            group, figure, now, ..
+        } = self;
         let mut placed: TiVec<FigurePartId, DAffine2> =
             ti_vec![DAffine2::IDENTITY; group.parts.len()];
         for index in order(group) {

@@ -10,8 +10,13 @@ const WITHIN: f64 = 2.5 * PI / 180.0;
 /// Chooses few of the moments of a movement such that key poses in them, with the curves between key poses, show it.
 ///
 /// `frames` are those of the moments, ascending and without repetition. Each track has the angles of a part in all moments, radians; the
-/// movement goes the short way from one to the next. Returns ascending indices of moments, with the first and the last one.
-pub(crate) fn key_moments(frames: &[usize], tracks: &[Vec<f64>]) -> Vec<usize> {
+/// movement goes the short way from one to the next, and to the first one from the part's key pose before the movement, if there is one in
+/// `before`: curves do not rest there. Returns ascending indices of moments, with the first and the last one.
+pub(crate) fn key_moments(
+    frames: &[usize],
+    tracks: &[Vec<f64>],
+    before: &[Option<KeyBefore>],
+) -> Vec<usize> {
     let tracks: Vec<Vec<f64>> = tracks.iter().map(|track| unwound(track)).collect();
     let Some(last) = frames.len().checked_sub(1) else {
         return Vec::new();
@@ -28,9 +33,9 @@ pub(crate) fn key_moments(frames: &[usize], tracks: &[Vec<f64>]) -> Vec<usize> {
             .collect();
         // In each gap the moment that is the farthest off is chosen, too.
         let mut farthest: Vec<Option<(usize, f64)>> = vec![None; chosen.len()];
-        for track in &tracks {
+        for (track, before) in tracks.iter().zip(before) {
             let keys: Vec<f64> = chosen.iter().map(|&moment| track[moment]).collect();
-            let curve = monotone(&own, &keys, false);
+            let curve = curve(&own, &keys, *before);
             let mut gap = 0;
             for (moment, angle) in track.iter().enumerate() {
                 if chosen.get(gap + 1).is_some_and(|&next| moment >= next) {
@@ -53,6 +58,32 @@ pub(crate) fn key_moments(frames: &[usize], tracks: &[Vec<f64>]) -> Vec<usize> {
         chosen.extend(more);
         chosen.sort_unstable();
     }
+}
+
+/// A key pose of a part before a movement.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct KeyBefore {
+    /// How many frames before the movement begins: more than 0.
+    pub frames: usize,
+    /// By how much the part is turned, radians.
+    pub angle: f64,
+}
+
+/// The angles in all frames from the first key on, which is in frame 0.
+fn curve(frames: &[usize], keys: &[f64], before: Option<KeyBefore>) -> Vec<f64> {
+    let (Some(before), Some(first)) = (before, keys.first()) else {
+        return monotone(frames, keys, false);
+    };
+    let later = frames.iter().map(|frame| before.frames + frame);
+    let frames: Vec<usize> = std::iter::once(0).chain(later).collect();
+    let angle = first - short_way(before.angle, *first);
+    let keys: Vec<f64> = std::iter::once(angle).chain(keys.iter().copied()).collect();
+    monotone(&frames, &keys, false).split_off(before.frames)
+}
+
+/// The short way from one angle to another.
+fn short_way(from: f64, to: f64) -> f64 {
+    (to - from + PI).rem_euclid(TAU) - PI
 }
 
 /// The moments in which a part turns back, by more than a tremble.
@@ -85,7 +116,7 @@ fn reversals(track: &[f64]) -> Vec<usize> {
 fn unwound(track: &[f64]) -> Vec<f64> {
     let mut now = track.first().copied().unwrap_or_default();
     let steps = track.iter().map(|angle| {
-        now += (angle - now + PI).rem_euclid(TAU) - PI;
+        now += short_way(now, *angle);
         now
     });
     steps.collect()
@@ -103,7 +134,9 @@ mod tests {
         fn key_poses_show_what_was_recorded(
             steps in prop::collection::vec((1_usize..4, prop::array::uniform2(-1.0..1.0_f64)), 1..120),
             is_calm: bool,
+            before in prop::array::uniform2(prop::option::of((1_usize..30, -3.0..3.0_f64))),
         ) {
+            let before = before.map(|key| key.map(|(frames, angle)| KeyBefore { frames, angle }));
             let mut frames = vec![];
             let mut tracks = vec![vec![], vec![]];
             let (mut frame, mut angles) = (3, [0.0; 2]);
@@ -115,14 +148,14 @@ mod tests {
                     tracks[part].push((angles[part] + PI).rem_euclid(TAU) - PI);
                 }
             }
-            let chosen = key_moments(&frames, &tracks);
+            let chosen = key_moments(&frames, &tracks, &before);
             prop_assert!(chosen.is_sorted_by(|one, next| one < next));
             prop_assert_eq!((chosen[0], chosen[chosen.len() - 1]), (0, frames.len() - 1));
             let own: Vec<usize> = chosen.iter().map(|&moment| frames[moment] - 3).collect();
-            for track in &tracks {
+            for (track, before) in tracks.iter().zip(before) {
                 let track = unwound(track);
                 let keys: Vec<f64> = chosen.iter().map(|&moment| track[moment]).collect();
-                let curve = monotone(&own, &keys, false);
+                let curve = curve(&own, &keys, before);
                 for (moment, angle) in track.iter().enumerate() {
                     let off = (curve[frames[moment] - 3] - angle).abs();
                     prop_assert!(off <= WITHIN, "{off} at {moment}");
@@ -137,12 +170,12 @@ mod tests {
         let swing = frames
             .iter()
             .map(|&frame| (frame as f64 / 24.0 * PI).cos() / 2.0);
-        let chosen = key_moments(&frames, &[swing.collect()]);
+        let chosen = key_moments(&frames, &[swing.collect()], &[None]);
         for turning in [0, 24, 48, 72, 96] {
             assert!(chosen.contains(&turning), "{chosen:?}");
         }
         assert!(chosen.len() <= 9, "{chosen:?}");
-        assert_eq!(key_moments(&frames, &[vec![0.3; 97]]), [0, 96]);
-        assert_eq!(key_moments(&[7], &[vec![0.3]]), [0]);
+        assert_eq!(key_moments(&frames, &[vec![0.3; 97]], &[None]), [0, 96]);
+        assert_eq!(key_moments(&[7], &[vec![0.3]], &[None]), [0]);
     }
 }

@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 
 use super::super::FigureClip;
 use super::super::fixtures::{BIRD, CAR, DOG, FLOWER, PERSON, SLIME, drawing, playing};
@@ -91,7 +92,11 @@ fn words() -> impl Strategy<Value = Vec<(&'static str, f64, f64)>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(ProptestConfig {
+        cases: 24,
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct("tests/regressions/turn.txt"))),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn motions_in_turn_are_those_of_single_clips(
