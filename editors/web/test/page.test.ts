@@ -133,6 +133,20 @@ browse("several drawings are cards that follow their builds; one opens, and the 
   await card.waitFor();
 });
 
+browse("a picture that does not arrive is asked for again", (host) => {
+  for (const name of ["human", "car"]) {
+    host.add(name, `${name}.svg`);
+    host.built(name, build(example(name)));
+  }
+  host.broken.add("/builds/1.png");
+}, async (page, host) => {
+  await page.locator("[data-drawing=car] img").waitFor();
+  await host.request("/builds/1.png");
+  assert.equal(await page.locator("[data-drawing=human] img").count(), 0);
+  host.broken.clear();
+  await page.locator("[data-drawing=human] img").waitFor();
+});
+
 browse("the address names a drawing", (host) => {
   for (const name of ["human", "a drawing #1"]) {
     host.add(name, `${name}.svg`);

@@ -7,6 +7,10 @@ import type { Drawing, State } from "../state";
 import { badge } from "./findings";
 import { Starters } from "./starters";
 
+/** Pauses before a picture is asked for again, in milliseconds. */
+const FIRST_PAUSE = 500;
+const LAST_PAUSE = 8000;
+
 interface Card {
   readonly element: HTMLAnchorElement;
   readonly picture: HTMLElement;
@@ -103,15 +107,23 @@ export class Gallery {
     if (address === card.address) return;
     card.address = address;
     if (!build?.picture) return fill(card.picture, icon(Image));
-    void this.host.picture(build.picture).then(
-      (source) => {
-        if (card.address !== address) return;
-        const image = h("img", { attributes: { alt: `Model of ${name}`, width: 256, height: 256 } });
-        // The old picture stays until the new one is loaded.
-        image.addEventListener("load", () => card.address === address && fill(card.picture, image));
-        image.src = source;
-      },
-      () => {},
-    );
+    this.load(card, build.picture, `Model of ${name}`, FIRST_PAUSE);
+  }
+
+  /** Shows a picture of a card; one that does not come is asked for again after a pause, in milliseconds. */
+  private load(card: Card, picture: string, alt: string, pause: number): void {
+    const { address } = card;
+    const again = () => {
+      if (pause > LAST_PAUSE) return;
+      setTimeout(() => card.address === address && this.load(card, picture, alt, pause * 4), pause);
+    };
+    void this.host.picture(picture).then((source) => {
+      if (card.address !== address) return;
+      const image = h("img", { attributes: { alt, width: 256, height: 256 } });
+      // The old picture stays until the new one is loaded.
+      image.addEventListener("load", () => card.address === address && fill(card.picture, image));
+      image.addEventListener("error", again);
+      image.src = source;
+    }, again);
   }
 }
