@@ -2,11 +2,8 @@
 
 use serde::Serialize;
 
-use crate::billboard::{
-    Character, Looks, RegionId, RegionInView, RegionModel, Side, Track, TrackId, ViewId,
-};
+use crate::billboard::{Character, Looks, RegionId, RegionInView, Side, Track, TrackId, ViewId};
 use crate::compile::Compiled;
-use crate::scene::view_axes;
 
 /// A character.
 #[derive(Debug, Clone, Serialize)]
@@ -177,14 +174,6 @@ fn region<'a>(
         position: model.positions[ViewId::FIRST].to_array(),
         paints: model.paints_in_views().map(|paints| paints.raw),
     }
-}
-
-/// The middle of a region in the first view, drawing units, y down.
-pub(super) fn middle(character: &Character, region: &RegionModel) -> glam::DVec2 {
-    let [right, up, _] = view_axes(character.turn.views[ViewId::FIRST]);
-    let place = region.positions[ViewId::FIRST];
-    let at = glam::DVec2::new(place.dot(right), place.dot(up));
-    character.frames[ViewId::FIRST].in_drawing(at)
 }
 
 /// A character for people.

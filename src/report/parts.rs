@@ -2,13 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use glam::DVec2;
 use serde::Serialize;
 
-use super::billboards::middle;
 use super::joints::{Driver, drivers};
 use super::reasons::Reasons;
-use crate::billboard::ViewId;
 use crate::compile::Compiled;
 use crate::ide::{Subject, Which};
 use crate::source::LineIndex;
@@ -33,14 +30,9 @@ pub(crate) struct Part<'a> {
     /// Its string.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub string: Option<StringReport<'a>>,
-    /// The centroid of its area.
-    pub center: [f64; 2],
-    /// The end points of its axis.
-    pub ends: [[f64; 2]; 2],
-    /// Its joint.
-    pub origin: [f64; 2],
-    /// The direction of its axis.
-    pub axis: [f64; 2],
+    /// Where it is; `None` in [`everything`].
+    #[serde(flatten)]
+    pub place: Option<Place>,
     /// For a main part, how far its plane lies in front of the drawing's, drawing units.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<f64>,
@@ -62,6 +54,19 @@ pub(crate) struct Part<'a> {
     pub joint: Option<&'a str>,
     /// Why that joint, or why none; `None` for parts of figures without clips.
     pub joint_why: Option<&'a str>,
+}
+
+/// Where a part is. Coordinates are drawing units, y down.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Place {
+    /// The centroid of its area.
+    pub center: [f64; 2],
+    /// The end points of its axis.
+    pub ends: [[f64; 2]; 2],
+    /// Its joint.
+    pub origin: [f64; 2],
+    /// The direction of its axis.
+    pub axis: [f64; 2],
 }
 
 /// A string. Lines and columns count from 1, columns in characters.
@@ -91,12 +96,20 @@ pub(crate) struct AttributeReport {
 
 /// The parts of a drawing, in paint order.
 pub(crate) fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
-    let parts = Subject::all(compiled);
-    let parts = parts.filter(|subject| matches!(subject.which, Which::Part(_)));
-    reports(compiled, text, parts)
+    let parts = Subject::all(compiled).filter_map(|subject| match subject.which {
+        Which::Part(part) => Some((subject, &compiled.bindings.parts[part])),
+        _ => None,
+    });
+    let (subjects, parts): (Vec<_>, Vec<_>) = parts.unzip();
+    let mut reports = reports(compiled, text, subjects.into_iter());
+    for (report, part) in reports.iter_mut().zip(parts) {
+        report.place = Some(place(part));
+    }
+    reports
 }
 
-/// The parts of a drawing, its landscapes, and its characters with their regions: everything in the model.
+/// The parts of a drawing, its landscapes, and its characters with their regions: everything in the model. Without their places, which
+/// pages do not show: a part that only moved is the same.
 pub(crate) fn everything<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     reports(compiled, text, Subject::all(compiled))
 }
@@ -119,6 +132,16 @@ fn reports<'a>(
     subjects.map(report).collect()
 }
 
+fn place(part: &crate::bind::Part) -> Place {
+    let measure = part.node_measure();
+    Place {
+        center: measure.center.to_array(),
+        ends: measure.ends.map(|end| end.to_array()),
+        origin: part.origin.to_array(),
+        axis: measure.axis.to_array(),
+    }
+}
+
 fn report<'a>(
     reasons: &Reasons<'a>,
     compiled: &'a Compiled,
@@ -126,27 +149,6 @@ fn report<'a>(
     string: Option<StringReport<'a>>,
     driver: Option<Driver<'a>>,
 ) -> Part<'a> {
-    let at = |center: DVec2| ([center; 2], center, DVec2::X, center);
-    let (ends, origin, axis, center) = match subject.which {
-        Which::Part(part) => {
-            let part = &compiled.bindings.parts[part];
-            let measure = part.node_measure();
-            (measure.ends, part.origin, measure.axis, measure.center)
-        }
-        Which::Landscape(layer) => {
-            let [low, high] = compiled.layers[layer].bounds();
-            let (center, middle) = ((low + high) / 2.0, (low.y + high.y) / 2.0);
-            let ends = [low, high].map(|end| DVec2::new(end.x, middle));
-            (ends, center, DVec2::X, center)
-        }
-        Which::Character(character) => {
-            at(compiled.characters[character].frames[ViewId::FIRST].center)
-        }
-        Which::Region(character, region) => {
-            let character = &compiled.characters[character];
-            at(middle(character, &character.regions[region]))
-        }
-    };
     let (depth, said) = match subject.which {
         Which::Part(part) => (
             compiled.depths[part].map(|node| node.depth),
@@ -173,10 +175,7 @@ fn report<'a>(
         ink_on: subject.host().map(Subject::name),
         element: subject.element().and_then(|element| element.id.as_deref()),
         string,
-        center: center.to_array(),
-        ends: ends.map(|end| end.to_array()),
-        origin: origin.to_array(),
-        axis: axis.to_array(),
+        place: None,
         depth,
         depth_why,
         back,

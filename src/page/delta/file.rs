@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use gltf::binary::Glb;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::Fields;
@@ -36,52 +36,59 @@ pub(super) struct File<'a> {
 }
 
 /// A buffer view. Lengths in bytes.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct View {
+struct View {
     #[serde(default)]
-    pub(super) buffer: usize,
-    #[serde(default)]
-    pub(super) byte_offset: usize,
-    pub(super) byte_length: usize,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) byte_stride: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) target: Option<u32>,
+    byte_offset: usize,
+    byte_stride: Option<usize>,
 }
 
 /// Where the numbers of an accessor are.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "camelCase")]
-struct Accessor<'a> {
+pub(super) struct Accessor<'a> {
     buffer_view: usize,
     #[serde(default)]
-    pub(super) byte_offset: usize,
-    component_type: u32,
-    count: usize,
+    byte_offset: usize,
+    pub(super) component_type: u32,
+    pub(super) count: usize,
     #[serde(default)]
-    normalized: bool,
+    pub(super) normalized: bool,
     #[serde(rename = "type")]
     shape: &'a str,
     #[serde(borrow)]
     sparse: Option<&'a RawValue>,
+    #[serde(borrow)]
+    pub(super) min: Option<&'a RawValue>,
+    #[serde(borrow)]
+    pub(super) max: Option<&'a RawValue>,
 }
 
 /// The numbers of an accessor.
 pub(super) struct Numbers<'a> {
-    accessor: Accessor<'a>,
-    pub(super) view: View,
-    pub(super) bytes: &'a [u8],
+    pub(super) accessor: Accessor<'a>,
+    pub(super) components: usize,
+    /// From the beginning of a row to that of the next one, in bytes.
+    stride: usize,
+    /// The size of a row in bytes.
+    size: usize,
+    bytes: &'a [u8],
 }
 
-impl Numbers<'_> {
+impl<'a> Numbers<'a> {
+    /// The bytes, if nothing is between the rows.
+    pub(super) fn tight(&self) -> Option<&'a [u8]> {
+        (self.stride == self.size).then_some(self.bytes)
+    }
+
     fn is_same(&self, other: &Self) -> bool {
         let [one, two] = [self.accessor, other.accessor];
         one.component_type == two.component_type
             && one.count == two.count
             && one.normalized == two.normalized
             && one.shape == two.shape
-            && self.view.byte_stride == other.view.byte_stride
+            && self.stride == other.stride
             && self.bytes == other.bytes
     }
 }
@@ -171,7 +178,7 @@ impl<'a> File<'a> {
         }))
     }
 
-    pub(super) fn accessor(&self, index: usize) -> Option<&'a RawValue> {
+    fn accessor(&self, index: usize) -> Option<&'a RawValue> {
         self.accessors.get(index).copied()
     }
 
@@ -201,7 +208,9 @@ impl<'a> File<'a> {
         let start = view.byte_offset + accessor.byte_offset;
         Some(Numbers {
             accessor,
-            view,
+            components,
+            stride,
+            size,
             bytes: self.data.get(start..)?.get(..length)?,
         })
     }

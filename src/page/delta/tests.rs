@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use proptest::prelude::*;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::delta;
 use crate::compile::{Options, compile};
@@ -18,7 +18,7 @@ fn glb(text: &str) -> Vec<u8> {
     model.expect("a model").bytes
 }
 
-fn json(glb: &[u8]) -> (Value, Vec<u8>) {
+fn read(glb: &[u8]) -> (Value, Vec<u8>) {
     let glb = gltf::binary::Glb::from_slice(glb).expect("a binary glTF");
     let json = serde_json::from_slice(&glb.json).expect("JSON");
     (json, glb.bin.unwrap_or_default().into_owned())
@@ -72,7 +72,7 @@ fn mesh(file: &(Value, Vec<u8>), number: &Value) -> Value {
 }
 
 fn nodes(glb: &[u8]) -> Vec<Node> {
-    let file = json(glb);
+    let file = read(glb);
     let nodes = file.0["nodes"].as_array().expect("nodes").iter();
     let node = |node: &Value| {
         let mut node: Node = serde_json::from_value(node.clone()).expect("an object");
@@ -84,13 +84,65 @@ fn nodes(glb: &[u8]) -> Vec<Node> {
     nodes.map(node).collect()
 }
 
+/// The text and the numbers of a delta.
+fn parts_of(delta: &[u8]) -> (Value, &[u8]) {
+    let [magic, length] = [&delta[..4], &delta[4..8]];
+    assert_eq!(magic, super::MAGIC);
+    let length = u32::from_le_bytes(length.try_into().expect("four bytes")) as usize;
+    let text = serde_json::from_slice(&delta[8..][..length]).expect("JSON");
+    (text, &delta[8 + length..])
+}
+
+/// The next array of a delta, as `numbers` has one of a model.
+fn next_array(data: &mut &[u8], kind: &Value, components: usize, count: usize) -> Value {
+    let size = match index(kind) {
+        5120 | 5121 => 1,
+        5122 | 5123 => 2,
+        _ => 4,
+    } * components;
+    let rows = data[..size * count].chunks(size);
+    let rows: Vec<Value> = rows.map(|row| row.into()).collect();
+    *data = &data[(size * count).next_multiple_of(4)..];
+    let shape = ["SCALAR", "VEC2", "VEC3", "VEC4"][components - 1];
+    let described = json!({"componentType": kind, "count": count, "type": shape});
+    Value::Array(vec![described, rows.into()])
+}
+
+/// The primitives of a delta, as `mesh` has those of a model.
+fn primitives(text: &Value, mut data: &[u8]) -> Vec<Value> {
+    let primitives = text["primitives"].as_array().expect("a list").iter();
+    let primitives = primitives.map(|primitive| {
+        let [material, layout, vertices, corners] = [0, 1, 2, 3].map(|at| index(&primitive[at]));
+        let layout = &text["layouts"][layout];
+        let mut attributes = serde_json::Map::new();
+        for attribute in layout["attributes"].as_array().expect("a list") {
+            let name = attribute[0].as_str().expect("a name");
+            let components = index(&attribute[2]);
+            let mut array = next_array(&mut data, &attribute[1], components, vertices);
+            if name == "POSITION" {
+                array[0]["min"] = primitive[4].clone();
+                array[0]["max"] = primitive[5].clone();
+            }
+            if attribute[3] == true {
+                array[0]["normalized"] = true.into();
+            }
+            attributes.insert(name.to_owned(), array);
+        }
+        let indices = next_array(&mut data, &layout["indices"], 1, corners);
+        let material = &text["materials"]["materials"][material];
+        json!({"attributes": attributes, "indices": indices, "material": material})
+    });
+    let primitives = primitives.collect();
+    assert!(data.is_empty());
+    primitives
+}
+
 /// What a page does with a delta.
 fn applied(before: &[u8], delta: &[u8]) -> Vec<Node> {
     let mut model = nodes(before);
-    let file = json(delta);
-    let own = &file.0["extras"]["okoshi"];
-    assert_eq!(own["since"], 7);
-    for moved in own["nodes"].as_array().expect("a list") {
+    let (text, data) = parts_of(delta);
+    assert_eq!(text["since"], 7);
+    for moved in text["nodes"].as_array().expect("a list") {
         let node = &mut model[index(&moved["node"])];
         for name in super::OWN {
             match moved.get(name) {
@@ -99,9 +151,17 @@ fn applied(before: &[u8], delta: &[u8]) -> Vec<Node> {
             };
         }
     }
-    for changed in file.0["nodes"].as_array().into_iter().flatten() {
-        let node = &mut model[index(&changed["extras"]["node"])];
-        node.insert("mesh".to_owned(), mesh(&file, &changed["mesh"]));
+    let primitives = primitives(&text, data);
+    for changed in text["meshes"].as_array().expect("a list") {
+        let mesh = model[index(&changed[0])].get_mut("mesh").expect("a mesh");
+        let old = mesh["primitives"].as_array_mut().expect("primitives");
+        let new = changed[1].as_array().expect("a list");
+        assert_eq!(old.len(), new.len());
+        for (old, new) in old.iter_mut().zip(new) {
+            for name in ["attributes", "indices", "material"] {
+                old[name] = primitives[index(new)][name].clone();
+            }
+        }
     }
     model
 }
@@ -128,14 +188,11 @@ fn a_changed_color_is_one_mesh() {
     let before = glb(&drawing(&[(0, 30, 0, 0), (9, 20, 1, 1), (3, 20, 0, 0)]));
     let after = glb(&drawing(&[(0, 30, 0, 0), (9, 20, 1, 2), (3, 20, 0, 0)]));
     let delta = delta(&before, &after, 7).expect("a delta");
-    let (json, _) = json(&delta);
-    assert_eq!(json["nodes"].as_array().map(Vec::len), Some(1));
-    assert_eq!(json["nodes"][0]["extras"]["node"], 1);
-    assert_eq!(json["materials"].as_array().map(Vec::len), Some(1));
-    assert_eq!(
-        json["extras"]["okoshi"]["nodes"].as_array().map(Vec::len),
-        Some(0)
-    );
+    let (text, _) = parts_of(&delta);
+    assert_eq!(text["meshes"], json!([[1, [0]]]));
+    let materials = &text["materials"]["materials"];
+    assert_eq!(materials.as_array().map(Vec::len), Some(1));
+    assert_eq!(text["nodes"], json!([]));
     assert!(delta.len() < after.len());
 }
 

@@ -1,13 +1,25 @@
 //! Writes a delta.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
-use gltf::binary::{Glb, Header};
 use serde::Serialize;
-use serde_json::value::{RawValue, to_raw_value};
+use serde_json::value::RawValue;
 
-use super::file::{File, Mesh, View, number, read};
-use super::{Fields, OWN};
+use super::file::{File, Mesh, Primitive, number};
+use super::{Fields, MAGIC, OWN};
+
+/// The text of a delta.
+#[derive(Serialize)]
+struct Text<'a> {
+    /// The number of the model that it changes.
+    since: u64,
+    nodes: &'a [Moved<'a>],
+    materials: BTreeMap<&'a str, Box<RawValue>>,
+    layouts: &'a [Layout<'a>],
+    primitives: &'a [Written<'a>],
+    meshes: &'a [Changed],
+}
 
 /// A node whose own fields changed.
 #[derive(Serialize)]
@@ -17,30 +29,39 @@ struct Moved<'a> {
     own: BTreeMap<&'a str, &'a RawValue>,
 }
 
-/// A node of a delta, with the number of the model's node that gets its mesh.
-#[derive(Serialize)]
-struct Changed {
-    mesh: usize,
-    extras: Target,
+/// What the arrays of a primitive hold: attributes by their names, each with the type and number of its components and whether they
+/// are normalized, and the type of indices.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+struct Layout<'a> {
+    attributes: Vec<(&'a str, u32, usize, bool)>,
+    indices: Option<u32>,
 }
 
+/// A primitive: its material, its layout, how many vertices and indices it has, and the bounds of its vertices.
 #[derive(Serialize)]
-struct Target {
-    node: usize,
-}
+struct Written<'a>(
+    usize,
+    usize,
+    usize,
+    usize,
+    Option<&'a RawValue>,
+    Option<&'a RawValue>,
+);
+
+/// A node whose mesh changed, with the primitives that it has now.
+#[derive(Serialize)]
+struct Changed(usize, Vec<usize>);
 
 /// A delta that is being written.
 pub(super) struct Writer<'a> {
     file: &'a File<'a>,
     moved: Vec<Moved<'a>>,
-    nodes: Vec<Changed>,
-    meshes: Vec<BTreeMap<&'a str, Box<RawValue>>>,
-    materials: Vec<&'a RawValue>,
-    /// The numbers of the model's materials in the delta.
-    numbers_of_materials: BTreeMap<usize, usize>,
-    accessors: Vec<BTreeMap<&'a str, Box<RawValue>>>,
-    numbers_of_accessors: BTreeMap<usize, usize>,
-    views: Vec<View>,
+    meshes: Vec<Changed>,
+    materials: Numbered<usize>,
+    layouts: Numbered<Layout<'a>>,
+    /// What primitives are made of: a material, and the accessors of attributes and indices.
+    sources: Numbered<(usize, Vec<usize>)>,
+    primitives: Vec<Written<'a>>,
     data: Vec<u8>,
 }
 
@@ -49,13 +70,11 @@ impl<'a> Writer<'a> {
         Self {
             file,
             moved: vec![],
-            nodes: vec![],
             meshes: vec![],
-            materials: vec![],
-            numbers_of_materials: BTreeMap::new(),
-            accessors: vec![],
-            numbers_of_accessors: BTreeMap::new(),
-            views: vec![],
+            materials: Numbered::new(),
+            layouts: Numbered::new(),
+            sources: Numbered::new(),
+            primitives: vec![],
             data: vec![],
         }
     }
@@ -68,114 +87,120 @@ impl<'a> Writer<'a> {
     }
 
     /// Adds the mesh of a node.
-    pub(super) fn add_mesh(&mut self, node: usize, mesh: Mesh<'a>) -> Option<()> {
-        let mut primitives = Vec::with_capacity(mesh.primitives.len());
-        for primitive in mesh.primitives {
-            let mut fields = owned(&primitive.fields);
-            if let Some(material) = number(&primitive.fields, "material") {
-                fields.insert("material", raw(&self.material(material)?)?);
-            }
-            if let Some(indices) = primitive.indices() {
-                fields.insert("indices", raw(&self.accessor(indices)?)?);
-            }
-            let mut attributes = BTreeMap::new();
-            for (name, accessor) in primitive.attributes {
-                attributes.insert(name, self.accessor(accessor)?);
-            }
-            fields.insert("attributes", raw(&attributes)?);
-            primitives.push(fields);
-        }
-        let mut fields = owned(&mesh.fields);
-        fields.insert("primitives", raw(&primitives)?);
-        self.nodes.push(Changed {
-            mesh: self.meshes.len(),
-            extras: Target { node },
-        });
-        self.meshes.push(fields);
+    pub(super) fn add_mesh(&mut self, node: usize, mesh: &Mesh<'a>) -> Option<()> {
+        let primitives = mesh.primitives.iter();
+        let primitives = primitives.map(|primitive| self.primitive(primitive));
+        let primitives = primitives.collect::<Option<_>>()?;
+        self.meshes.push(Changed(node, primitives));
         Some(())
     }
 
-    /// The number in the delta of a material of the model.
-    fn material(&mut self, index: usize) -> Option<usize> {
-        let material = *self.file.materials.get(index)?;
-        let next = self.materials.len();
-        let number = *self.numbers_of_materials.entry(index).or_insert(next);
-        if number == next {
-            self.materials.push(material);
+    /// The number in the delta of a primitive of the model.
+    fn primitive(&mut self, primitive: &Primitive<'a>) -> Option<usize> {
+        let (material, _) = self
+            .materials
+            .number(number(&primitive.fields, "material")?);
+        let indices = primitive.indices();
+        let accessors = primitive.attributes.values().copied().chain(indices);
+        let (at, is_new) = self.sources.number((material, accessors.collect()));
+        if is_new {
+            let written = self.write_primitive(primitive, material)?;
+            self.primitives.push(written);
         }
-        Some(number)
+        Some(at)
     }
 
-    /// The number in the delta of an accessor of the model.
-    fn accessor(&mut self, index: usize) -> Option<usize> {
-        if let Some(number) = self.numbers_of_accessors.get(&index) {
-            return Some(*number);
+    fn write_primitive(
+        &mut self,
+        primitive: &Primitive<'a>,
+        material: usize,
+    ) -> Option<Written<'a>> {
+        let mut layout = Layout {
+            attributes: Vec::with_capacity(primitive.attributes.len()),
+            indices: None,
+        };
+        let [mut vertices, mut corners] = [0; 2];
+        let mut bounds = [None; 2];
+        for (name, accessor) in &primitive.attributes {
+            let numbers = self.file.numbers(*accessor)?;
+            let format = (name, numbers.accessor.component_type, numbers.components);
+            let (name, kind, components) = format;
+            let normalized = numbers.accessor.normalized;
+            layout.attributes.push((name, kind, components, normalized));
+            vertices = numbers.accessor.count;
+            if *name == "POSITION" {
+                bounds = [numbers.accessor.min, numbers.accessor.max];
+            }
+            self.put(numbers.tight()?);
         }
-        let numbers = self.file.numbers(index)?;
-        let mut fields = owned(&read::<Fields>(self.file.accessor(index)?)?);
-        fields.remove("byteOffset");
-        fields.insert("bufferView", raw(&self.views.len())?);
-        self.views.push(View {
-            buffer: 0,
-            byte_offset: self.data.len(),
-            byte_length: numbers.bytes.len(),
-            ..numbers.view
-        });
-        self.data.extend_from_slice(numbers.bytes);
-        // Numbers begin at multiples of their size.
+        if let Some(accessor) = primitive.indices() {
+            let numbers = self.file.numbers(accessor)?;
+            layout.indices = Some(numbers.accessor.component_type);
+            corners = numbers.accessor.count;
+            self.put(numbers.tight()?);
+        }
+        let (layout, _) = self.layouts.number(layout);
+        let [min, max] = bounds;
+        Some(Written(material, layout, vertices, corners, min, max))
+    }
+
+    /// Numbers begin at multiples of their size.
+    fn put(&mut self, bytes: &[u8]) {
+        self.data.extend_from_slice(bytes);
         self.data.resize(self.data.len().next_multiple_of(4), 0);
-        self.numbers_of_accessors
-            .insert(index, self.accessors.len());
-        self.accessors.push(fields);
-        Some(self.accessors.len() - 1)
     }
 
     /// The file.
     pub(super) fn write(self, since: u64) -> Option<Vec<u8>> {
         let kept = ["asset", "extensionsUsed", "extensionsRequired"];
         let fields = self.file.fields.iter();
-        let mut fields: BTreeMap<&str, Box<RawValue>> = fields
-            .filter(|(name, _)| kept.contains(name))
+        let fields = fields.filter(|(name, _)| kept.contains(name));
+        let mut materials: BTreeMap<_, _> = fields
             .map(|(name, value)| (*name, (*value).to_owned()))
             .collect();
         // glTF has no empty lists.
-        if !self.nodes.is_empty() {
-            let changed: Vec<usize> = (0..self.nodes.len()).collect();
-            fields.insert("scene", raw(&0)?);
-            fields.insert("scenes", raw(&[BTreeMap::from([("nodes", changed)])])?);
-            fields.insert("nodes", raw(&self.nodes)?);
-            fields.insert("meshes", raw(&self.meshes)?);
-            fields.insert("accessors", raw(&self.accessors)?);
-            fields.insert("bufferViews", raw(&self.views)?);
-            let length = self.data.len();
-            fields.insert("buffers", raw(&[BTreeMap::from([("byteLength", length)])])?);
+        if !self.materials.order.is_empty() {
+            let list = self.materials.order.iter();
+            let list: Option<Vec<_>> = list.map(|at| self.file.materials.get(*at)).collect();
+            materials.insert("materials", serde_json::value::to_raw_value(&list?).ok()?);
         }
-        if !self.materials.is_empty() {
-            fields.insert("materials", raw(&self.materials)?);
-        }
-        let own = BTreeMap::from([("since", raw(&since)?), ("nodes", raw(&self.moved)?)]);
-        fields.insert("extras", raw(&BTreeMap::from([("okoshi", own)]))?);
-        let glb = Glb {
-            header: Header {
-                magic: *b"glTF",
-                version: 2,
-                // Computed when it is written.
-                length: 0,
-            },
-            json: serde_json::to_vec(&fields).ok()?.into(),
-            bin: (!self.data.is_empty()).then(|| self.data.into()),
-        };
-        glb.to_vec().ok()
+        let mut text = serde_json::to_vec(&Text {
+            since,
+            nodes: &self.moved,
+            materials,
+            layouts: &self.layouts.order,
+            primitives: &self.primitives,
+            meshes: &self.meshes,
+        })
+        .ok()?;
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let length = u32::try_from(text.len()).ok()?;
+        Some([MAGIC, &length.to_le_bytes(), &text, &self.data].concat())
     }
 }
 
-fn raw(value: &impl Serialize) -> Option<Box<RawValue>> {
-    to_raw_value(value).ok()
+/// Different values, numbered as they come.
+struct Numbered<T> {
+    order: Vec<T>,
+    numbers: BTreeMap<T, usize>,
 }
 
-fn owned<'a>(fields: &Fields<'a>) -> BTreeMap<&'a str, Box<RawValue>> {
-    let fields = fields.iter();
-    fields
-        .map(|(name, value)| (*name, (*value).to_owned()))
-        .collect()
+impl<T: Clone + Ord> Numbered<T> {
+    fn new() -> Self {
+        Self {
+            order: vec![],
+            numbers: BTreeMap::new(),
+        }
+    }
+
+    /// The number of a value, and whether it is new.
+    fn number(&mut self, value: T) -> (usize, bool) {
+        match self.numbers.entry(value) {
+            Entry::Occupied(known) => (*known.get(), false),
+            Entry::Vacant(place) => {
+                self.order.push(place.key().clone());
+                (*place.insert(self.order.len() - 1), true)
+            }
+        }
+    }
 }

@@ -12,6 +12,8 @@ const FEW = 8;
 const FULL = 1 << 20;
 /** How much room batches have for meshes that change, relative to what is in them. */
 const ROOM = 1.1;
+/** If more than this part of the meshes does not fit in the place of what they were, all batches are made anew: moving what is in them takes longer. */
+const MANY = 0.1;
 
 /** Layers of meshes: those that are drawn by themselves, those in batches, and hidden ones. The camera only sees the first. */
 export const LAYERS = { alone: 1, batched: 2, hidden: 0 } as const;
@@ -19,6 +21,8 @@ export const LAYERS = { alone: 1, batched: 2, hidden: 0 } as const;
 /** What all meshes of a batch have in common. */
 interface Look {
   readonly key: string;
+  /** What their materials have in common. */
+  readonly surface: string;
   readonly material: Material;
 }
 
@@ -32,16 +36,15 @@ interface Place {
 /** A batch, with the numbers of its geometries and how many meshes use each. */
 interface Batch {
   readonly mesh: BatchedMesh;
-  readonly key: string;
+  readonly look: Look;
   readonly geometries: Map<BufferGeometry, { readonly id: number; users: number }>;
 }
 
 export class Batches {
   readonly group = new Group();
-  /** The materials of the batches, by what their meshes have in common. */
-  readonly materials: ReadonlyMap<string, Material>;
   private readonly batches: Batch[] = [];
   private readonly places = new Map<Mesh, Place>();
+  private common: ReadonlyMap<string, Material>;
   private wires = false;
   private lines: Material | null = null;
 
@@ -49,23 +52,13 @@ export class Batches {
   constructor(meshes: readonly Mesh[], shared: ReadonlyMap<string, Material> = new Map()) {
     // Instances are placed in the world.
     this.group.matrixWorldAutoUpdate = false;
-    const looks = new Map<string, { readonly material: Material; readonly meshes: Mesh[] }>();
-    for (const mesh of meshes.length < LARGE ? [] : meshes) {
-      const look = lookOf(mesh);
-      if (!look) continue;
-      const same = looks.get(look.key);
-      if (same) same.meshes.push(mesh);
-      else looks.set(look.key, { material: look.material, meshes: [mesh] });
-    }
-    const materials = new Map<string, Material>();
-    for (const [key, { material, meshes }] of looks) {
-      if (meshes.length < FEW) continue;
-      const common = shared.get(key) ?? uncolored(material);
-      materials.set(key, common);
-      for (const part of divided(meshes)) this.build(key, common, part);
-    }
-    this.materials = materials;
+    this.common = this.gather(meshes, shared);
     this.follow();
+  }
+
+  /** The materials of the batches, by what their meshes have in common. */
+  get materials(): ReadonlyMap<string, Material> {
+    return this.common;
   }
 
   get isEmpty(): boolean {
@@ -88,11 +81,7 @@ export class Batches {
   drawEdges(lines: Material | null): void {
     if (lines === this.lines) return;
     this.lines = lines;
-    for (const { mesh, key } of this.batches) {
-      const surface = this.materials.get(key)!;
-      mesh.material = lines ? ([surface, lines] as unknown as Material) : surface;
-      this.assignMaterials(mesh.geometry);
-    }
+    for (const batch of this.batches) this.line(batch);
     this.countEnds();
   }
 
@@ -103,15 +92,14 @@ export class Batches {
     this.countEnds();
   }
 
-  /** The geometry or material of a mesh changed. */
-  change(mesh: Mesh): void {
-    const place = this.places.get(mesh);
-    const look = lookOf(mesh);
-    if (place && look?.key === place.batch.key && this.replace(mesh, place)) return;
-    if (place) this.remove(mesh, place);
-    const batch = look && this.batches.findLast(({ key }) => key === look.key);
-    if (batch) this.add(batch, mesh);
-    else mesh.layers.mask = LAYERS.alone;
+  /** The geometries or materials of some meshes changed, of all that there are, or their places. World matrices must be up to date. */
+  change(changed: readonly Mesh[], all: readonly Mesh[]): void {
+    if (all.length < LARGE) return;
+    const looks = new Looks();
+    const others = changed.filter((mesh) => !this.replace(mesh, looks));
+    if (others.length > MANY * all.length) this.rebuild(all);
+    else for (const mesh of others) this.move(mesh, looks);
+    this.follow();
   }
 
   dispose(): void {
@@ -119,18 +107,51 @@ export class Batches {
     for (const { mesh } of this.batches) mesh.dispose();
   }
 
-  private build(key: string, material: Material, meshes: readonly Mesh[]): void {
+  private rebuild(meshes: readonly Mesh[]): void {
+    for (const { mesh } of this.batches.splice(0)) {
+      mesh.removeFromParent();
+      mesh.dispose();
+    }
+    this.places.clear();
+    for (const mesh of meshes) mesh.layers.mask = LAYERS.alone;
+    this.common = this.gather(meshes, this.common);
+    this.countEnds();
+  }
+
+  /** Makes batches of meshes that have enough in common. Returns the materials of these, of which some may be there already. */
+  private gather(meshes: readonly Mesh[], shared: ReadonlyMap<string, Material>): ReadonlyMap<string, Material> {
+    const looks = new Looks();
+    const groups = new Map<string, { readonly look: Look; readonly meshes: Mesh[] }>();
+    for (const mesh of meshes.length < LARGE ? [] : meshes) {
+      const look = looks.of(mesh);
+      if (!look) continue;
+      const same = groups.get(look.key);
+      if (same) same.meshes.push(mesh);
+      else groups.set(look.key, { look, meshes: [mesh] });
+    }
+    const materials = new Map<string, Material>();
+    for (const [key, { look, meshes }] of groups) {
+      if (meshes.length < FEW) continue;
+      const material = shared.get(key) ?? uncolored(look.material);
+      materials.set(key, material);
+      for (const part of divided(meshes)) this.build({ ...look, material }, part);
+    }
+    return materials;
+  }
+
+  private build(look: Look, meshes: readonly Mesh[]): void {
     const geometries = new Set(meshes.map(({ geometry }) => geometry));
     const room = (count: (geometry: BufferGeometry) => number) => Math.ceil([...geometries].reduce((sum, geometry) => sum + count(geometry), 0) * ROOM);
-    const mesh = new BatchedMesh(meshes.length, room(vertices), room(indices), material);
+    const mesh = new BatchedMesh(meshes.length, room(vertices), room(indices), look.material);
     mesh.matrixWorldAutoUpdate = false;
     mesh.castShadow = true;
     // Culling each instance takes longer than drawing it; neither is the order of opaque surfaces worth its time.
     mesh.frustumCulled = mesh.perObjectFrustumCulled = mesh.sortObjects = false;
-    const batch = { mesh, key, geometries: new Map() };
+    const batch = { mesh, look, geometries: new Map() };
     this.batches.push(batch);
     this.group.add(mesh);
     for (const one of meshes) this.add(batch, one);
+    if (this.lines) this.line(batch);
   }
 
   private add(batch: Batch, mesh: Mesh): void {
@@ -149,9 +170,13 @@ export class Batches {
     mesh.layers.mask = LAYERS.batched;
   }
 
-  /** Writes the new geometry of a mesh over its old one; false if others use that too, or have the new one, or if it does not fit in there. */
-  private replace(mesh: Mesh, { batch, instance, geometry: before }: Place): boolean {
+  /** Writes the new geometry of a mesh over its old one; false if it looks different, does not fit in there, or if others use either. */
+  private replace(mesh: Mesh, looks: Looks): boolean {
+    const place = this.places.get(mesh);
+    if (!place) return false;
+    const { batch, instance, geometry: before } = place;
     const { geometry } = mesh;
+    if (looks.surface(mesh) !== batch.look.surface || !hasSameLayout(geometry, before) || isMirrored(mesh)) return false;
     const known = batch.geometries.get(before);
     if (geometry !== before) {
       if (known?.users !== 1 || batch.geometries.has(geometry)) return false;
@@ -165,9 +190,18 @@ export class Batches {
     return true;
   }
 
+  /** Draws a mesh in another batch, or by itself. */
+  private move(mesh: Mesh, looks: Looks): void {
+    const place = this.places.get(mesh);
+    if (place) this.remove(mesh, place);
+    const key = looks.of(mesh)?.key;
+    const batch = this.batches.findLast(({ look }) => look.key === key);
+    if (batch) this.add(batch, mesh);
+    else mesh.layers.mask = LAYERS.alone;
+  }
+
   private put(mesh: Mesh, place: Place): void {
     place.batch.mesh.setColorAt(place.instance, colorOf(mesh));
-    place.batch.mesh.setMatrixAt(place.instance, mesh.matrixWorld);
     this.places.set(mesh, place);
   }
 
@@ -178,6 +212,12 @@ export class Batches {
     if (!known || --known.users > 0) return;
     batch.mesh.deleteGeometry(known.id);
     batch.geometries.delete(geometry);
+  }
+
+  /** Gives a batch the material of its edges, or takes it. */
+  private line({ mesh, look }: Batch): void {
+    mesh.material = this.lines ? ([look.material, this.lines] as unknown as Material) : look.material;
+    this.assignMaterials(mesh.geometry);
   }
 
   /** With several materials, groups say which part of a geometry has which: here all of it has each. */
@@ -196,19 +236,51 @@ export class Batches {
   }
 }
 
-/** What a mesh must share with others to be drawn with them; null if it must be drawn by itself. */
-function lookOf(mesh: Mesh): Look | null {
-  const { geometry, material } = mesh;
-  if (mesh instanceof SkinnedMesh || Array.isArray(material) || Object.keys(geometry.morphAttributes).length > 0) return null;
+/** What meshes must share with others to be drawn with them. */
+class Looks {
+  private readonly surfaces = new Map<Material, string | null>();
+
+  /** Null for a mesh that must be drawn by itself. */
+  of(mesh: Mesh): Look | null {
+    const { geometry, material } = mesh;
+    const surface = this.surface(mesh);
+    if (surface === null || Array.isArray(material) || mesh instanceof SkinnedMesh || isMirrored(mesh)) return null;
+    if (Object.keys(geometry.morphAttributes).length > 0) return null;
+    const layout: unknown[] = [surface];
+    for (const [name, { array, itemSize, normalized }] of Object.entries(geometry.attributes).sort(([a], [b]) => (a < b ? -1 : 1))) layout.push(name, array.constructor.name, itemSize, normalized);
+    layout.push(geometry.index !== null);
+    for (let at: Object3D | null = mesh; at; at = at.parent) if (wayOf(at, "bend") ?? wayOf(at, "turn")) return null;
+    return { key: layout.join(" "), surface, material };
+  }
+
+  /** What is seen of the material of a mesh, but for its colour; null if others cannot be drawn with it. */
+  surface({ material }: Mesh): string | null {
+    if (Array.isArray(material)) return null;
+    let known = this.surfaces.get(material);
+    if (known === undefined) this.surfaces.set(material, (known = surfaceOf(material)));
+    return known;
+  }
+}
+
+function surfaceOf(material: Material): string | null {
   const isPlain = material.type === "MeshStandardMaterial" || material.type === "MeshBasicMaterial";
-  if (!isPlain || material.transparent || material.alphaTest > 0 || mesh.matrixWorld.determinant() <= 0) return null;
-  const features: unknown[] = [material.type, material.side, material.vertexColors];
+  if (!isPlain || material.transparent || material.alphaTest > 0) return null;
   for (const [name, value] of Object.entries(material)) if (value instanceof Texture && name !== "envMap") return null;
+  const features: unknown[] = [material.type, material.side, material.vertexColors];
   if (material instanceof MeshStandardMaterial) features.push(material.roughness, material.metalness, material.emissive.getHex(), material.emissiveIntensity);
-  for (const [name, { array, itemSize, normalized }] of Object.entries(geometry.attributes).sort(([a], [b]) => (a < b ? -1 : 1))) features.push(name, array.constructor.name, itemSize, normalized);
-  features.push(geometry.index !== null);
-  for (let at: Object3D | null = mesh; at; at = at.parent) if (wayOf(at, "bend") ?? wayOf(at, "turn")) return null;
-  return { key: features.join(" "), material };
+  return features.join(" ");
+}
+
+const isMirrored = ({ matrixWorld }: Mesh): boolean => matrixWorld.determinant() <= 0;
+
+/** Whether two geometries have the same attributes, of the same kinds. */
+function hasSameLayout(one: BufferGeometry, other: BufferGeometry): boolean {
+  if ((one.index === null) !== (other.index === null)) return false;
+  const names = Object.keys(one.attributes);
+  return names.length === Object.keys(other.attributes).length && names.every((name) => {
+    const [a, b] = [one.attributes[name]!, other.attributes[name]];
+    return b !== undefined && a.array.constructor === b.array.constructor && a.itemSize === b.itemSize && a.normalized === b.normalized;
+  });
 }
 
 /** A material whose surfaces have the colours of their instances. */

@@ -3,8 +3,9 @@
 import { painted } from "../dom";
 import type { Attempted, Host } from "../host/host";
 import type { Build } from "../protocol";
+import type { Delta } from "./delta";
 import { Model, type Shading } from "./model";
-import { readChanges, readFile, type Delta, type ModelFile } from "./model-file";
+import { readChanges, readFile, type ModelFile } from "./model-file";
 import type { RenderLoop } from "./render-loop";
 
 /** A model that was requested. */

@@ -3,7 +3,8 @@
 import { Box3, BufferAttribute, DoubleSide, Group, Matrix4, Mesh, MeshStandardMaterial, PerspectiveCamera, Quaternion, SkinnedMesh, Texture, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type KeyframeTrack, type Material, type Object3D, type TypedArray } from "three";
 import { Batches } from "./batches";
 import { Bend } from "./bend";
-import { meshesAt, type Delta, type ModelFile, type MovedNode } from "./model-file";
+import type { Delta, MovedNode } from "./delta";
+import { meshesAt, type ModelFile } from "./model-file";
 import { Turns } from "./turn";
 
 export type Shading = "smooth" | "flat" | "wire" | "edges";
@@ -76,11 +77,11 @@ export class Model {
     }
     for (const { geometry } of this.meshes) replaced.delete(geometry);
     for (const geometry of replaced) geometry.dispose();
+    this.measure();
+    this.batches.change(changed, this.meshes);
+    for (const material of this.batches.materials.values()) this.adopt(material);
     const used = new Set([...this.meshes.flatMap(materialsOf), ...this.batches.materials.values()]);
     for (const material of this.materials.keys()) if (!used.has(material)) this.discard(material);
-    this.measure();
-    for (const mesh of changed) this.batches.change(mesh);
-    this.batches.follow();
   }
 
   /** Adds the model to a scene. */
