@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::time::Duration;
 
 use common::live::Live;
-use common::pages::{Socket, asked, got, heard, page, served};
+use common::pages::{Socket, asked, changed_meshes, got, heard, page, served};
 use common::patience::wait_until;
 use serde_json::{Value, json};
 
@@ -340,10 +340,7 @@ fn what_is_tried_is_seen_by_nobody_else() {
         asked(edited.port, &request)
     };
     let (status, thick) = tries(&edited, &thickness("default -9 9"));
-    assert_eq!(
-        (status, common::nodes(&thick).ok().map(|nodes| nodes.len())),
-        (200, Some(1))
-    );
+    assert_eq!((status, changed_meshes(&thick)), (200, 1));
     assert_eq!(edited.text(), DRAWING);
     let served = |edited: &Edited| {
         let models = (1..30).map(|number| got(edited.port, &format!("/builds/{number}.glb")));

@@ -103,7 +103,13 @@ pub(crate) fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> 
     let (subjects, parts): (Vec<_>, Vec<_>) = parts.unzip();
     let mut reports = reports(compiled, text, subjects.into_iter());
     for (report, part) in reports.iter_mut().zip(parts) {
-        report.place = Some(place(part));
+        let measure = part.node_measure();
+        report.place = Some(Place {
+            center: measure.center.to_array(),
+            ends: measure.ends.map(|end| end.to_array()),
+            origin: part.origin.to_array(),
+            axis: measure.axis.to_array(),
+        });
     }
     reports
 }
@@ -130,16 +136,6 @@ fn reports<'a>(
         report(&reasons, compiled, subject, string, driver)
     };
     subjects.map(report).collect()
-}
-
-fn place(part: &crate::bind::Part) -> Place {
-    let measure = part.node_measure();
-    Place {
-        center: measure.center.to_array(),
-        ends: measure.ends.map(|end| end.to_array()),
-        origin: part.origin.to_array(),
-        axis: measure.axis.to_array(),
-    }
 }
 
 fn report<'a>(

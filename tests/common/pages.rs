@@ -106,3 +106,12 @@ pub(crate) fn heard(socket: &mut Socket, kind: &str) -> Value {
         }
     }
 }
+
+/// How many meshes differ, as a page is told.
+pub(crate) fn changed_meshes(delta: &[u8]) -> usize {
+    assert!(delta.starts_with(b"okdl"), "what changed, and no model");
+    let length: [u8; 4] = delta[4..8].try_into().expect("four bytes");
+    let text = &delta[8..][..u32::from_le_bytes(length) as usize];
+    let text: Value = serde_json::from_slice(text).expect("JSON");
+    text["meshes"].as_array().expect("a list").len()
+}

@@ -61,7 +61,7 @@ fn a_change_is_tried_made_and_undone() {
     let asked =
         json!({ "drawing": "a.svg", "revision": 1, "change": set, "shows": first["model"] });
     let tried = studio.attempt(&asked.to_string()).unwrap();
-    assert!(tried.address.starts_with("tries/") && tried.bytes.starts_with(b"glTF"));
+    assert!(tried.address.starts_with("tries/") && tried.bytes.starts_with(b"okdl"));
     assert_eq!(studio.text("a.svg").as_deref(), Some(DRAWING));
 
     let made = change(&mut studio, &json!({ "make": set }), 1);
