@@ -59,6 +59,11 @@ pub(crate) fn comes_in_pairs(name: &str) -> bool {
     terms(name).iter().any(|term| pieces.contains(term)) || is_disc(name)
 }
 
+/// Whether a name is that of several legs: `Legs`, `両脚`.
+pub(crate) fn are_legs(name: &str) -> bool {
+    is_several_limbs(name) && Role::of(&terms(name)) == Some(Role::Thigh)
+}
+
 /// Whether a name says that its part hangs downwards from its joint as long as nothing holds it up: arms, legs and ears.
 pub(crate) fn hangs(terms: &[Term]) -> bool {
     is_hinged(terms)

@@ -270,13 +270,14 @@ pub(crate) fn terms(name: &str) -> Vec<Term> {
     found
 }
 
-/// Whether a name is that of several limbs: `Legs`, `far arms`. That of a glove or a shoe may be of what is worn on one.
+/// Whether a name is that of several limbs: `Legs`, `far arms`, `両腕`. That of a glove or a shoe may be of what is worn on one.
 pub(crate) fn is_several_limbs(name: &str) -> bool {
     let is_limb = |term: &Term| matches!(term, Arm | UpperArm | LowerArm | Leg | Thigh | Shin);
     name_words::split(name).iter().any(|word| {
         let singular = word.strip_suffix('s').and_then(|word| TERMS.get(word));
-        !TERMS.contains_key(word.as_str())
-            && singular.is_some_and(|terms| terms.iter().all(is_limb))
+        let is_plural = |terms: &&[Term]| terms.iter().all(is_limb);
+        let both = word.split_once('両').and_then(|(_, word)| TERMS.get(word));
+        !TERMS.contains_key(word.as_str()) && singular.or(both).is_some_and(is_plural)
     })
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Each of them moves on its own, so each island of such a shape is a part where no text names parts, and the description of the shape
 //! does not say which part it is: one that says attributes alone is about all of its islands. What lies on several of them, such as both
-//! cuffs, is split likewise.
+//! cuffs, is split likewise. Legs that hang together, as in trousers, are cut apart.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,6 +11,7 @@ use glam::DVec2;
 use typed_index_collections::{TiSlice, TiVec};
 
 use super::areas::Area;
+use super::fork;
 use super::node_groups::PartSource;
 use crate::anatomy;
 use crate::bind::names::of_element;
@@ -41,18 +42,19 @@ pub(super) fn split(
     memo: &Memo,
 ) -> Vec<(PartSource, Area)> {
     let shapes = drawing.shapes.iter();
-    let is_pair: TiVec<ShapeId, bool> = shapes.map(names_a_pair).collect();
+    let pairs: TiVec<ShapeId, Option<Pair>> = shapes.map(named_pair).collect();
+    let is_pair = |source: &PartSource| pairs[source.shape].is_some();
     let can_split = |source: &PartSource| {
         !is_described[source.shape] && is_splittable(&drawing.shapes[source.shape])
     };
     let drawn = replaced(
         drawn,
-        |source, _| (is_pair[source.shape] && can_split(source)).then_some(()),
-        |keys| memo.get_each(keys, |(outline, ())| islands(&outline.0)),
+        |source, _| pairs[source.shape].filter(|_| can_split(source)),
+        |keys| memo.get_each(keys, |(outline, pair)| pieces(&outline.0, *pair)),
     );
     let pieces = drawn
         .iter()
-        .filter(|(source, _)| !source.is_stroke && is_pair[source.shape]);
+        .filter(|(source, _)| !source.is_stroke && is_pair(source));
     let pieces: Vec<Arc<Outline>> = pieces.map(|(_, area)| Arc::clone(&area.outline)).collect();
     if pieces.len() < 2 || pieces.len() > MOST_PIECES {
         return drawn;
@@ -60,7 +62,7 @@ pub(super) fn split(
     replaced(
         drawn,
         |source, area| {
-            let may_lie_on_pairs = !is_pair[source.shape] && can_split(source);
+            let may_lie_on_pairs = !is_pair(source) && can_split(source);
             may_lie_on_pairs.then(|| owners(&area.outline, &pieces))
         },
         |keys| memo.get_each(keys, |(outline, owners)| by_owner(&outline.0, owners)),
@@ -100,12 +102,37 @@ fn replaced<K>(
 
 /// Whether the islands of a shape can be parts. Those of one with an outline would share that.
 fn is_splittable(shape: &Shape) -> bool {
-    (2..=MOST).contains(&shape.outline.polygons.len()) && shape.stroke.is_none()
+    shape.outline.polygons.len() <= MOST && shape.stroke.is_none()
 }
 
-/// Whether the label of a shape is that of limbs or wheels.
-fn names_a_pair(shape: &Shape) -> bool {
-    of_element(&shape.element, None).is_some_and(|own| anatomy::comes_in_pairs(&own.name))
+/// What the label of a shape says that there are several of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Pair {
+    /// Legs: `Legs`, `far legs`.
+    Legs,
+    /// Limbs, what is worn on them, or wheels.
+    Others,
+}
+
+fn named_pair(shape: &Shape) -> Option<Pair> {
+    let name = of_element(&shape.element, None)?.name;
+    if !anatomy::comes_in_pairs(&name) {
+        None
+    } else if anatomy::are_legs(&name) {
+        Some(Pair::Legs)
+    } else {
+        Some(Pair::Others)
+    }
+}
+
+/// The limbs of an outline: its islands, or legs that hang together.
+fn pieces(outline: &Outline, pair: Pair) -> Vec<Area> {
+    let islands = islands(outline);
+    if islands.len() > 1 || pair != Pair::Legs {
+        return islands;
+    }
+    let legs = fork::legs(outline);
+    legs.map_or(islands, |legs| measured(legs.into_iter()))
 }
 
 /// Per polygon of an outline the piece that it lies on, if it does.

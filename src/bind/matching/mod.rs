@@ -6,6 +6,7 @@ mod binder;
 mod converted;
 mod doubt;
 mod fills;
+mod fork;
 mod ground_shadows;
 mod held;
 mod ink;

@@ -32,6 +32,8 @@ struct Pair<'a> {
     index: usize,
     shape: &'a Shape,
     pieces: [Box2; 2],
+    /// Whether they are legs that hang together.
+    is_one: bool,
 }
 
 impl Pair<'_> {
@@ -57,11 +59,12 @@ struct Pairs<'a> {
 impl<'a> Pairs<'a> {
     fn find(around: &'a Around<'a>, body: &'a Shape, guesses: &Guesses) -> Self {
         let all = around.free(guesses).filter_map(|(index, shape)| {
-            let pieces = shape.twins()?.map(|twin| twin.bounds);
+            let twins = shape.twins().map(|twins| twins.map(|twin| twin.bounds));
             Some(Pair {
                 index,
                 shape,
-                pieces,
+                pieces: twins.or_else(|| shape.legs())?,
+                is_one: twins.is_none(),
             })
         });
         let mut pairs = Self {
@@ -85,8 +88,14 @@ impl<'a> Pairs<'a> {
         pair.shape.size().y <= SHOE * self.around.shapes.height()
     }
 
+    /// Whether a pair is below the body, or trousers into which that is tucked, or over which it hangs.
     fn is_below_body(&self, pair: &Pair<'_>) -> bool {
-        pair.top() >= self.body.bounds.high.y - BELOW * self.body.size().y
+        let top = if pair.is_one {
+            pair.shape.middle().y
+        } else {
+            pair.top()
+        };
+        top >= self.body.bounds.high.y - BELOW * self.body.size().y
     }
 
     /// Whether a pair stands on the ground, or in shoes.
@@ -161,6 +170,9 @@ impl Around<'_> {
         let (mut found, mut arms) = (Vec::new(), Vec::new());
         for pair in &pairs.all {
             let stands = pairs.stands(pair);
+            if pair.is_one && !(stands && pairs.is_below_body(pair) && !pairs.is_low(pair)) {
+                continue;
+            }
             if !stands && pairs.are_hands(pair) {
                 let why = "they are two in the colour of the head, and lie apart from it";
                 found.push((pair.index, Noun::Hands, why));

@@ -203,6 +203,13 @@ impl Mask {
         if all > 0.0 { filled as f64 / all } else { 0.0 }
     }
 
+    /// What it covers from a row on downwards.
+    pub(super) fn below(&self, row: usize) -> Self {
+        let mut below = self.clone();
+        below.bits[..row.min(SIDE) * WORDS].fill(0);
+        below
+    }
+
     /// The connected pieces, the largest first.
     pub(super) fn islands(&self) -> Vec<Island> {
         let mut left = self.clone();

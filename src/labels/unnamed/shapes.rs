@@ -7,6 +7,8 @@ use crate::anatomy::Noun;
 
 /// A piece of at least this share of the largest one is a piece of its own; smaller ones are specks.
 const PIECE: f64 = 0.25;
+/// Legs in one piece part at this share of their height from the top, or above.
+const HIPS: f64 = 0.6;
 
 /// What is asked about: a shape, or a group of shapes that belong together.
 #[derive(Debug, Clone)]
@@ -119,17 +121,20 @@ impl Shape {
 
     /// Its two pieces, the left one first, if it has two that are about as large.
     pub(super) fn twins(&self) -> Option<[Island; 2]> {
-        let [one, other] = self.islands.as_slice() else {
+        twins(&self.islands)
+    }
+
+    /// Its two legs with a half of the hips each, the left one first, if it is in one piece that parts into two downwards.
+    pub(super) fn legs(&self) -> Option<[Box2; 2]> {
+        let [_] = self.islands.as_slice() else {
             return None;
         };
-        if (other.cells as f64) < 0.5 * one.cells as f64 {
-            return None;
-        }
-        Some(if one.bounds.middle().x <= other.bounds.middle().x {
-            [*one, *other]
-        } else {
-            [*other, *one]
-        })
+        let hips = self.bounds.low.y + HIPS * self.size().y;
+        let legs = twins(&large(self.mask.below(hips as usize).islands()))?;
+        Some(legs.map(|leg| Box2 {
+            low: leg.bounds.low.with_y(self.bounds.low.y),
+            high: leg.bounds.high,
+        }))
     }
 
     /// Whether a piece of it is a disc, or a ring.
@@ -140,6 +145,21 @@ impl Shape {
         let is_square = size.max_element() <= 1.2 * size.min_element();
         is_square && (0.68..=0.9).contains(&fills)
     }
+}
+
+/// Two pieces, the left one first, if there are two that are about as large.
+fn twins(islands: &[Island]) -> Option<[Island; 2]> {
+    let [one, other] = islands else {
+        return None;
+    };
+    if (other.cells as f64) < 0.5 * one.cells as f64 {
+        return None;
+    }
+    Some(if one.bounds.middle().x <= other.bounds.middle().x {
+        [*one, *other]
+    } else {
+        [*other, *one]
+    })
 }
 
 fn measure(drawn: &Drawn, later: &Mask) -> Option<Shape> {
