@@ -554,6 +554,31 @@ fn arms_are_raised_and_legs_stand_in_shoes() {
     );
 }
 
+/// Somebody whose shirt hangs over trousers, which part below the hips, or are a skirt with a notch in its hem.
+const STANDING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 240">
+  <path fill="#335588" d="M68 120h64l6 94h-26l-12-60l-12 60h-26z"/>
+  <path fill="#e0b080" d="M40 70h25v60h-18z M160 70h-25v60h18z"/>
+  <path fill="#aa3344" d="M65 60h70v80h-70z"/>
+  <path fill="#222222" d="M58 212h30v18h-36z M142 212h-30v18h36z"/>
+  <circle fill="#e0b080" cx="100" cy="40" r="25"/>
+  <path fill="#302020" d="M88 36h6v6h-6z M106 36h6v6h-6z"/>
+</svg>
+"##;
+
+#[test]
+fn trousers_in_one_piece_are_legs_and_a_skirt_is_not() {
+    let legs = [("Legs", "Body"), ("Legs-2", "Body")];
+    let shoes = [("Shoes", "Legs"), ("Shoes-2", "Legs-2")];
+    assert_hang(STANDING, &[legs, shoes].concat());
+    let skirt = STANDING.replace("l-12-60l-12 60h", "l-12-10l-12 10h");
+    assert_ne!(skirt, STANDING);
+    let found = carriers(&skirt);
+    assert!(
+        !found.keys().any(|name| class(name) == Some("leg")),
+        "{found:?}"
+    );
+}
+
 #[test]
 fn a_snowman_is_a_body_with_eyes() {
     let found = assert_hang(SNOWMAN, &[("Body", "Root"), ("Eyes", "Body")]);
