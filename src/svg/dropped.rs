@@ -6,7 +6,7 @@
 use roxmltree::{Document, Node, NodeId};
 
 use super::elements::{Ids, NOT_DRAWN, element, start_tag};
-use super::prepare::Prepared;
+use super::prepare::{Prepared, own_id};
 use super::style::{Rule, Styles};
 use super::unsolid::Feature;
 use crate::diagnostic::{Code, Diagnostic};
@@ -439,7 +439,7 @@ pub(super) fn described(node: Node<'_, '_>, prepared: &Prepared) -> (String, Spa
         .attribute("id")
         .filter(|id| !id.starts_with(&prepared.id_prefix));
     let name = match id {
-        Some(id) => format!("`#{id}`"),
+        Some(id) => format!("`#{}`", own_id(id)),
         None => with_article(node.tag_name().name()),
     };
     (name, start_tag(node, prepared))

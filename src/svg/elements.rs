@@ -7,7 +7,7 @@ use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
 
 use super::poses::PoseNodes;
-use super::prepare::{JOINED, Prepared};
+use super::prepare::{JOINED, Prepared, own_id};
 use super::style::Styles;
 use super::{DescSlot, Element, text};
 use crate::diagnostic::Edit;
@@ -78,7 +78,7 @@ fn known_tag(name: &str) -> &'static str {
 }
 
 pub(super) fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
-    let own_id = node
+    let given_id = node
         .attribute("id")
         .filter(|id| !id.starts_with(&prepared.id_prefix));
     let desc = node
@@ -87,7 +87,7 @@ pub(super) fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
     Element {
         span: start_tag(node, prepared),
         tag: known_tag(node.tag_name().name()),
-        id: own_id.map(str::to_owned),
+        id: given_id.map(|id| own_id(id).into_owned()),
         label: label(node).map(str::to_owned),
         desc_slot: match desc {
             None => desc_slot(node, prepared),

@@ -4,6 +4,11 @@
 //! usvg knows no source positions, so shapes are joined to the XML by id. Elements without one, and
 //! elements that repeat one, are given one here, by byte range. Positions in the copy are mapped back by
 //! [`Prepared::original`].
+//!
+//! Programs write names with spaces as ids (`Right arm`), and browsers find them, but usvg ends a link at a space: in the copy, ids and
+//! links to them have another character there, which [`own_id`] takes back.
+
+use std::borrow::Cow;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 use xmlparser::{ElementEnd, EntityDefinition, StrSpan, Token, Tokenizer};
@@ -18,6 +23,17 @@ use crate::threads::nesting_limit;
 
 /// The prefix of generated ids, unless the drawing itself has ids with that prefix.
 pub(super) const ID_PREFIX: &str = "okoshi-";
+
+/// What stands for a space in ids: a character for private use, which no other program gives a meaning.
+const SPACE: &str = "\u{E020}";
+
+/// The id that an element of the copy has in the drawing.
+pub(super) fn own_id(id: &str) -> Cow<'_, str> {
+    match id.contains(SPACE) {
+        true => id.replace(SPACE, " ").into(),
+        false => id.into(),
+    }
+}
 
 /// How many elements a drawing may have; usvg reads no more.
 const MAX_ELEMENTS: usize = 1_000_000;
@@ -215,6 +231,9 @@ impl<'a> Scan<'a> {
                 value,
                 ..
             } => {
+                if local.as_str() == "href" && value.as_str().trim_start().starts_with('#') {
+                    self.join_words(value.range().into());
+                }
                 if prefix.as_str().is_empty() {
                     let place = Some(Span::from(value.range()));
                     match local.as_str() {
@@ -273,7 +292,9 @@ impl<'a> Scan<'a> {
         }
         match tag.id {
             Some(span) if span.start < span.end => {
-                if !self.ids.insert(&self.text[span.start..span.end]) {
+                if self.ids.insert(&self.text[span.start..span.end]) {
+                    self.join_words(span);
+                } else {
                     let text = self.fresh_id();
                     self.replacements.push(Replacement { span, text });
                 }
@@ -289,6 +310,18 @@ impl<'a> Scan<'a> {
                     text,
                 });
             }
+        }
+    }
+
+    /// Replaces the spaces in an id, or in a link to one, but not those around it.
+    fn join_words(&mut self, span: Span) {
+        let text = &self.text[span.start..span.end];
+        let start = span.start + text.len() - text.trim_start().len();
+        for (at, _) in text.trim().match_indices(' ') {
+            self.replacements.push(Replacement {
+                span: Span::new(start + at, start + at + 1),
+                text: SPACE.to_owned(),
+            });
         }
     }
 
@@ -343,6 +376,22 @@ mod tests {
 
     use super::*;
     use crate::law;
+
+    #[test]
+    fn ids_of_several_words_can_be_linked_to() {
+        let text = r##"<svg><g id="an arm"/><use href=" #an arm "/><use id=" a b " xlink:href="#c"/></svg>"##;
+        let prepared = prepare(text).unwrap();
+        let copy = &prepared.text;
+        assert!(copy.contains("id=\"an\u{E020}arm\""), "{copy}");
+        assert!(copy.contains("href=\" #an\u{E020}arm \""), "{copy}");
+        assert!(copy.contains("id=\" a\u{E020}b \""), "{copy}");
+        assert_eq!(own_id("an\u{E020}arm"), "an arm");
+        let use_at = copy.find("<use").expect("the clone");
+        assert_eq!(
+            prepared.original(use_at),
+            text.find("<use").expect("the clone")
+        );
+    }
 
     #[test]
     fn ids_are_given_and_repeats_replaced() {
