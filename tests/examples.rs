@@ -162,7 +162,7 @@ fn lessons_show_their_drawings() {
 }
 
 /// People among the examples.
-const PEOPLE: [&str; 11] = [
+const PEOPLE: [&str; 12] = [
     "girl",
     "human",
     "lady",
@@ -173,6 +173,7 @@ const PEOPLE: [&str; 11] = [
     "motion/kick",
     "motion/knight",
     "motion/robot-ja",
+    "motion/trousers",
     "tutorial/7-walk",
 ];
 

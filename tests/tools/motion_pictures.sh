@@ -92,6 +92,7 @@ alone parade float 20,10 260x190 4
 alone girl walk -30,8 150x180 8
 alone knight walk -30,8 170x180 8
 alone horse walk 15,8 160x160 8
+clip examples/motion/trousers.svg walk -40,8 150x190 8
 alone motorbike drive 20,10 200x150 6
 # perform OUT CLIP [OPTIONS…]: a clip of the performed hook, as a strip.
 perform() {
