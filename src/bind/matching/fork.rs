@@ -28,8 +28,7 @@ pub(super) fn legs(outline: &Outline) -> Option<[Outline; 2]> {
     let places = || border.iter().map(|point| point.dot(along));
     let extent =
         places().fold(f64::NEG_INFINITY, f64::max) - places().fold(f64::INFINITY, f64::min);
-    let depth = pocket.mouth.distance(pocket.bottom);
-    if depth < DEEP * extent || depth < NARROW * pocket.width {
+    if pocket.depth < DEEP * extent || pocket.depth < NARROW * pocket.width {
         return None;
     }
     let legs = cut(border, &pocket, along)?;
@@ -98,12 +97,15 @@ struct Pocket {
     mouth: DVec2,
     /// How wide that is.
     width: f64,
+    /// How far from the hull it goes.
+    depth: f64,
     /// The middle of what is farthest from its opening.
     bottom: DVec2,
     /// The edge of the border that it lies on: that which begins at the point with this number.
     from: usize,
 }
 
+/// The deepest pocket; `None` for a border that is its own convex hull.
 fn deepest_pocket(border: &[DVec2]) -> Option<Pocket> {
     let bits = |point: &DVec2| point.to_array().map(f64::to_bits);
     let hull: FxHashSet<[u64; 2]> = convex_hull(border.to_vec()).iter().map(bits).collect();
@@ -148,6 +150,7 @@ fn deepest_pocket(border: &[DVec2]) -> Option<Pocket> {
     Some(Pocket {
         mouth: point(opens).midpoint(point(closes)),
         width: point(opens).distance(point(closes)),
+        depth: deepest,
         bottom,
         from: (from + step) % border.len(),
     })

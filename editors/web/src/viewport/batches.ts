@@ -92,7 +92,7 @@ export class Batches {
     this.countEnds();
   }
 
-  /** The geometries or materials of some meshes changed, of all that there are, or their places. World matrices must be up to date. */
+  /** Some of all meshes have other geometries or materials, and any may have moved. World matrices must be up to date. */
   change(changed: readonly Mesh[], all: readonly Mesh[]): void {
     if (all.length < LARGE) return;
     const looks = new Looks();

@@ -61,7 +61,7 @@ export async function readDelta(bytes: ArrayBuffer): Promise<Delta> {
   const text = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, HEAD, length))) as Text;
   const { parser } = await new GLTFLoader().parseAsync(JSON.stringify(text.materials), "");
   const materials = (await parser.getDependencies("material")) as Material[];
-  // What it takes a material for decides what the loader makes of it: one without normals has flat faces, for example.
+  // The loader adapts a material to the attributes of what has it: without normals, faces are flat.
   const adapted = new Map<string, Material>();
   const adapt = (geometry: BufferGeometry, material: number, layout: number): Material => {
     const key = `${material} ${layout}`;
