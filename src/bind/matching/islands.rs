@@ -62,7 +62,8 @@ pub(super) fn split(
     replaced(
         drawn,
         |source, area| {
-            let may_lie_on_pairs = !is_pair(source) && can_split(source);
+            let is_several = area.outline.polygons.len() > 1;
+            let may_lie_on_pairs = is_several && !is_pair(source) && can_split(source);
             may_lie_on_pairs.then(|| owners(&area.outline, &pieces))
         },
         |keys| memo.get_each(keys, |(outline, owners)| by_owner(&outline.0, owners)),
